@@ -1,0 +1,166 @@
+//! Colours, and the only place that knows a gamma curve.
+//!
+//! **Invariant:** [`Rgb`] is light: linear, unbounded, `f64`. [`Color`] is what the language calls
+//! a colour: light plus `filter` and `transmit`. Encoding for a display happens only in
+//! [`srgb_encode`].
+
+use std::ops::{Add, AddAssign, Mul};
+
+use crate::math::elementary::pow;
+
+/// Linear red, green and blue: radiance, intensity or reflectance. 1 is the display's white.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rgb {
+    pub red: f64,
+    pub green: f64,
+    pub blue: f64,
+}
+
+impl Rgb {
+    pub const BLACK: Self = Self::gray(0.0);
+    pub const WHITE: Self = Self::gray(1.0);
+
+    #[inline]
+    pub const fn new(red: f64, green: f64, blue: f64) -> Self {
+        Self { red, green, blue }
+    }
+
+    #[inline]
+    pub const fn gray(value: f64) -> Self {
+        Self::new(value, value, value)
+    }
+
+    #[inline]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::new(f(self.red), f(self.green), f(self.blue))
+    }
+
+    /// A component above 1 counts as exactly 1.
+    #[inline]
+    pub fn at_most_one(self) -> Self {
+        self.map(|c| c.min(1.0))
+    }
+
+    /// The largest absolute component.
+    #[inline]
+    pub fn largest(self) -> f64 {
+        self.red.abs().max(self.green.abs()).max(self.blue.abs())
+    }
+
+    #[inline]
+    pub fn is_black(self) -> bool {
+        self == Self::BLACK
+    }
+
+    pub fn is_finite(self) -> bool {
+        self.red.is_finite() && self.green.is_finite() && self.blue.is_finite()
+    }
+
+    pub fn components(self) -> [f64; 3] {
+        [self.red, self.green, self.blue]
+    }
+}
+
+impl Add for Rgb {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.red + other.red, self.green + other.green, self.blue + other.blue)
+    }
+}
+
+impl AddAssign for Rgb {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul for Rgb {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        Self::new(self.red * other.red, self.green * other.green, self.blue * other.blue)
+    }
+}
+
+impl Mul<f64> for Rgb {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: f64) -> Self {
+        self.map(|c| c * factor)
+    }
+}
+
+/// The language's colour: light, and how much passes through, tinted (`filter`) or not
+/// (`transmit`).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Color {
+    pub rgb: Rgb,
+    pub filter: f64,
+    pub transmit: f64,
+}
+
+impl Color {
+    pub const BLACK: Self = Self::opaque(Rgb::BLACK);
+    pub const WHITE: Self = Self::opaque(Rgb::WHITE);
+
+    pub const fn opaque(rgb: Rgb) -> Self {
+        Self { rgb, filter: 0.0, transmit: 0.0 }
+    }
+
+    /// The point `t` of the way from `self` to `other`, per component.
+    #[inline]
+    pub fn lerp(self, other: Self, t: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * t;
+        Self {
+            rgb: Rgb::new(
+                mix(self.rgb.red, other.rgb.red),
+                mix(self.rgb.green, other.rgb.green),
+                mix(self.rgb.blue, other.rgb.blue),
+            ),
+            filter: mix(self.filter, other.filter),
+            transmit: mix(self.transmit, other.transmit),
+        }
+    }
+}
+
+/// Linear light to the sRGB curve, both 0 … 1; out of range is clamped and NaN is 0.
+///
+/// **Source:** IEC 61966-2-1.
+pub fn srgb_encode(linear: f64) -> f64 {
+    if linear.is_nan() || linear <= 0.0 {
+        0.0
+    } else if linear >= 1.0 {
+        1.0
+    } else if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * pow(linear, 1.0 / 2.4) - 0.055
+    }
+}
+
+/// The inverse of [`srgb_encode`].
+pub fn srgb_decode(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { pow((encoded + 0.055) / 1.055, 2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_8_bit_value_survives_decoding_and_encoding() {
+        for value in 0..=255u8 {
+            let encoded = srgb_encode(srgb_decode(f64::from(value) / 255.0));
+            assert_eq!((encoded * 255.0).round() as u8, value);
+        }
+    }
+
+    #[test]
+    fn encoding_is_monotone_and_has_the_right_ends() {
+        assert_eq!((srgb_encode(0.0), srgb_encode(1.0), srgb_encode(f64::NAN)), (0.0, 1.0, 0.0));
+        let codes: Vec<f64> = (0..=65_535).map(|i| srgb_encode(f64::from(i) / 65_535.0)).collect();
+        assert!(codes.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+}

@@ -1,0 +1,109 @@
+//! The closed list of diagnostic codes; each has a page in `docs/diagnostics/`.
+
+use super::Severity;
+
+macro_rules! codes {
+    ($($variant:ident $name:literal $severity:ident $sentence:literal;)*) => {
+        /// What kind of message it is. `lucarne explain CODE` shows its page.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Code { $(#[doc = $sentence] $variant,)* }
+
+        impl Code {
+            pub const ALL: &[Code] = &[$(Code::$variant),*];
+
+            /// The word an author sees: `unknown-word`.
+            pub fn name(self) -> &'static str {
+                match self { $(Code::$variant => $name),* }
+            }
+
+            pub fn severity(self) -> Severity {
+                match self { $(Code::$variant => codes!(@severity $severity)),* }
+            }
+
+            /// True for a message about something a right scene might contain.
+            pub fn is_lint(self) -> bool {
+                match self { $(Code::$variant => codes!(@lint $severity)),* }
+            }
+
+            /// One sentence: what it means.
+            pub fn sentence(self) -> &'static str {
+                match self { $(Code::$variant => $sentence),* }
+            }
+
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|code| code.name() == name)
+            }
+        }
+    };
+    (@severity error) => { Severity::Error };
+    (@severity warning) => { Severity::Warning };
+    (@severity lint) => { Severity::Warning };
+    (@severity note) => { Severity::Note };
+    (@lint lint) => { true };
+    (@lint $other:ident) => { false };
+}
+
+codes! {
+    // form
+    UnclosedBlock "unclosed-block" error "a brace, bracket, parenthesis or angle was opened and never closed";
+    UnclosedString "unclosed-string" error "a string has no closing quote";
+    UnclosedComment "unclosed-comment" error "a comment was opened and never closed";
+    StrayCloser "stray-closer" error "a closing brace, bracket, parenthesis or angle has no opener";
+    MissingEnd "missing-end" error "a directive such as `#if` or `#macro` has no `#end`";
+    StrayDirective "stray-directive" error "an `#else`, `#end` or `#case` stands outside its directive";
+    UnexpectedCharacter "unexpected-character" error "a character has no meaning in the language";
+    MalformedNumber "malformed-number" error "a number is not written as a number";
+    ExpectedExpression "expected-expression" error "a value was expected here";
+    NestingLimit "nesting-limit" error "brackets are nested deeper than the limit";
+    BadEncoding "bad-encoding" warning "the file is not UTF-8 and was read as Latin-1";
+    // words and names
+    UnknownWord "unknown-word" error "a word is not known in this place";
+    UndeclaredName "undeclared-name" error "a name is used and was never declared";
+    ReservedName "reserved-name" error "a word of the language cannot be declared";
+    NotSupportedYet "not-supported-yet" error "the language has this word, and this version does not build it yet";
+    ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
+    UnknownDirective "unknown-directive" error "the word after `#` is not a directive";
+    // values
+    WrongType "wrong-type" error "a value has another type than the place needs";
+    WrongArity "wrong-arity" error "a call or a vector has too many or too few parts";
+    MissingPart "missing-part" error "a block lacks a part it cannot do without";
+    ExtraPart "extra-part" error "a block has more parts than it can use";
+    DivisionByZero "division-by-zero" error "a number is divided by zero";
+    NotANumber "not-a-number" error "a calculation has no finite result";
+    OutOfRange "out-of-range" error "a number lies outside what the place allows";
+    ZeroScale "zero-scale" error "a transform flattens everything to nothing";
+    ZeroSize "zero-size" error "a shape has no size";
+    ZeroVector "zero-vector" error "a direction or normal is the zero vector";
+    MixedFinish "mixed-finish" error "a finish mixes the seed's words with POV-Ray's";
+    IncompleteFinish "incomplete-finish" error "`kd`, `ks` and `phong_exponent` come together";
+    NotCallable "not-callable" error "something is called that is neither a macro nor a function";
+    // scene as a whole
+    NoCamera "no-camera" lint "the scene has no camera";
+    DuplicateCamera "duplicate-camera" lint "the scene has two cameras; the last one is used";
+    MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
+    DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";
+    NoLight "no-light" lint "nothing gives light, so the picture is black";
+    EmptyScene "empty-scene" lint "the scene shows nothing";
+    UnusedDeclaration "unused-declaration" lint "a declared name is never used";
+    NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
+    SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant";
+    ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
+    NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
+    DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    LegacyForm "legacy-form" lint "an old form of the language";
+    // files
+    MissingInclude "missing-include" error "an included file is not found";
+    CircularInclude "circular-include" error "a file includes itself";
+    ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read";
+    UnreadableFile "unreadable-file" error "a file is there and cannot be read";
+    // limits
+    LoopLimit "loop-limit" error "a loop turns more often than the limit";
+    MacroLimit "macro-limit" error "macros call each other deeper than the limit";
+    IncludeLimit "include-limit" error "files include each other deeper than the limit";
+    ObjectLimit "object-limit" error "the scene has more objects than the limit";
+    // the author's own
+    AuthorError "author-error" error "the scene's own `#error`";
+    AuthorWarning "author-warning" warning "the scene's own `#warning`";
+    AuthorDebug "author-debug" note "the scene's own `#debug`";
+    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
+}

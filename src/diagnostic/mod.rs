@@ -1,0 +1,156 @@
+//! What we tell the author: a code, a sentence, the places it concerns, and what to do.
+//!
+//! **Invariant:** plain data; nothing here prints. Style: lower case, no full stop, the author's
+//! words in backticks, says what is wrong *and* what was expected.
+
+mod code;
+
+pub use code::Code;
+
+use crate::source::{Expansion, ExpansionKind, Expansions, Site, Span};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The author's own `#debug`.
+    Note,
+    /// Probably a mistake; the picture is made all the same.
+    Warning,
+    /// Certainly a mistake; no picture is made.
+    Error,
+}
+
+/// A place and what it has to do with the matter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    pub span: Span,
+    pub text: String,
+    pub primary: bool,
+}
+
+/// A replacement that can be applied by machine. An empty span inserts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fix {
+    pub span: Span,
+    pub text: String,
+}
+
+/// One step of how evaluation came to the primary label.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceStep {
+    pub span: Span,
+    pub text: String,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    pub code: Code,
+    pub severity: Severity,
+    pub message: String,
+    /// The first is primary where there is one; a whole-scene message has none.
+    pub labels: Vec<Label>,
+    /// Innermost first.
+    pub trace: Vec<TraceStep>,
+    pub help: Vec<String>,
+    pub fixes: Vec<Fix>,
+}
+
+impl Diagnostic {
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            severity: code.severity(),
+            message: message.into(),
+            labels: Vec::new(),
+            trace: Vec::new(),
+            help: Vec::new(),
+            fixes: Vec::new(),
+        }
+    }
+
+    /// The place that is wrong, and why it is wrong here.
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.insert(0, Label { span, text: text.into(), primary: true });
+        self
+    }
+
+    /// Another place that has to do with it: a declaration, an opening brace.
+    pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.push(Label { span, text: text.into(), primary: false });
+        self
+    }
+
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help.push(text.into());
+        self
+    }
+
+    pub fn fix(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.fixes.push(Fix { span, text: text.into() });
+        self
+    }
+
+    /// Adds the calls and includes that led to `site`.
+    pub fn traced(mut self, site: Site, expansions: &Expansions) -> Self {
+        self.trace = expansions.chain(site.expansion).map(TraceStep::of).collect();
+        self
+    }
+
+    pub fn primary(&self) -> Option<&Label> {
+        self.labels.iter().find(|label| label.primary)
+    }
+}
+
+impl TraceStep {
+    fn of(expansion: &Expansion) -> Self {
+        let text = match &expansion.kind {
+            ExpansionKind::Macro(name) => format!("in this call of macro `{name}`"),
+            ExpansionKind::Include(name) => format!("in this include of `{name}`"),
+        };
+        Self { span: expansion.call, text }
+    }
+}
+
+/// The sink every verb reports to. The same message at the same place is kept once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    lints: bool,
+}
+
+impl Diagnostics {
+    /// A sink that keeps lints (warnings) too, or drops them.
+    pub fn new(lints: bool) -> Self {
+        Self { list: Vec::new(), lints }
+    }
+
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if diagnostic.code.is_lint() && !self.lints {
+            return;
+        }
+        // Loop turns and repeated calls say the same thing again: once is enough.
+        let same = |other: &Diagnostic| {
+            other.code == diagnostic.code
+                && other.message == diagnostic.message
+                && other.primary().map(|l| l.span) == diagnostic.primary().map(|l| l.span)
+        };
+        if diagnostic.severity == Severity::Note || !self.list.iter().rev().take(256).any(same) {
+            self.list.push(diagnostic);
+        }
+    }
+
+    pub fn has_errors(&self) -> bool {
+        self.list.iter().any(|d| d.severity == Severity::Error)
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter()
+    }
+
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+}

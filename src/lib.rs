@@ -1,0 +1,19 @@
+//! lucarne: a compiler for a POV-Ray-like scene language, and the ray tracer behind it.
+//!
+//! The whole road, seven nouns joined by six verbs; diagnostics travel beside them:
+//!
+//! ```text
+//! Source ─parse→ Ast ─evaluate→ Scene ─lower→ World ─plan→ Plan ─trace→ Film ─develop→ Image
+//! ```
+#![forbid(unsafe_code)]
+
+pub mod color;
+pub mod diagnostic;
+pub mod film;
+pub mod math;
+pub mod pattern;
+pub mod plan;
+pub mod scene;
+pub mod shape;
+pub mod source;
+pub mod world;

@@ -1,0 +1,12 @@
+//! Numbers, vectors and the maps between spaces.
+//!
+//! **Architecture invariant:** knows nothing of scenes, shapes or the language, and is the only
+//! room that calls the elementary functions (through `libm`, so that a picture is the same on
+//! every machine) and the only one that names `glam`.
+
+pub mod elementary;
+pub mod placement;
+pub mod transform;
+pub mod vector;
+
+pub use vector::{Matrix, Real, UnitVector, Vector, Vector3};

@@ -1,0 +1,68 @@
+//! Affine maps as they are used: subtract the centre first, then multiply.
+//!
+//! **Invariant:** every [`Placement`] is invertible and its two matrices undo each other within
+//! rounding.
+
+use super::{Matrix, Vector};
+
+/// `p ↦ matrix · (p − centre)`.
+///
+/// Subtracting first keeps the digits of far things: for an ellipsoid 10⁶ units from the origin
+/// the relative error of t is 3e-15 so, and 4e-11 with a 4×4 matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map {
+    pub centre: Vector,
+    pub matrix: Matrix,
+}
+
+impl Map {
+    pub const IDENTITY: Self = Self { centre: Vector::ZERO, matrix: Matrix::IDENTITY };
+
+    #[inline]
+    pub fn point(&self, p: Vector) -> Vector {
+        self.matrix * (p - self.centre)
+    }
+
+    #[inline]
+    pub fn direction(&self, d: Vector) -> Vector {
+        self.matrix * d
+    }
+}
+
+impl Default for Map {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+/// Where a local shape stands in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// The world point of the local origin.
+    pub centre: Vector,
+    pub world_from_local: Matrix,
+    pub local_from_world: Matrix,
+}
+
+impl Placement {
+    #[inline]
+    pub fn local_point(&self, world: Vector) -> Vector {
+        self.local_from_world * (world - self.centre)
+    }
+
+    #[inline]
+    pub fn local_direction(&self, world: Vector) -> Vector {
+        self.local_from_world * world
+    }
+
+    #[inline]
+    pub fn world_point(&self, local: Vector) -> Vector {
+        self.world_from_local * local + self.centre
+    }
+
+    /// The (unnormalised) world normal of a local one: by the inverse transpose.
+    #[inline]
+    pub fn world_normal(&self, local: Vector) -> Vector {
+        self.local_from_world.transpose() * local
+    }
+}

@@ -1,0 +1,199 @@
+//! Points and directions in three dimensions; the only file that names `glam`.
+//!
+//! **In/Out:** plain values. **Invariant:** a [`UnitVector`] has length 1 within 2 units in the
+//! last place.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A point, a direction or a size in `f64`.
+pub type Vector = glam::DVec3;
+
+/// A 3×3 matrix in `f64`, stored by columns; it maps column vectors: `m * v`.
+pub type Matrix = glam::DMat3;
+
+/// The arithmetic a shape kernel is written in: `f32` or `f64`.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Vectors of three such numbers.
+    type Vector: Vector3<Self>;
+    const ZERO: Self;
+    const ONE: Self;
+    const INFINITY: Self;
+    /// Half the distance from 1 to the next number: the relative error of one rounding.
+    const UNIT_ROUNDOFF: Self;
+    fn from_f64(value: f64) -> Self;
+    fn to_f64(self) -> f64;
+    fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
+    fn min(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
+}
+
+/// What a shape kernel asks of a vector.
+pub trait Vector3<R: Real>:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + Mul<R, Output = Self>
+{
+    fn from_vector(v: Vector) -> Self;
+    fn to_vector(self) -> Vector;
+    fn dot(self, other: Self) -> R;
+    fn cross(self, other: Self) -> Self;
+    fn length_squared(self) -> R;
+    fn component(self, axis: usize) -> R;
+}
+
+macro_rules! real {
+    ($real:ident, $vector:ty, $from:expr, $to:expr) => {
+        impl Real for $real {
+            type Vector = $vector;
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const INFINITY: Self = $real::INFINITY;
+            const UNIT_ROUNDOFF: Self = $real::EPSILON / 2.0;
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $real
+            }
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+            #[inline]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                self.min(other)
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                self.max(other)
+            }
+        }
+        impl Vector3<$real> for $vector {
+            #[inline]
+            fn from_vector(v: Vector) -> Self {
+                $from(v)
+            }
+            #[inline]
+            fn to_vector(self) -> Vector {
+                $to(self)
+            }
+            #[inline]
+            fn dot(self, other: Self) -> $real {
+                self.dot(other)
+            }
+            #[inline]
+            fn cross(self, other: Self) -> Self {
+                self.cross(other)
+            }
+            #[inline]
+            fn length_squared(self) -> $real {
+                self.length_squared()
+            }
+            #[inline]
+            fn component(self, axis: usize) -> $real {
+                self[axis]
+            }
+        }
+    };
+}
+
+real!(f32, glam::Vec3, |v: Vector| v.as_vec3(), |v: glam::Vec3| v.as_dvec3());
+real!(f64, glam::DVec3, |v| v, |v| v);
+
+/// A vector of length 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitVector(Vector);
+
+impl UnitVector {
+    pub const X: Self = Self(Vector::X);
+    pub const Y: Self = Self(Vector::Y);
+    pub const Z: Self = Self(Vector::Z);
+
+    /// The direction of `v`; `None` when `v` is zero or not finite.
+    ///
+    /// Scaled by a power of two first, so that no square over- or underflows; multiplying `v` by
+    /// a power of two changes no bit of the answer, and a vector along an axis stays exact.
+    pub fn from_direction(v: Vector) -> Option<Self> {
+        let largest = v.abs().max_element();
+        if largest == 0.0 || !v.is_finite() {
+            return None;
+        }
+        let scaled = v * reciprocal_power_of_two(largest);
+        // A second scaling: the first may have been limited by the range of exponents.
+        let scaled = scaled * reciprocal_power_of_two(scaled.abs().max_element());
+        Some(Self(scaled / scaled.length()))
+    }
+
+    /// A vector already known to have length 1 (the caller has just made it so).
+    #[inline]
+    pub fn from_unit(v: Vector) -> Self {
+        debug_assert!((v.length_squared() - 1.0).abs() < 1e-12, "not a unit vector: {v}");
+        Self(v)
+    }
+
+    #[inline]
+    pub fn get(self) -> Vector {
+        self.0
+    }
+}
+
+impl Neg for UnitVector {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+/// The power of two nearest below `1 / largest`, within the range of normal numbers.
+fn reciprocal_power_of_two(largest: f64) -> f64 {
+    let exponent = ((largest.to_bits() >> 52) & 0x7ff) as i64 - 1023;
+    f64::from_bits(((1023 - exponent).clamp(1, 2046) as u64) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_is_normalised_at_any_size() {
+        for exponent in [-320, -300, -200, 0, 200, 300] {
+            let size = format!("1e{exponent}").parse::<f64>().expect("a number");
+            let unit =
+                UnitVector::from_direction(Vector::new(3.0, 4.0, 0.0) * size).expect("not zero");
+            let error = (unit.get() - Vector::new(0.6, 0.8, 0.0)).length();
+            assert!(error < if exponent < -310 { 1e-2 } else { 1e-15 }, "{size}: {unit:?}");
+        }
+        assert_eq!(UnitVector::from_direction(Vector::ZERO), None);
+        assert_eq!(UnitVector::from_direction(Vector::new(f64::NAN, 0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn a_direction_along_an_axis_stays_exact() {
+        assert_eq!(
+            UnitVector::from_direction(Vector::new(0.0, -7.3e-200, 0.0)),
+            Some(-UnitVector::Y)
+        );
+    }
+}

@@ -1,0 +1,293 @@
+//! What the author meant: no macro, loop, include or name is left.
+//!
+//! **Invariant:** an object is a kind plus its modifiers *in written order* (a transform moves only
+//! what precedes it); numbers and degrees are still the author's. All trees are arenas: a child
+//! is an index, shared and never copied, and stands before its parents.
+
+use crate::color::{Color, Rgb};
+use crate::math::Vector;
+use crate::math::transform::Step;
+use crate::pattern::Pattern;
+use crate::source::{Expansions, Site};
+
+/// Declares an index into one of the Scene's arenas.
+macro_rules! ids {
+    ($($id:ident)*) => {$(
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $id(pub u32);
+
+        impl $id {
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )*};
+}
+
+ids! { ObjectId TransformId TextureId PigmentId FinishId }
+
+/// How the main file's kind sets defaults; see the design's table of dialects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Dialect {
+    /// `.scene`: right-handed frame, lints on, the seed's own words.
+    #[default]
+    Scene,
+    /// `.pov`: POV-Ray's left-handed frame and defaults.
+    Pov,
+}
+
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scene {
+    pub dialect: Dialect,
+    pub settings: Settings,
+    /// Every camera of the scene, in order; the last one counts.
+    pub cameras: Vec<Camera>,
+    pub background: Option<Background>,
+    pub sky_sphere: Option<SkySphere>,
+    /// What stands in the scene itself, in written order: lights and solids.
+    pub roots: Vec<Root>,
+    pub objects: Vec<Object>,
+    pub transforms: Vec<Vec<Step>>,
+    pub textures: Vec<Texture>,
+    pub pigments: Vec<Pigment>,
+    pub finishes: Vec<Finish>,
+    pub expansions: Expansions,
+}
+
+/// One object placed in the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    pub object: ObjectId,
+    /// The default texture where it was placed: for whatever in it has no texture.
+    pub default_texture: TextureId,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object {
+    pub kind: ObjectKind,
+    /// In written order.
+    pub modifiers: Vec<Modifier>,
+    /// The word that opened it.
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum ObjectKind {
+    Sphere {
+        centre: Vector,
+        radius: f64,
+    },
+    /// The half space `normal · p ≤ distance · |normal|`; `distance` in POV-Ray's sense, along
+    /// the normalised normal.
+    Plane {
+        normal: Vector,
+        distance: f64,
+    },
+    Box {
+        corners: [Vector; 2],
+    },
+    Union(Vec<ObjectId>),
+    /// A use of another object, with further modifiers: `object { Name … }`.
+    Use(ObjectId),
+    LightSource(LightSource),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modifier {
+    pub kind: ModifierKind,
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModifierKind {
+    Transform(TransformId),
+    /// Replaces the texture.
+    Texture(TextureId),
+    /// Replaces the texture's pigment only (a texture always precedes it).
+    Pigment(PigmentId),
+    /// Replaces the texture's finish only (a texture always precedes it).
+    Finish(FinishId),
+    NoShadow,
+    Inverse,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct LightSource {
+    /// Linear intensity; may exceed 1.
+    pub color: Rgb,
+    pub kind: LightKind,
+    pub shadowless: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum LightKind {
+    Point {
+        location: Vector,
+    },
+    /// Parallel rays from the plane through `location` toward `point_at`.
+    Parallel {
+        location: Vector,
+        point_at: Vector,
+    },
+    /// Light from infinitely far: `to_light` points to it, any length but zero.
+    Direction {
+        to_light: Vector,
+    },
+}
+
+/// A pigment and a finish; a transform moves what precedes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texture {
+    pub pigment: PigmentId,
+    pub finish: FinishId,
+    /// Move the pigment, in written order.
+    pub transforms: Vec<TransformId>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pigment {
+    pub kind: PigmentKind,
+    pub transforms: Vec<TransformId>,
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum PigmentKind {
+    Color(Color),
+    Patterned { pattern: Pattern, map: ColorMap },
+}
+
+/// Colours over pattern values; entries sorted by value, at least one. Between two entries the
+/// colour is interpolated, outside it is that of the nearest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColorMap(pub Vec<(f64, Color)>);
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Finish {
+    /// The seed's formula (`kd ks phong_exponent`).
+    Seed { kd: f64, ks: f64, phong_exponent: f64 },
+    /// POV-Ray's words.
+    Classic(ClassicFinish),
+}
+
+/// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClassicFinish {
+    pub ambient: Rgb,
+    pub emission: Rgb,
+    pub diffuse: f64,
+    /// `diffuse albedo`: `diffuse` is then the reflectance over the hemisphere.
+    pub brilliance: f64,
+    pub phong: f64,
+    pub phong_size: f64,
+    pub specular: f64,
+    pub roughness: f64,
+    /// 0: highlights have the light's colour, 1: the surface's.
+    pub metallic: f64,
+    pub reflection: Option<Reflection>,
+}
+
+impl Default for ClassicFinish {
+    fn default() -> Self {
+        Self {
+            ambient: Rgb::gray(0.1),
+            emission: Rgb::BLACK,
+            diffuse: 0.6,
+            brilliance: 1.0,
+            phong: 0.0,
+            phong_size: 40.0,
+            specular: 0.0,
+            roughness: 0.05,
+            metallic: 0.0,
+            reflection: None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reflection {
+    /// At grazing angles when `minimum` was given too, else at all angles.
+    pub maximum: Rgb,
+    /// Seen head-on.
+    pub minimum: Rgb,
+    pub falloff: f64,
+    pub exponent: f64,
+    pub metallic: f64,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Background {
+    pub color: Color,
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct SkySphere {
+    /// Painted one over the other, the last on top.
+    pub pigments: Vec<PigmentId>,
+    pub transforms: Vec<TransformId>,
+    pub site: Site,
+}
+
+/// `global_settings`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    pub ambient_light: Rgb,
+    /// The exponent that turns the scene's colours into linear light; 1 for none.
+    pub assumed_gamma: f64,
+    pub max_trace_level: u32,
+    pub adc_bailout: f64,
+    /// Where `max_trace_level` was written.
+    pub max_trace_level_site: Option<Site>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            ambient_light: Rgb::WHITE,
+            assumed_gamma: 1.0,
+            max_trace_level: 5,
+            adc_bailout: 1.0 / 255.0,
+            max_trace_level_site: None,
+        }
+    }
+}
+
+/// The camera's words in written order (POV-Ray's defaults stand before them).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Camera {
+    pub kind: CameraKind,
+    pub items: Vec<CameraItem>,
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CameraKind {
+    #[default]
+    Perspective,
+    Orthographic,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct CameraItem {
+    pub kind: CameraItemKind,
+    pub site: Site,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CameraItemKind {
+    Location(Vector),
+    LookAt(Vector),
+    Sky(Vector),
+    Up(Vector),
+    Right(Vector),
+    Direction(Vector),
+    /// Horizontal field of view in degrees.
+    Angle(f64),
+    /// The seed's lens shift, in widths and heights of the screen.
+    Shift {
+        x: f64,
+        y: f64,
+    },
+    Transform(TransformId),
+}

@@ -1,0 +1,240 @@
+//! Texts, places in them, and the only way in for anything from outside.
+//!
+//! **Invariant:** a [`Source`] never changes after reading; every [`Span`] indexes into one.
+
+use std::fmt;
+
+/// Names one [`Source`] in [`Sources`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FileId(pub u32);
+
+/// A range of bytes of one source, end exclusive, always on character borders.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Span {
+    pub file: FileId,
+    pub start: u32,
+    pub end: u32,
+}
+
+impl fmt::Debug for Span {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}..{}", self.file.0, self.start, self.end)
+    }
+}
+
+impl Span {
+    pub fn new(file: FileId, start: usize, end: usize) -> Self {
+        Self { file, start: start as u32, end: end as u32 }
+    }
+
+    /// From the start of `self` to the end of `other` (same file).
+    pub fn to(self, other: Self) -> Self {
+        Self { end: other.end.max(self.end), ..self }
+    }
+
+    /// The empty span just after this one.
+    pub fn after(self) -> Self {
+        Self { start: self.end, ..self }
+    }
+
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// A place in a text and how evaluation got there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Site {
+    pub span: Span,
+    pub expansion: ExpansionId,
+}
+
+/// Names one [`Expansion`]; [`ExpansionId::MAIN`] is the main file's own text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExpansionId(pub u32);
+
+impl ExpansionId {
+    pub const MAIN: Self = Self(0);
+}
+
+/// Why a text is being evaluated: a call of a macro or an include.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expansion {
+    /// The expansion that contains the call.
+    pub parent: ExpansionId,
+    /// The call itself.
+    pub call: Span,
+    pub kind: ExpansionKind,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExpansionKind {
+    /// A call of the named macro.
+    Macro(String),
+    /// An `#include` of the named file.
+    Include(String),
+}
+
+/// Every expansion of one evaluation, parents before children. Entry `n` has the id `n + 1`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Expansions(Vec<Expansion>);
+
+impl Expansions {
+    pub fn add(&mut self, expansion: Expansion) -> ExpansionId {
+        self.0.push(expansion);
+        ExpansionId(self.0.len() as u32)
+    }
+
+    /// The expansion, or `None` for [`ExpansionId::MAIN`].
+    pub fn get(&self, id: ExpansionId) -> Option<&Expansion> {
+        self.0.get((id.0 as usize).checked_sub(1)?)
+    }
+
+    /// The calls that led to `id`, innermost first.
+    pub fn chain(&self, id: ExpansionId) -> impl Iterator<Item = &Expansion> {
+        std::iter::successors(self.get(id), |expansion| self.get(expansion.parent))
+    }
+}
+
+/// One file's text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Source {
+    /// How the author knows it: the path as given or as included.
+    pub name: String,
+    pub text: String,
+    line_starts: Vec<u32>,
+}
+
+/// A line and a column, both counted from 1, the column in characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    pub line: usize,
+    pub column: usize,
+}
+
+impl Source {
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let breaks = text.bytes().enumerate().filter(|(i, b)| {
+            // A lone carriage return ends a line too (old Macintosh files).
+            *b == b'\n' || (*b == b'\r' && text.as_bytes().get(i + 1) != Some(&b'\n'))
+        });
+        let line_starts = std::iter::once(0).chain(breaks.map(|(i, _)| i as u32 + 1)).collect();
+        Self { name: name.into(), line_starts, text }
+    }
+
+    pub fn position(&self, offset: usize) -> Position {
+        let line = self.line_starts.partition_point(|&start| start as usize <= offset) - 1;
+        let start = self.line_starts[line] as usize;
+        let column = self.text[start..offset.min(self.text.len())].chars().count() + 1;
+        Position { line: line + 1, column }
+    }
+
+    /// The text of line `number` (from 1), without its line break.
+    pub fn line(&self, number: usize) -> &str {
+        let start = self.line_starts[number - 1] as usize;
+        let end = self.line_starts.get(number).map_or(self.text.len(), |&end| end as usize);
+        self.text[start..end].trim_end_matches(['\n', '\r'])
+    }
+
+    /// The byte at which line `number` (from 1) starts.
+    pub fn line_start(&self, number: usize) -> usize {
+        self.line_starts[number - 1] as usize
+    }
+
+    pub fn line_count(&self) -> usize {
+        self.line_starts.len()
+    }
+}
+
+/// All texts of one run, in the order they were read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sources(Vec<Source>);
+
+impl Sources {
+    pub fn add(&mut self, source: Source) -> FileId {
+        self.0.push(source);
+        FileId(self.0.len() as u32 - 1)
+    }
+
+    pub fn get(&self, id: FileId) -> &Source {
+        &self.0[id.0 as usize]
+    }
+
+    pub fn text(&self, span: Span) -> &str {
+        &self.get(span.file).text[span.range()]
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (FileId, &Source)> {
+        self.0.iter().enumerate().map(|(i, source)| (FileId(i as u32), source))
+    }
+}
+
+/// A file that [`Files`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Where it was found; also its identity (the same file has the same name).
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+/// Why a file could not be had.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FileError {
+    /// Nothing of that name; the folders that were searched, and names there that are near.
+    NotFound { searched: Vec<String>, similar: Vec<String> },
+    /// It lies outside the scene's folder and the include folders.
+    Forbidden,
+    /// It is there and cannot be read: the system's reason.
+    Unreadable(String),
+}
+
+/// The only way in for anything from outside.
+pub trait Files {
+    /// Looks for `name` in the folder of the file `from`, then in the include folders.
+    fn read(&self, name: &str, from: &str) -> Result<Found, FileError>;
+}
+
+/// No files at all: for texts that stand alone.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str, _: &str) -> Result<Found, FileError> {
+        Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })
+    }
+}
+
+/// Turns the bytes of a file into text: UTF-8, else Latin-1. `true` when it was not UTF-8.
+/// A byte order mark is dropped.
+pub fn decode(bytes: Vec<u8>) -> (String, bool) {
+    let (text, foreign) = match String::from_utf8(bytes) {
+        Ok(text) => (text, false),
+        Err(error) => (error.into_bytes().iter().map(|&b| char::from(b)).collect(), true),
+    };
+    match text.strip_prefix('\u{feff}') {
+        Some(rest) => (rest.to_owned(), foreign),
+        None => (text, foreign),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters_from_one() {
+        let source = Source::new("a", "é x\r\nb\rc\n");
+        assert_eq!(source.position(3), Position { line: 1, column: 3 });
+        assert_eq!(source.position(6), Position { line: 2, column: 1 });
+        assert_eq!(source.position(8), Position { line: 3, column: 1 });
+        assert_eq!(source.position(10), Position { line: 4, column: 1 });
+        assert_eq!((source.line(1), source.line(2), source.line(3)), ("é x", "b", "c"));
+    }
+
+    #[test]
+    fn bytes_that_are_not_utf_8_are_read_as_latin_1() {
+        assert_eq!(decode(vec![b'a', 0xe9]), ("aé".to_owned(), true));
+        assert_eq!(decode("\u{feff}a".as_bytes().to_vec()), ("a".to_owned(), false));
+    }
+}

@@ -1,0 +1,272 @@
+//! What was typed, as a tree of items and expressions.
+//!
+//! **Invariant:** flat arenas; a child stands before its parent, so nothing here needs the call stack.
+//! Every byte of the source is in a node, a comment or a blank.
+
+use std::ops::Range;
+
+use crate::source::{FileId, Span};
+use crate::vocabulary::Word;
+
+/// One parsed file. Always whole: what could not be understood is [`ExpressionKind::Missing`], and
+/// has been reported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ast {
+    pub file: FileId,
+    /// The items of one block are contiguous; the file's own stand last.
+    pub items: Vec<Item>,
+    pub expressions: Vec<Expression>,
+    /// The heads and bodies of directives.
+    pub directives: Vec<Directive>,
+    /// Names that are not words of the language, each once.
+    pub names: Vec<String>,
+    /// Arguments of calls, components of vectors, indices of targets: lists that nodes point into.
+    pub arguments: Vec<Argument>,
+    /// The literals of every number run, decoded.
+    pub numbers: Vec<f64>,
+    pub comments: Vec<Span>,
+    pub root: Items,
+}
+
+/// Some consecutive items.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Items {
+    pub start: u32,
+    pub end: u32,
+}
+
+/// Some consecutive arguments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Arguments {
+    pub start: u32,
+    pub end: u32,
+}
+
+impl Items {
+    pub fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+    pub fn is_empty(self) -> bool {
+        self.start == self.end
+    }
+}
+
+impl Arguments {
+    pub fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExpressionId(pub u32);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DirectiveId(pub u32);
+
+/// Index into [`Ast::names`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NameId(pub u32);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Item {
+    pub kind: ItemKind,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ItemKind {
+    /// A word of the language that is not a value: `sphere`, `rotate`, `color`, `rgb`.
+    Word(Word),
+    /// A value: a sum, or (inside parentheses and in function bodies) a full expression.
+    Expression(ExpressionId),
+    /// `{ … }`.
+    Block(Items),
+    /// `[ … ]` where it is not an index: an entry of a map, the size of an array.
+    Entry(Items),
+    Comma,
+    Semicolon,
+    Directive(DirectiveId),
+    /// A long run of literals, each followed by a comma: `numbers[start .. start + count · width]`.
+    /// `width` 1: plain numbers; else vectors of that many.
+    Numbers { start: u32, count: u32, width: u32 },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expression {
+    pub kind: ExpressionKind,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ExpressionKind {
+    Number(f64),
+    /// The span with its quotes; escapes are decoded where it is used (paths are not).
+    String,
+    /// A declared name.
+    Name(NameId),
+    /// A word of the language that is a value: `x`, `pi`, `clock`, `true`.
+    Word(Word),
+    Unary(UnaryOperator, ExpressionId),
+    Binary(BinaryOperator, ExpressionId, ExpressionId),
+    /// `a ? b : c`.
+    Conditional(ExpressionId, ExpressionId, ExpressionId),
+    /// `<a, b, c>`.
+    Vector(Arguments),
+    /// `f(a, b)`: a built-in function, a macro or a user's function.
+    Call(Callee, Arguments),
+    /// `a[i]`.
+    Index(ExpressionId, ExpressionId),
+    /// `a.x`, `c.red`. The component's name is a word when the language has it.
+    Component(ExpressionId, Component),
+    /// `( … )` around one expression.
+    Group(ExpressionId),
+    /// `( … )` around anything else: directives, several values.
+    GroupItems(Items),
+    /// Something that was reported as not understood.
+    Missing,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnaryOperator {
+    Plus,
+    Minus,
+    Not,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BinaryOperator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Less,
+    LessOrEqual,
+    Equal,
+    NotEqual,
+    GreaterOrEqual,
+    Greater,
+    And,
+    Or,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Callee {
+    /// A built-in function and the span of its word.
+    Word(Word, Span),
+    /// A macro or a function of the author's.
+    Name(NameId, Span),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Component {
+    Word(Word, Span),
+    Name(NameId, Span),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Argument {
+    Expression(ExpressionId),
+    /// A block or several items as one argument: `M(pigment { Red })`.
+    Items(Items),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Directive {
+    pub kind: DirectiveKind,
+    /// The `#` and its word.
+    pub head: Span,
+}
+
+/// What a directive assigns to or tests: `Name[i][j]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    pub name: NameId,
+    pub indices: Vec<ExpressionId>,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum DirectiveKind {
+    /// `#declare Name =` or `#local Name =`: the value is what the following items yield.
+    Declare { local: bool, target: Target },
+    Undef(Target),
+    If { test: Test, then: Items, otherwise: Items },
+    While { condition: ExpressionId, body: Items },
+    /// `#for (Name, from, to, step)`.
+    For { name: NameId, name_span: Span, from: ExpressionId, to: ExpressionId, step: Option<ExpressionId>, body: Items },
+    Switch { value: ExpressionId, cases: Vec<Case> },
+    Break,
+    Macro { name: NameId, name_span: Span, parameters: Vec<Parameter>, body: Body },
+    Include(ExpressionId),
+    /// `#default { … }`.
+    Default(Items),
+    Version(ExpressionId),
+    Debug(ExpressionId),
+    Warning(ExpressionId),
+    Error(ExpressionId),
+    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`.
+    Fopen { name: NameId, file: ExpressionId, mode: Word },
+    Fclose(NameId),
+    Read { name: NameId, targets: Vec<Target> },
+    Write { name: NameId, arguments: Arguments },
+    /// `#render`, `#statistics`: old, and without effect.
+    Ignored(ExpressionId),
+    /// Not understood; reported.
+    Malformed,
+}
+
+/// What `#if`, `#ifdef`, `#ifndef` and `#elseif` ask. An `#elseif` is an `If` alone in `otherwise`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Test {
+    Condition(ExpressionId),
+    Defined(Target),
+    NotDefined(Target),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    pub kind: CaseKind,
+    /// Up to the next case; falls through into it unless `#break` stands in between.
+    pub body: Items,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum CaseKind {
+    Value(ExpressionId),
+    Range(ExpressionId, ExpressionId),
+    Otherwise,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    pub name: NameId,
+    pub span: Span,
+    /// `optional Name` of version 3.8.
+    pub optional: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Body {
+    Items(Items),
+    /// The body does not balance its brackets, as three standard includes do: the bytes between head and
+    /// `#end`, to be nested after expansion.
+    Raw(Span),
+}
+
+impl Ast {
+    pub fn items(&self, items: Items) -> &[Item] {
+        &self.items[items.range()]
+    }
+    pub fn expression(&self, id: ExpressionId) -> &Expression {
+        &self.expressions[id.0 as usize]
+    }
+    pub fn directive(&self, id: DirectiveId) -> &Directive {
+        &self.directives[id.0 as usize]
+    }
+    pub fn arguments(&self, arguments: Arguments) -> &[Argument] {
+        &self.arguments[arguments.range()]
+    }
+    pub fn name(&self, id: NameId) -> &str {
+        &self.names[id.0 as usize]
+    }
+}

@@ -1,0 +1,217 @@
+//! What is there, in canonical form: what the tracer is handed.
+//!
+//! **Invariant:** no transform list, no degree, no missing default, no nested union; every placement
+//! invertible; every number finite. One flat list per kind; an object is (kind, index, material).
+//! Specified in `docs/world.md`.
+
+use crate::color::{Color, Rgb};
+use crate::math::placement::Map;
+use crate::math::{UnitVector, Vector};
+use crate::pattern::Pattern;
+use crate::shape::{Box_, Ellipsoid, Plane, Shape, Sphere};
+use crate::source::{Expansions, Site};
+
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct World {
+    pub camera: Camera,
+    pub settings: Settings,
+    /// What a ray that leaves the scene sees where the sky shows nothing.
+    pub background: Rgb,
+    pub sky: Option<Sky>,
+    pub lights: Vec<Light>,
+    /// In written order.
+    pub objects: Vec<Object>,
+    pub spheres: Vec<Sphere>,
+    pub planes: Vec<Plane>,
+    pub boxes: Vec<Box_>,
+    pub ellipsoids: Vec<Ellipsoid>,
+    pub materials: Vec<Material>,
+    /// Where textures stand; `Object::texture_from_world` points here.
+    pub texture_maps: Vec<Map>,
+    /// Texture coordinates that are the same all over a flat face; see `Object::faces`.
+    pub faces: Vec<FaceCoordinates>,
+}
+
+/// Where the World's parts came from, a list for each of its lists. Never compared.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Origins {
+    pub objects: Vec<Site>,
+    pub lights: Vec<Site>,
+    /// The pigment or texture that first called for each material.
+    pub materials: Vec<Option<Site>>,
+    pub camera: Option<Site>,
+    pub sky: Option<Site>,
+    pub max_trace_level: Option<Site>,
+    /// What lowering left out, and why.
+    pub dropped: Vec<Dropped>,
+    pub expansions: Expansions,
+}
+
+/// A part of the Scene that cannot change the picture, and so is not in the World.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dropped {
+    pub site: Site,
+    /// `light_source is black`.
+    pub why: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Object {
+    pub shape: Shape,
+    /// Index into `World::materials`.
+    pub material: u32,
+    /// Index into `World::texture_maps`; `None` is the identity, or a material without pattern.
+    pub texture_from_world: Option<u32>,
+    /// For a patterned plane (1 entry) or box (6 entries, in the order of
+    /// [`crate::shape::SurfacePoint::face`]): where its entries start in `World::faces`.
+    pub faces: Option<u32>,
+    pub casts_shadow: bool,
+    /// Inside and outside are exchanged.
+    pub inverse: bool,
+}
+
+/// For one flat face: each texture coordinate that is constant over it, computed in extended
+/// precision. The tracer uses these numbers, so a pattern never flickers on its own lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FaceCoordinates(pub [Option<f64>; 3]);
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    pub pigment: Pigment,
+    pub finish: Finish,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pigment {
+    Color(Color),
+    Patterned {
+        pattern: Pattern,
+        /// The pattern's space from the texture's.
+        pattern_from_texture: Map,
+        /// Sorted by value; at least one entry.
+        map: Vec<(f64, Color)>,
+    },
+}
+
+/// How a surface answers light. Everything of weight zero is absent.
+///
+/// The radiance toward the viewer is, with C the pigment's colour and the sum over the lights
+/// that are visible:
+/// `C·glow + Σ I·(C·diffuse·(N·L)^brilliance + Σ lobes) + reflection`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finish {
+    /// Light without a light source: `ambient · ambient_light + emission`, or the seed's kd·Ia.
+    pub glow: Rgb,
+    pub diffuse: f64,
+    pub brilliance: f64,
+    pub lobes: Vec<Lobe>,
+    pub reflection: Option<Reflection>,
+    /// The seed's rules: every radiance is clamped at 1 per component, and the surface is seen from
+    /// outside only. Its one lobe is `Blinn` with the pigment's colour, unweighted by angle.
+    pub seed: bool,
+}
+
+/// A specular lobe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lobe {
+    pub kind: LobeKind,
+    pub weight: f64,
+    pub exponent: f64,
+    /// 0: the light's colour; 1: the pigment's.
+    pub metallic: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LobeKind {
+    /// (R·L)^exponent, R the mirrored direction of view.
+    Phong,
+    /// (N·H)^exponent, H the bisector of the directions to the light and to the viewer.
+    Blinn,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reflection {
+    /// Seen head-on; equal to `maximum` where the angle does not matter.
+    pub minimum: Rgb,
+    /// Seen at a grazing angle.
+    pub maximum: Rgb,
+    pub falloff: f64,
+    pub exponent: f64,
+    pub metallic: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Light {
+    pub kind: LightKind,
+    pub color: Rgb,
+    pub casts_shadows: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LightKind {
+    Point {
+        position: Vector,
+    },
+    /// From infinitely far.
+    Directional {
+        to_light: UnitVector,
+    },
+    /// Parallel rays from the plane through `position` across `to_light`.
+    Parallel {
+        position: Vector,
+        to_light: UnitVector,
+    },
+}
+
+/// The sky, at infinity: patterns are evaluated at the ray's direction, of length 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sky {
+    /// Painted one over the other, the last on top.
+    pub pigments: Vec<Pigment>,
+}
+
+/// The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen along
+/// `forward + u·right + v·up` from `location` (perspective), or along `forward` from
+/// `location + u·right + v·up` (orthographic). A lens shift is part of `forward` or `location`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    pub kind: CameraKind,
+    pub location: Vector,
+    pub forward: Vector,
+    pub right: Vector,
+    pub up: Vector,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CameraKind {
+    Perspective,
+    Orthographic,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            kind: CameraKind::Perspective,
+            location: Vector::ZERO,
+            forward: -Vector::Z,
+            right: Vector::X * (4.0 / 3.0),
+            up: Vector::Y,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// How many surfaces deep a ray is followed: 1 is the camera's ray alone.
+    pub max_trace_level: u32,
+    /// A path whose weight falls below this in every component is not followed.
+    pub adc_bailout: f64,
+    /// The exponent that turns the film's colours into linear light.
+    pub assumed_gamma: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: 1.0 }
+    }
+}
