@@ -16,4 +16,6 @@ pub mod plan;
 pub mod scene;
 pub mod shape;
 pub mod source;
+pub mod syntax;
+pub mod vocabulary;
 pub mod world;
