@@ -12,6 +12,7 @@ pub mod diagnostic;
 pub mod film;
 pub mod math;
 pub mod pattern;
+pub mod picture;
 pub mod plan;
 pub mod scene;
 pub mod shape;

@@ -4,6 +4,10 @@
 //! words in backticks, says what is wrong *and* what was expected.
 
 mod code;
+mod excerpt;
+pub mod json;
+pub mod render;
+pub mod suggest;
 
 pub use code::Code;
 
