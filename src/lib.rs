@@ -9,6 +9,7 @@
 
 pub mod color;
 pub mod diagnostic;
+pub mod evaluate;
 pub mod film;
 pub mod math;
 pub mod pattern;

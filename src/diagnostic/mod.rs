@@ -142,6 +142,11 @@ impl Diagnostics {
         }
     }
 
+    /// Takes back what was said after the first `len` messages: it was about code that does not count.
+    pub fn forget_after(&mut self, len: usize) {
+        self.list.truncate(len);
+    }
+
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }
