@@ -11,6 +11,7 @@ pub mod color;
 pub mod diagnostic;
 pub mod evaluate;
 pub mod film;
+pub mod lower;
 pub mod math;
 pub mod pattern;
 pub mod picture;
