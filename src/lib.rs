@@ -10,10 +10,12 @@
 pub mod color;
 pub mod diagnostic;
 pub mod film;
+pub mod geometry;
 pub mod math;
 pub mod pattern;
 pub mod plan;
 pub mod scene;
 pub mod shape;
 pub mod source;
+pub mod trace;
 pub mod world;
