@@ -10,6 +10,7 @@
 pub mod color;
 pub mod diagnostic;
 pub mod film;
+pub mod geometry;
 pub mod math;
 pub mod pattern;
 pub mod plan;
