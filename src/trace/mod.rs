@@ -21,7 +21,6 @@ use std::ops::AddAssign;
 
 use crate::color::Rgb;
 use crate::film::Film;
-use crate::geometry::Counts;
 use crate::plan::{Antialias, Effect, Frame, Plan, Region};
 use crate::shape::Ray;
 use crate::world::World;
@@ -65,10 +64,6 @@ pub struct Counters {
     pub shadow: u64,
     /// Mirrored rays.
     pub reflection: u64,
-    /// Boxes of the tree asked.
-    pub box_visits: u64,
-    /// Shapes asked.
-    pub shape_tests: u64,
 }
 
 impl AddAssign for Counters {
@@ -76,8 +71,6 @@ impl AddAssign for Counters {
         self.camera += other.camera;
         self.shadow += other.shadow;
         self.reflection += other.reflection;
-        self.box_visits += other.box_visits;
-        self.shape_tests += other.shape_tests;
     }
 }
 
@@ -94,16 +87,6 @@ pub struct Traced {
 pub(crate) struct Walk {
     chain: Vec<Link>,
     counters: Counters,
-    counts: Counts,
-}
-
-impl Walk {
-    /// The work since the last call.
-    fn take_counters(&mut self) -> Counters {
-        let counts = std::mem::take(&mut self.counts);
-        let counters = std::mem::take(&mut self.counters);
-        Counters { box_visits: counts.box_visits, shape_tests: counts.shape_tests, ..counters }
-    }
 }
 
 /// Traces the frame's region.

@@ -7,7 +7,7 @@
 
 use super::{Walk, pigment, reflection, shade, sky};
 use crate::color::Rgb;
-use crate::geometry::{Geometry, spawn};
+use crate::geometry::{self, Geometry};
 use crate::plan::{Effect, Plan};
 use crate::shape::Ray;
 use crate::world::{Light, Material, Sky, World};
@@ -15,7 +15,7 @@ use crate::world::{Light, Material, Sky, World};
 /// A World as its Plan wants it traced.
 pub(super) struct Tracer<'a> {
     pub world: &'a World,
-    pub geometry: Geometry<'a>,
+    pub geometry: Geometry,
     /// One for each of the World's; what the Plan leaves out is absent.
     pub materials: Vec<Material>,
     /// Those that shine.
@@ -81,15 +81,15 @@ impl<'a> Tracer<'a> {
             if level > self.max_trace_level as usize {
                 break Rgb::BLACK;
             }
-            let Some(hit) = self.geometry.nearest(&ray, &mut walk.counts) else {
+            let Some(hit) = self.geometry.nearest(&ray) else {
                 break sky::seen(self.sky, self.world.background, ray.direction);
             };
-            let surface = self.geometry.surface(&ray, &hit);
+            let surface = geometry::surface(self.world, &ray, &hit);
             let object = &self.world.objects[hit.object as usize];
             let Material { pigment, finish } = &self.materials[object.material as usize];
             let normal = if hit.leaving { -surface.normal } else { surface.normal };
             let color = pigment::on_surface(pigment, self.world, object, &surface);
-            let origin = spawn(&surface, normal);
+            let origin = surface.spawn(normal);
             let to_viewer = -ray.direction;
             let place =
                 shade::Place { finish, color, point: surface.point, origin, normal, to_viewer };

@@ -49,7 +49,7 @@ pub(super) fn shadowed(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &A
     }
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
-    tracer.geometry.occluded(&ray, aim.reach, &mut walk.counts)
+    tracer.geometry.occluded(&ray, aim.reach)
 }
 
 #[cfg(test)]

@@ -53,7 +53,7 @@ impl<'a> Crew<'a> {
             piece.extend(pixels(*tile).map(|(x, y)| pixel(walk, x, y)));
             {
                 let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                shared.1 += walk.take_counters();
+                shared.1 += std::mem::take(&mut walk.counters);
                 for ((x, y), value) in pixels(*tile).zip(piece.iter()) {
                     if let Some((radiance, samples)) = *value {
                         let index = shared.0.index(x, y);
