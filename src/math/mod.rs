@@ -10,4 +10,5 @@ pub mod placement;
 pub mod transform;
 pub mod vector;
 
-pub use vector::{Matrix, Real, UnitVector, Vector, Vector3};
+pub(crate) use vector::reciprocal_power_of_two;
+pub use vector::{Lanes, Matrix, Real, UnitVector, Vector, Vector3};

@@ -12,6 +12,9 @@ pub type Vector = glam::DVec3;
 /// A 3×3 matrix in `f64`, stored by columns; it maps column vectors: `m * v`.
 pub type Matrix = glam::DMat3;
 
+/// Four `f32` side by side, for the boxes of a tree.
+pub type Lanes = glam::Vec4;
+
 /// The arithmetic a shape kernel is written in: `f32` or `f64`.
 pub trait Real:
     Copy
@@ -28,8 +31,12 @@ pub trait Real:
     const ZERO: Self;
     const ONE: Self;
     const INFINITY: Self;
+    const NEG_INFINITY: Self;
     /// Half the distance from 1 to the next number: the relative error of one rounding.
     const UNIT_ROUNDOFF: Self;
+    /// Sums of squares between these two lose nothing to the range of exponents, and neither do
+    /// their parts down to the roundoff of the roundoff.
+    const SAFE_SQUARES: (Self, Self);
     fn from_f64(value: f64) -> Self;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
@@ -51,19 +58,23 @@ pub trait Vector3<R: Real>:
     fn from_vector(v: Vector) -> Self;
     fn to_vector(self) -> Vector;
     fn dot(self, other: Self) -> R;
+    /// Σ |aᵢ·bᵢ|: what the rounding error of `dot` is proportional to (at most 3 roundoffs of it).
+    fn abs_dot(self, other: Self) -> R;
     fn cross(self, other: Self) -> Self;
     fn length_squared(self) -> R;
     fn component(self, axis: usize) -> R;
 }
 
 macro_rules! real {
-    ($real:ident, $vector:ty, $from:expr, $to:expr) => {
+    ($real:ident, $vector:ty, $from:expr, $to:expr, $safe:expr) => {
         impl Real for $real {
             type Vector = $vector;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const INFINITY: Self = $real::INFINITY;
+            const NEG_INFINITY: Self = $real::NEG_INFINITY;
             const UNIT_ROUNDOFF: Self = $real::EPSILON / 2.0;
+            const SAFE_SQUARES: (Self, Self) = $safe;
             #[inline]
             fn from_f64(value: f64) -> Self {
                 value as $real
@@ -103,6 +114,10 @@ macro_rules! real {
                 self.dot(other)
             }
             #[inline]
+            fn abs_dot(self, other: Self) -> $real {
+                self.abs().dot(other.abs())
+            }
+            #[inline]
             fn cross(self, other: Self) -> Self {
                 self.cross(other)
             }
@@ -118,8 +133,15 @@ macro_rules! real {
     };
 }
 
-real!(f32, glam::Vec3, |v: Vector| v.as_vec3(), |v: glam::Vec3| v.as_dvec3());
-real!(f64, glam::DVec3, |v| v, |v| v);
+// 2⁻⁷⁰ and 2¹⁰⁰; 2⁻⁹⁰⁰ and 2¹⁰⁰⁰.
+real!(
+    f32,
+    glam::Vec3,
+    |v: Vector| v.as_vec3(),
+    |v: glam::Vec3| v.as_dvec3(),
+    (f32::from_bits(57 << 23), f32::from_bits(227 << 23))
+);
+real!(f64, glam::DVec3, |v| v, |v| v, (f64::from_bits(123 << 52), f64::from_bits(2023 << 52)));
 
 /// A vector of length 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,8 +188,9 @@ impl Neg for UnitVector {
     }
 }
 
-/// The power of two nearest below `1 / largest`, within the range of normal numbers.
-fn reciprocal_power_of_two(largest: f64) -> f64 {
+/// A power of two near `1 / largest`, within the range of normal numbers: the product of the two
+/// is in ½ … 2, unless that range forbids.
+pub(crate) fn reciprocal_power_of_two(largest: f64) -> f64 {
     let exponent = ((largest.to_bits() >> 52) & 0x7ff) as i64 - 1023;
     f64::from_bits(((1023 - exponent).clamp(1, 2046) as u64) << 52)
 }

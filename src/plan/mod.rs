@@ -3,6 +3,10 @@
 //! **Invariant:** the tracer simulates what the Plan names and nothing else; pruning is exact or
 //! not done.
 
+mod effects;
+
+pub use effects::plan;
+
 use crate::source::Site;
 
 /// The whole picture's size and the part of it to trace, in pixels.
@@ -65,6 +69,32 @@ pub enum Effect {
     Patterns,
     Sky,
     Antialiasing,
+}
+
+impl Effect {
+    /// In the order the plan lists them.
+    pub const ALL: [Self; 7] = [
+        Self::Diffuse,
+        Self::Highlights,
+        Self::Shadows,
+        Self::Reflection,
+        Self::Patterns,
+        Self::Sky,
+        Self::Antialiasing,
+    ];
+
+    /// How people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Diffuse => "diffuse light",
+            Self::Highlights => "highlights",
+            Self::Shadows => "shadows",
+            Self::Reflection => "reflection",
+            Self::Patterns => "patterns",
+            Self::Sky => "sky",
+            Self::Antialiasing => "antialiasing",
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,218 @@
 //! Sphere: |P − C| = r. Outward is away from the centre.
 
-use crate::math::Vector;
+use super::{Approach, Bounds, Chord, Crossing, Ray, SurfacePoint, U};
+use crate::math::{Real, Vector, Vector3, reciprocal_power_of_two};
 
 /// **Invariant:** `radius` > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
     pub centre: Vector,
     pub radius: f64,
+}
+
+impl Sphere {
+    #[inline]
+    pub fn chord(&self, ray: &Ray) -> Option<Chord> {
+        chord(self.centre, self.radius, ray)
+    }
+
+    /// The point of the sphere where `ray` crosses it at `t`: C + r·n.
+    ///
+    /// Its distance to the sphere is at most 4u·r (the length of n, the product) and u·|n|·|P| (the
+    /// sum); the same again is for the start of the next ray, and 4u·r for its reading by [`chord`].
+    pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
+        let near = ray.slide(self.centre);
+        let from_centre = near.offset + ray.direction * (t + near.along);
+        let scale = reciprocal_power_of_two(self.radius);
+        let normal = (from_centre * scale).normalize_or(-ray.direction);
+        let point = self.centre + normal * self.radius;
+        let error = U * (12.0 * self.radius + 2.0 * normal.abs_dot(point));
+        SurfacePoint { point, normal, error, face: 0 }
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        let extent = Vector::splat(self.radius);
+        Bounds::around(self.centre, extent, extent * (8.0 * U))
+    }
+
+    /// Positive inside: r − |P − C|.
+    pub fn signed_distance(&self, point: Vector) -> f64 {
+        let scale = reciprocal_power_of_two(self.radius);
+        self.radius - ((point - self.centre) * scale).length() / scale
+    }
+
+    pub fn contains(&self, point: Vector) -> bool {
+        self.signed_distance(point) > 0.0
+    }
+}
+
+/// The chord of a sphere; `None` when the ray's line misses or touches it.
+///
+/// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The
+/// crossing farther from the start is at |b| + h, on the side of −b; the nearer one is the constant
+/// term |f|² − r² divided by it, so its sign, whether the start is inside, is right up to 4u·r of
+/// the surface, however flat the ray.
+///
+/// **Domain:** radii from 1e-150 to 1e150, starts to 1e8 radii away. **Error:** see [`Roots::chord`].
+///
+/// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots:
+/// N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
+#[inline]
+pub fn chord<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Chord<R>> {
+    Some(roots(centre, radius, ray)?.chord())
+}
+
+/// As [`chord`], its error bounds not yet computed.
+#[inline(always)]
+pub fn roots<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
+    Roots::of(&ray.slide(centre), radius)
+}
+
+/// What a map into the sphere's space adds to the errors there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Blur<R: Real = f64> {
+    /// Across the ray.
+    pub miss: R,
+    /// Along the ray.
+    pub along: R,
+    /// Of |f|² − r².
+    pub power: R,
+    /// Of every distance, relative.
+    pub scale: R,
+}
+
+/// The two crossings, and what their error bounds are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Roots<R: Real = f64> {
+    enter: R,
+    leave: R,
+    /// h.
+    half: R,
+    /// m.
+    miss: R,
+    along: R,
+    /// |f|², r².
+    start_squared: R,
+    radius_squared: R,
+    /// |f|² − r².
+    power: R,
+    /// All of these are lengths in this unit, in terms of the ray's.
+    unit: R,
+}
+
+impl<R: Real> Roots<R> {
+    #[inline(always)]
+    fn of(near: &Approach<R>, radius: R) -> Option<Self> {
+        let miss_squared = near.offset.length_squared();
+        let radius_squared = radius * radius;
+        if miss_squared > radius_squared {
+            return None;
+        }
+        let start_squared = near.start.length_squared();
+        let size = start_squared + radius_squared;
+        if size > R::SAFE_SQUARES.0 && size < R::SAFE_SQUARES.1 {
+            Self::solve(near.along, miss_squared.sqrt(), radius, start_squared, R::ONE)
+        } else {
+            Self::rescaled(near, radius)
+        }
+    }
+
+    /// `miss` ≥ 0 is the distance of the line to the centre, `start_squared` that of the start.
+    #[inline(always)]
+    pub(super) fn solve(along: R, miss: R, radius: R, start_squared: R, unit: R) -> Option<Self> {
+        let half = ((radius - miss) * (radius + miss)).sqrt();
+        // Also so when `half` is no number: `miss` a little over `radius`.
+        if !half.gt(&R::ZERO) {
+            return None;
+        }
+        let radius_squared = radius * radius;
+        let power = start_squared - radius_squared;
+        let far = along.abs() + half;
+        let near = (power / far).min(far);
+        let (enter, leave) = if along > R::ZERO { (-far, -near) } else { (near, far) };
+        Some(Self { enter, leave, half, miss, along, start_squared, radius_squared, power, unit })
+    }
+
+    /// Sizes whose squares leave the range of exponents: all is scaled by a power of two.
+    #[cold]
+    fn rescaled(near: &Approach<R>, radius: R) -> Option<Self> {
+        let size = (0..3).fold(radius, |size, axis| size.max(near.start.component(axis).abs()));
+        let scale = R::from_f64(reciprocal_power_of_two(size.to_f64()));
+        Self::solve(
+            near.along * scale,
+            (near.offset * scale).length_squared().sqrt(),
+            radius * scale,
+            (near.start * scale).length_squared(),
+            R::ONE / scale,
+        )
+    }
+
+    #[inline(always)]
+    pub fn enter(&self) -> R {
+        self.enter * self.unit
+    }
+
+    #[inline(always)]
+    pub fn leave(&self) -> R {
+        self.leave * self.unit
+    }
+
+    /// Adds the error bounds, u the roundoff and A = |b| + m ≥ |f|:
+    /// * h² is off by δ = u·(10·m·A + 4·h²) + (16·u·A)², so h by min(δ/h, √δ) + 8u·h;
+    /// * the far crossing by F = that + 16u·A;
+    /// * |f|² − r² by P = u·(6|f|² + 2r² + 9·||f|² − r²|), so the near crossing by
+    ///   (P + |near|·F) / (far − F) + 2u·|near|; or, when far ≤ 2F, by F and the distance to the
+    ///   same crossing found as a sum.
+    ///
+    /// The bounds of a map before it (`blur`) are added to A's, h²'s and P's.
+    ///
+    /// The terms are those of [`Ray::slide`] and of γₙ = n·u/(1 − n·u) for sums and products.
+    #[inline]
+    pub fn chord(&self) -> Chord<R> {
+        let none = Blur { miss: R::ZERO, along: R::ZERO, power: R::ZERO, scale: R::ZERO };
+        self.blurred_chord(none)
+    }
+
+    #[inline(always)]
+    pub(super) fn blurred_chord(&self, blur: Blur<R>) -> Chord<R> {
+        let number = R::from_f64;
+        let u = R::UNIT_ROUNDOFF;
+        let size = self.along.abs() + self.miss;
+        let slid = number(16.0) * u * size + blur.along;
+        let square_error = u
+            * (number(10.0) * self.miss * size + number(4.0) * self.half * self.half)
+            + slid * slid
+            + blur.miss * (number(2.0) * self.miss + blur.miss);
+        let half_error = if square_error < self.half * self.half {
+            square_error / self.half
+        } else {
+            square_error.sqrt()
+        };
+        let far_error = half_error + slid + number(8.0) * u * self.half;
+
+        let (far, near) = if self.along > R::ZERO {
+            (-self.enter, -self.leave)
+        } else {
+            (self.leave, self.enter)
+        };
+        let near_error = if far > far_error + far_error {
+            let power_error = u
+                * (number(6.0) * self.start_squared
+                    + number(2.0) * self.radius_squared
+                    + number(9.0) * self.power.abs())
+                + blur.power;
+            (power_error + near.abs() * far_error) / (far - far_error)
+                + number(2.0) * u * near.abs()
+        } else {
+            far_error + (near - (self.along.abs() - self.half)).abs()
+        };
+
+        let (enter_error, leave_error) =
+            if self.along > R::ZERO { (far_error, near_error) } else { (near_error, far_error) };
+        let crossing = |t: R, error: R| Crossing {
+            t: t * self.unit,
+            error: (error + t.abs() * blur.scale) * self.unit,
+        };
+        Chord { enter: crossing(self.enter, enter_error), leave: crossing(self.leave, leave_error) }
+    }
 }

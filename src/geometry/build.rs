@@ -1,0 +1,273 @@
+//! Builds the tree of boxes: splits where the surface area heuristic, sampled in bins, is least.
+//!
+//! **In:** the bounds of things. **Out:** the tree, and the things in the order its leaves name
+//! them. **Invariant:** depends on the bounds and their order alone; no leaf is deeper than
+//! [`DEPTH`]; no recursion.
+//!
+//! **Source:** I. Wald, "On fast construction of SAH-based bounding volume hierarchies", RT 2007.
+
+use std::ops::Range;
+
+use super::tree::{Child, DEPTH, LEAF, Node, Space, Tree};
+use crate::math::{Lanes, Vector, reciprocal_power_of_two};
+use crate::shape::Bounds;
+
+const BINS: usize = 16;
+/// The price of testing a node's boxes, in tests of one thing.
+const NODE_COST: f32 = 1.0;
+
+pub(super) fn tree(bounds: &[Bounds]) -> (Tree, Vec<u32>) {
+    let space = Space::around(bounds);
+    let mut things: Vec<Thing> =
+        (0..).zip(bounds).map(|(index, b)| Thing::new(index, space.outward(b))).collect();
+    let nodes = nodes(&mut things);
+    let order = things.iter().map(|thing| thing.index).collect();
+    (Tree { space, nodes, count: bounds.len() }, order)
+}
+
+impl Space {
+    fn around(bounds: &[Bounds]) -> Self {
+        let Some(all) = bounds.iter().copied().reduce(|all, b| all.union(&b)) else {
+            return Self { origin: Vector::ZERO, scale: 1.0 };
+        };
+        // Halved first: their sum may be past all numbers.
+        let (low, high) = (all.low * 0.5, all.high * 0.5);
+        let size = (high - low).max_element();
+        Self { origin: low + high, scale: 0.5 * reciprocal_power_of_two(size) }
+    }
+}
+
+/// What is sorted into the tree.
+#[derive(Clone, Copy)]
+struct Thing {
+    extent: Extent,
+    index: u32,
+}
+
+impl Thing {
+    fn new(index: u32, [low, high]: [Lanes; 2]) -> Self {
+        Self { extent: Extent { low, high }, index }
+    }
+
+    /// Twice its centre.
+    fn centre(&self) -> Lanes {
+        self.extent.low + self.extent.high
+    }
+}
+
+/// A box in the tree's space; the fourth lane is 0.
+#[derive(Clone, Copy)]
+struct Extent {
+    low: Lanes,
+    high: Lanes,
+}
+
+impl Extent {
+    const NOTHING: Self = Self { low: Lanes::INFINITY, high: Lanes::NEG_INFINITY };
+
+    fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Half the surface; 0 of nothing.
+    fn area(&self) -> f32 {
+        let [x, y, z, _] = (self.high - self.low).to_array();
+        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
+    }
+
+    fn of(things: &[Thing]) -> Self {
+        things.iter().fold(Self::NOTHING, |all, thing| all.with(thing.extent))
+    }
+}
+
+/// A part of the things that will be one child.
+#[derive(Clone)]
+struct Part {
+    range: Range<usize>,
+    extent: Extent,
+    depth: usize,
+    /// A leaf: not to be split.
+    whole: bool,
+}
+
+impl Part {
+    fn new(range: Range<usize>, extent: Extent, depth: usize) -> Self {
+        let whole = range.len() <= 1;
+        Self { range, extent, depth, whole }
+    }
+}
+
+fn nodes(things: &mut [Thing]) -> Vec<Node> {
+    let mut nodes = vec![Node::EMPTY];
+    let mut tasks = vec![(0, Part::new(0..things.len(), Extent::of(things), 0))];
+    while let Some((index, part)) = tasks.pop() {
+        let mut parts = Vec::with_capacity(4);
+        parts.push(part);
+        while parts.len() < 4 {
+            let open = parts.iter().enumerate().filter(|(_, part)| !part.whole);
+            let widest = open.max_by(|a, b| a.1.extent.area().total_cmp(&b.1.extent.area()));
+            let Some((place, _)) = widest else { break };
+            match split(things, &parts[place]) {
+                Some([left, right]) => {
+                    parts[place] = left;
+                    parts.insert(place + 1, right);
+                }
+                None => parts[place].whole = true,
+            }
+        }
+        for (lane, part) in parts.into_iter().enumerate() {
+            let child = if part.whole {
+                Child::leaf(part.range.clone())
+            } else {
+                nodes.push(Node::EMPTY);
+                Child::node(nodes.len() - 1)
+            };
+            nodes[index].set(lane, child, &part.extent);
+            if !part.whole {
+                tasks.push((nodes.len() - 1, part));
+            }
+        }
+    }
+    nodes
+}
+
+impl Node {
+    fn set(&mut self, lane: usize, child: Child, extent: &Extent) {
+        self.children[lane] = child;
+        for axis in 0..3 {
+            self.planes[axis][0][lane] = extent.low[axis];
+            self.planes[axis][1][lane] = extent.high[axis];
+        }
+    }
+}
+
+/// Divides a part in two, or `None` when it is better as a leaf.
+fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
+    let all = &mut things[part.range.clone()];
+    let by_cost = if part.depth < DEPTH / 2 { Bins::fill(all).best() } else { None };
+    let parts = |things: &[Thing], middle: usize| {
+        let middle_at = part.range.start + middle;
+        [
+            (part.range.start..middle_at, &things[..middle]),
+            (middle_at..part.range.end, &things[middle..]),
+        ]
+        .map(|(range, things)| Part::new(range, Extent::of(things), part.depth + 1))
+    };
+    match by_cost {
+        Some(best) => {
+            let unsplit = all.len() as f32 * part.extent.area();
+            if all.len() <= LEAF && unsplit <= best.cost + NODE_COST * part.extent.area() {
+                return None;
+            }
+            let middle = partition(all, |thing| best.is_left(thing));
+            Some(parts(all, middle))
+        }
+        None if all.len() <= 4 => None,
+        // All centres in one place, or too deep: by halves.
+        None => {
+            let middle = all.len() / 2;
+            let size = part.extent.high - part.extent.low;
+            let axis =
+                (0..3).fold(0, |most, axis| if size[axis] > size[most] { axis } else { most });
+            all.select_nth_unstable_by(middle, |a, b| {
+                a.centre()[axis].total_cmp(&b.centre()[axis]).then(a.index.cmp(&b.index))
+            });
+            Some(parts(all, middle))
+        }
+    }
+}
+
+/// Moves what is `left` to the front, in place; returns how many.
+fn partition(things: &mut [Thing], left: impl Fn(&Thing) -> bool) -> usize {
+    let mut middle = 0;
+    for place in 0..things.len() {
+        if left(&things[place]) {
+            things.swap(middle, place);
+            middle += 1;
+        }
+    }
+    middle
+}
+
+/// The things of a part, sorted coarsely along each axis by their centres.
+struct Bins {
+    low: Lanes,
+    /// Bins for each unit of length; 0 along an axis on which all centres coincide.
+    density: Lanes,
+    counts: [[u32; BINS]; 3],
+    extents: [[Extent; BINS]; 3],
+}
+
+struct Best {
+    axis: usize,
+    /// The first bin on the right.
+    bin: usize,
+    low: Lanes,
+    density: Lanes,
+    /// Σ area · count of the two sides.
+    cost: f32,
+}
+
+fn bins_of(thing: &Thing, low: Lanes, density: Lanes) -> [usize; 3] {
+    let [x, y, z, _] = ((thing.centre() - low) * density).to_array();
+    [x, y, z].map(|place| (place as usize).min(BINS - 1))
+}
+
+impl Best {
+    fn is_left(&self, thing: &Thing) -> bool {
+        bins_of(thing, self.low, self.density)[self.axis] < self.bin
+    }
+}
+
+impl Bins {
+    fn fill(things: &[Thing]) -> Self {
+        let centres = things.iter().map(Thing::centre);
+        let low = centres.clone().fold(Lanes::INFINITY, Lanes::min);
+        let high = centres.fold(Lanes::NEG_INFINITY, Lanes::max);
+        let size = high - low;
+        let density = Lanes::from_array(size.to_array().map(|size| {
+            let density = BINS as f32 / size;
+            if density.is_finite() { density } else { 0.0 }
+        }));
+        let mut bins =
+            Self { low, density, counts: [[0; BINS]; 3], extents: [[Extent::NOTHING; BINS]; 3] };
+        for thing in things {
+            let places = bins_of(thing, low, density);
+            for axis in 0..3 {
+                bins.counts[axis][places[axis]] += 1;
+                let extent = &mut bins.extents[axis][places[axis]];
+                *extent = extent.with(thing.extent);
+            }
+        }
+        bins
+    }
+
+    /// The cheapest split; `None` when all centres coincide.
+    fn best(&self) -> Option<Best> {
+        let mut best: Option<Best> = None;
+        for axis in 0..3 {
+            if self.density[axis] == 0.0 {
+                continue;
+            }
+            let (counts, extents) = (&self.counts[axis], &self.extents[axis]);
+            let mut right_costs = [0.0; BINS];
+            let (mut extent, mut count) = (Extent::NOTHING, 0);
+            for bin in (1..BINS).rev() {
+                extent = extent.with(extents[bin]);
+                count += counts[bin];
+                right_costs[bin] =
+                    if count == 0 { f32::INFINITY } else { extent.area() * count as f32 };
+            }
+            let (mut extent, mut count) = (Extent::NOTHING, 0);
+            for bin in 1..BINS {
+                extent = extent.with(extents[bin - 1]);
+                count += counts[bin - 1];
+                let cost = extent.area() * count as f32 + right_costs[bin];
+                if count > 0 && cost < best.as_ref().map_or(f32::INFINITY, |best| best.cost) {
+                    best = Some(Best { axis, bin, low: self.low, density: self.density, cost });
+                }
+            }
+        }
+        best
+    }
+}

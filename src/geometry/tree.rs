@@ -1,0 +1,196 @@
+//! A tree of boxes, four to a node, in `f32`: it finds what a ray may meet, and decides nothing.
+//!
+//! **Invariant:** no box that a ray's `f64` crossing lies in is skipped. The boxes are relative to
+//! the tree's own origin and a power of two, rounded outward, so nothing overflows and scaling a
+//! scene by a power of two gives the same tree.
+//!
+//! **Source:** T. Ize, "Robust BVH ray traversal", JCGT 2 (2), 2013; the widths of boxes tested
+//! together: I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", RT 2008.
+
+use std::ops::Range;
+
+use crate::math::{Lanes, Vector};
+use crate::shape::{Bounds, Ray};
+
+/// No leaf lies deeper: splits by cost end at half of it, the rest are by halves.
+pub(super) const DEPTH: usize = 64;
+/// Of every node on the way down at most three siblings wait.
+const STACK: usize = 3 * DEPTH + 1;
+/// The greatest leaf that a [`Child`] can name.
+pub(super) const LEAF: usize = 15;
+/// Distances from the tree beyond which no slab test can be trusted (in the tree's own size).
+const FAR: f64 = (1u64 << 58) as f64;
+/// Stands for 1/0: with the least padding, a slab it is in is never left.
+const STEEPEST: f64 = (1u128 << 100) as f64;
+/// 1 + 2γ₃ and a little more: of entry and exit each, the reciprocal, the difference and the
+/// product are rounded.
+const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tree {
+    pub space: Space,
+    /// The first is the root.
+    pub nodes: Vec<Node>,
+    /// How many things the leaves name in all.
+    pub count: usize,
+}
+
+/// Where the tree's coordinates are −1 … 1: `(p − origin) · scale`, `scale` a power of two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Space {
+    pub origin: Vector,
+    pub scale: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Node {
+    /// For each axis the low and the high planes of the four boxes. An absent child's are
+    /// inside out, so no ray is in it.
+    pub planes: [[Lanes; 2]; 3],
+    pub children: [Child; 4],
+}
+
+/// Another node, or a run of up to 15 leaf entries: the highest bit tells which, four bits count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Child(u32);
+
+impl Child {
+    const IS_LEAF: u32 = 1 << 31;
+
+    pub fn node(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub fn leaf(range: Range<usize>) -> Self {
+        Self(Self::IS_LEAF | (range.start as u32) << 4 | range.len() as u32)
+    }
+}
+
+impl Node {
+    pub const EMPTY: Self = Self {
+        planes: [[Lanes::INFINITY, Lanes::NEG_INFINITY]; 3],
+        children: [Child(Child::IS_LEAF); 4],
+    };
+
+    /// How far off the ray enters each box, and a bit for each it does enter before `limit`.
+    #[inline(always)]
+    fn entries(&self, ray: &Slanted, limit: f32) -> (Lanes, u32) {
+        let mut entry = Lanes::ZERO;
+        let mut exit = Lanes::splat(limit);
+        for axis in 0..3 {
+            let Axis { near, near_start, far_start, reciprocal } = ray.axes[axis];
+            let [near, far] = [self.planes[axis][near], self.planes[axis][1 - near]];
+            entry = entry.max((near - Lanes::splat(near_start)) * reciprocal);
+            exit = exit.min((far - Lanes::splat(far_start)) * reciprocal);
+        }
+        (entry, entry.cmple(exit * OUTWARD).bitmask())
+    }
+}
+
+/// A ray in the tree's space, made for slab tests that err outward only.
+struct Slanted {
+    axes: [Axis; 3],
+}
+
+#[derive(Clone, Copy)]
+struct Axis {
+    /// 0 or 1: which of the two planes comes first.
+    near: usize,
+    /// The start, padded so that the near plane is met sooner, the far plane later.
+    near_start: f32,
+    far_start: f32,
+    reciprocal: f32,
+}
+
+impl Slanted {
+    /// `None` when the ray starts so far off that its crossings mean nothing in `f32`.
+    #[inline(always)]
+    fn new(ray: &Ray, space: &Space) -> Option<Self> {
+        let start = (ray.origin - space.origin) * space.scale;
+        let size = start.abs().max_element();
+        if !(size < FAR) {
+            return None;
+        }
+        // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
+        let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64);
+        let axes = [0, 1, 2].map(|axis| {
+            let reciprocal = (1.0 / ray.direction[axis]).clamp(-STEEPEST, STEEPEST);
+            let padding = start[axis].abs() * f64::from(f32::EPSILON) + least;
+            let padding = padding.copysign(reciprocal);
+            Axis {
+                near: usize::from(reciprocal < 0.0),
+                near_start: (start[axis] + padding) as f32,
+                far_start: (start[axis] - padding) as f32,
+                reciprocal: reciprocal as f32,
+            }
+        });
+        Some(Self { axes })
+    }
+}
+
+impl Space {
+    /// Not under `t` in the tree's space.
+    #[inline]
+    fn limit(&self, t: f64) -> f32 {
+        ((t * self.scale) as f32).next_up()
+    }
+
+    /// The box in the tree's space, rounded outward: `f32`'s neighbour is farther off than what
+    /// the difference in `f64` may be.
+    pub fn outward(&self, bounds: &Bounds) -> [Lanes; 2] {
+        let [low, high] = [bounds.low, bounds.high].map(|p| (p - self.origin) * self.scale);
+        let lanes = |v: Vector, round: fn(f32) -> f32| {
+            Lanes::new(round(v.x as f32), round(v.y as f32), round(v.z as f32), 0.0)
+        };
+        [lanes(low, f32::next_down), lanes(high, f32::next_up)]
+    }
+}
+
+impl Tree {
+    /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before; it
+    /// returns the limit from then on (−∞ ends the search). Near boxes come first.
+    #[inline(always)]
+    pub fn visit(&self, ray: &Ray, limit: f64, mut leaf: impl FnMut(Range<usize>) -> f64) {
+        let Some(slanted) = Slanted::new(ray, &self.space) else {
+            leaf(0..self.count);
+            return;
+        };
+        let mut limit = self.space.limit(limit);
+        let mut stack = [(0.0f32, Child::default()); STACK];
+        let mut waiting = 0;
+        let mut child = Child::node(0);
+        loop {
+            if child.0 & Child::IS_LEAF == 0 {
+                let node = &self.nodes[child.0 as usize];
+                let (entry, mut mask) = node.entries(&slanted, limit);
+                let entry = entry.to_array();
+                let bottom = waiting;
+                while mask != 0 {
+                    let lane = (mask.trailing_zeros() & 3) as usize;
+                    mask &= mask - 1;
+                    // The nearest ends on top.
+                    let mut place = waiting;
+                    while place > bottom && stack[place - 1].0 < entry[lane] {
+                        stack[place] = stack[place - 1];
+                        place -= 1;
+                    }
+                    stack[place] = (entry[lane], node.children[lane]);
+                    waiting += 1;
+                }
+            } else {
+                let start = ((child.0 & !Child::IS_LEAF) >> 4) as usize;
+                limit = self.space.limit(leaf(start..start + (child.0 & 15) as usize));
+            }
+            child = loop {
+                if waiting == 0 {
+                    return;
+                }
+                waiting -= 1;
+                if stack[waiting].0 <= limit {
+                    break stack[waiting].1;
+                }
+            };
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Points of the screen to rays.
+//!
+//! **In:** the World's [`Camera`], the whole picture's size. **Out:** rays of unit direction.
+//! **Invariant:** mirrored points of the screen have exactly mirrored coordinates.
+
+use crate::math::{UnitVector, Vector};
+use crate::shape::Ray;
+use crate::world::{Camera, CameraKind};
+
+/// A camera and the picture it makes.
+pub(super) struct Lens<'a> {
+    pub camera: &'a Camera,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Lens<'_> {
+    /// The ray through sample (`i`, `j`) of the `grid` × `grid` samples of pixel (`x`, `y`), both
+    /// counted from the top left.
+    pub fn ray(&self, (x, y): (u32, u32), (i, j): (u32, u32), grid: u32) -> Ray {
+        let u = centre(x, i, self.width, grid);
+        let v = -centre(y, j, self.height, grid);
+        let Camera { kind, location, forward, right, up } = *self.camera;
+        let on_screen = right * u + up * v;
+        match kind {
+            CameraKind::Perspective => {
+                Ray { origin: location, direction: unit(forward + on_screen) }
+            }
+            CameraKind::Orthographic => {
+                Ray { origin: location + on_screen, direction: unit(forward) }
+            }
+        }
+    }
+}
+
+/// Where the centre of sample `sample` of pixel `pixel` lies between −½ and ½ of a screen `pixels`
+/// wide: (2k + 1 − n) / 2n for the k-th of n, whose numerator is a whole number.
+fn centre(pixel: u32, sample: u32, pixels: u32, grid: u32) -> f64 {
+    let n = f64::from(pixels) * f64::from(grid);
+    let k = f64::from(pixel) * f64::from(grid) + f64::from(sample);
+    (2.0 * k + 1.0 - n) / (2.0 * n)
+}
+
+/// The direction of `v`, also where its square over- or underflows. A screen whose axes are at
+/// right angles to its (non-zero) `forward` has no point in direction zero.
+fn unit(v: Vector) -> Vector {
+    let square = v.length_squared();
+    if square.is_normal() {
+        v / square.sqrt()
+    } else {
+        UnitVector::from_direction(v).map_or(Vector::ZERO, UnitVector::get)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirrored_samples_have_exactly_mirrored_coordinates() {
+        for (pixels, grid) in [(1, 1), (3, 1), (640, 3), (1919, 7)] {
+            for pixel in 0..pixels {
+                for sample in 0..grid {
+                    let here = centre(pixel, sample, pixels, grid);
+                    let there = centre(pixels - 1 - pixel, grid - 1 - sample, pixels, grid);
+                    assert_eq!(here, -there);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_single_sample_is_the_pixels_centre_and_the_top_row_is_up() {
+        let camera = Camera::default();
+        let lens = Lens { camera: &camera, width: 4, height: 2 };
+        let ray = lens.ray((3, 0), (0, 0), 1);
+        let expected = Vector::new(4.0 / 3.0 * 0.375, 0.25, -1.0).normalize();
+        assert!((ray.direction - expected).length() < 1e-15, "{ray:?}");
+    }
+
+    #[test]
+    fn an_orthographic_camera_moves_the_origin_only() {
+        let camera = Camera { kind: CameraKind::Orthographic, ..Camera::default() };
+        let lens = Lens { camera: &camera, width: 2, height: 2 };
+        let ray = lens.ray((0, 1), (0, 0), 1);
+        assert_eq!(ray.direction, -Vector::Z);
+        assert_eq!(ray.origin, Vector::new(-1.0 / 3.0, -0.25, 0.0));
+    }
+}

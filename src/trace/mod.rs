@@ -1,0 +1,161 @@
+//! Gathers the light of a World by its Plan.
+//!
+//! **In:** [`World`], [`Plan`]. **Out:** [`Traced`]. **Invariant:** the film's bits do not depend
+//! on the number of threads, on their timing or on the tiles; nothing is allocated per ray; what
+//! the Plan leaves out costs nothing per ray.
+
+mod antialias;
+mod camera;
+mod highlight;
+mod metal;
+mod path;
+mod pigment;
+mod power;
+mod reflection;
+mod shade;
+mod shadow;
+mod sky;
+mod tiles;
+
+use std::ops::AddAssign;
+
+use crate::color::Rgb;
+use crate::film::Film;
+use crate::plan::{Antialias, Effect, Frame, Plan, Region};
+use crate::shape::Ray;
+use crate::world::World;
+
+use antialias::Shown;
+use camera::Lens;
+use path::{Link, Tracer};
+use tiles::Crew;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TraceOptions {
+    /// `None`: one for each processor.
+    pub threads: Option<usize>,
+}
+
+/// Whoever waits for the film. Called from several threads at once.
+pub trait Watch: Sync {
+    /// `done` of `total` pieces of work are done.
+    fn progress(&self, done: usize, total: usize);
+    /// Asked before each piece; once it says yes, no further piece is begun.
+    fn should_stop(&self) -> bool;
+}
+
+/// Nobody waits.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn progress(&self, _: usize, _: usize) {}
+    fn should_stop(&self) -> bool {
+        false
+    }
+}
+
+/// How much work it was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counters {
+    /// Rays from the camera.
+    pub camera: u64,
+    /// Rays toward lights.
+    pub shadow: u64,
+    /// Mirrored rays.
+    pub reflection: u64,
+}
+
+impl AddAssign for Counters {
+    fn add_assign(&mut self, other: Self) {
+        self.camera += other.camera;
+        self.shadow += other.shadow;
+        self.reflection += other.reflection;
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Traced {
+    pub film: Film,
+    pub counters: Counters,
+    /// False when the watch stopped it: some pixels then have fewer samples, or none.
+    pub complete: bool,
+}
+
+/// What a thread keeps from ray to ray.
+#[derive(Debug, Default)]
+pub(crate) struct Walk {
+    chain: Vec<Link>,
+    counters: Counters,
+}
+
+/// Traces the frame's region.
+///
+/// Adaptive antialiasing passes over the whole film twice: one ray through each pixel's centre
+/// (and through those of a border one pixel wide around a region), then `grid` × `grid` samples
+/// instead in each pixel that differs from a neighbour.
+pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
+    let tracer = Tracer::new(world, plan);
+    let crew = Crew::new(options.threads, watch);
+    // The hot effects, chosen once a frame.
+    match (plan.simulates(Effect::Shadows), plan.simulates(Effect::Reflection)) {
+        (false, false) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<false, false>(w, r)),
+        (false, true) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<false, true>(w, r)),
+        (true, false) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<true, false>(w, r)),
+        (true, true) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<true, true>(w, r)),
+    }
+}
+
+/// Traces the region with one kernel.
+fn frame(
+    tracer: &Tracer,
+    plan: &Plan,
+    crew: &Crew,
+    kernel: impl Fn(&mut Walk, Ray) -> Rgb + Sync,
+) -> Traced {
+    let Frame { width, height, .. } = plan.frame;
+    let lens = Lens { camera: &tracer.world.camera, width, height };
+    let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
+        let radiance = antialias::mean(grid, |i, j| {
+            walk.counters.camera += 1;
+            kernel(walk, lens.ray((x, y), (i, j), grid))
+        });
+        (radiance, grid * grid)
+    };
+    let region = plan.frame.region;
+    let empty =
+        |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
+    match plan.antialias {
+        Antialias::Off | Antialias::Grid(_) => {
+            let grid = if let Antialias::Grid(n) = plan.antialias { n.max(1) } else { 1 };
+            crew.pass(empty(region), region, (0, 1), |walk, x, y| Some(sampled(walk, x, y, grid)))
+        }
+        Antialias::Adaptive { threshold, grid } => {
+            let border = grown(region, width, height);
+            let first =
+                crew.pass(empty(border), border, (0, 2), |walk, x, y| Some(sampled(walk, x, y, 1)));
+            let film = first.film.crop(region);
+            if !first.complete {
+                return Traced { film, ..first };
+            }
+            let shown = Shown::new(&first.film);
+            let mut second = crew.pass(film, region, (1, 2), |walk, x, y| {
+                let edge = shown.is_edge(x, y, threshold);
+                edge.then(|| sampled(walk, x, y, grid.max(1)))
+            });
+            second.counters += first.counters;
+            second
+        }
+    }
+}
+
+/// The region and the pixels around it.
+fn grown(region: Region, width: u32, height: u32) -> Region {
+    let (x, y) = (region.x.saturating_sub(1), region.y.saturating_sub(1));
+    let right = (region.x + region.width + 1).min(width);
+    let bottom = (region.y + region.height + 1).min(height);
+    Region { x, y, width: right - x, height: bottom - y }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! A ray followed through the scene: an explicit chain of surfaces, folded back from the last to
+//! the first.
+//!
+//! **In:** a ray. **Out:** the radiance that comes back along it. **Invariant:** nothing grows on
+//! the call stack; colours are folded, never accumulated into a throughput, so a clamp at each
+//! surface is possible and every kernel rounds alike.
+
+use super::{Walk, pigment, reflection, shade, sky};
+use crate::color::Rgb;
+use crate::geometry::{self, Geometry};
+use crate::plan::{Effect, Plan};
+use crate::shape::Ray;
+use crate::world::{Light, Material, Sky, World};
+
+/// A World as its Plan wants it traced.
+pub(super) struct Tracer<'a> {
+    pub world: &'a World,
+    pub geometry: Geometry,
+    /// One for each of the World's; what the Plan leaves out is absent.
+    pub materials: Vec<Material>,
+    /// Those that shine.
+    pub lights: Vec<Light>,
+    pub sky: Option<&'a Sky>,
+    pub max_trace_level: u32,
+    pub adc_bailout: f64,
+}
+
+/// A surface on a path, waiting for what its mirrored ray sees.
+#[derive(Debug)]
+pub(super) struct Link {
+    /// Everything but reflection.
+    local: Rgb,
+    reflectance: Rgb,
+    exponent: f64,
+    /// The seed's clamp applies.
+    seed: bool,
+}
+
+impl<'a> Tracer<'a> {
+    pub fn new(world: &'a World, plan: &Plan) -> Self {
+        let planned = |material: &Material| {
+            let mut material = material.clone();
+            let finish = &mut material.finish;
+            if !plan.simulates(Effect::Diffuse) {
+                finish.diffuse = 0.0;
+            }
+            if !plan.simulates(Effect::Highlights) {
+                finish.lobes.clear();
+            }
+            if !plan.simulates(Effect::Reflection) {
+                finish.reflection = None;
+            }
+            finish.lobes.retain(|lobe| lobe.weight != 0.0);
+            material
+        };
+        Self {
+            world,
+            geometry: Geometry::build(world),
+            materials: world.materials.iter().map(planned).collect(),
+            lights: world.lights.iter().filter(|light| !light.color.is_black()).copied().collect(),
+            sky: world.sky.as_ref().filter(|_| plan.simulates(Effect::Sky)),
+            max_trace_level: plan.max_trace_level,
+            adc_bailout: plan.adc_bailout,
+        }
+    }
+
+    /// The radiance seen along `ray`.
+    ///
+    /// The weight that `adc_bailout` cuts at is the product of the largest component of each
+    /// reflectance, as in POV-Ray; a seed finish neither lowers it nor is cut by it.
+    pub fn radiance<const SHADOWS: bool, const REFLECTION: bool>(
+        &self,
+        walk: &mut Walk,
+        ray: Ray,
+    ) -> Rgb {
+        let mut ray = ray;
+        let mut weight = 1.0;
+        walk.chain.clear();
+        let mut seen = loop {
+            let level = walk.chain.len() + 1;
+            if level > self.max_trace_level as usize {
+                break Rgb::BLACK;
+            }
+            let Some(hit) = self.geometry.nearest(&ray) else {
+                break sky::seen(self.sky, self.world.background, ray.direction);
+            };
+            let surface = geometry::surface(self.world, &ray, &hit);
+            let object = &self.world.objects[hit.object as usize];
+            let Material { pigment, finish } = &self.materials[object.material as usize];
+            let normal = if hit.leaving { -surface.normal } else { surface.normal };
+            let color = pigment::on_surface(pigment, self.world, object, &surface);
+            let origin = surface.spawn(normal);
+            let to_viewer = -ray.direction;
+            let place =
+                shade::Place { finish, color, point: surface.point, origin, normal, to_viewer };
+            let local = shade::local::<SHADOWS>(self, walk, &place);
+            let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
+            if !REFLECTION {
+                break clamped(local);
+            }
+            let Some(reflection) = &finish.reflection else { break clamped(local) };
+            let reflectance = reflection::reflectance(reflection, color, normal.dot(to_viewer));
+            if !finish.seed {
+                weight *= reflectance.largest();
+            }
+            let cut = !finish.seed && weight < self.adc_bailout;
+            if level == self.max_trace_level as usize || cut || reflectance.is_black() {
+                break clamped(local);
+            }
+            walk.counters.reflection += 1;
+            walk.chain.push(Link {
+                local,
+                reflectance,
+                exponent: reflection.exponent,
+                seed: finish.seed,
+            });
+            ray = Ray { origin, direction: reflection::mirrored(ray.direction, normal) };
+        };
+        while let Some(link) = walk.chain.pop() {
+            seen = link.local + link.reflectance * reflection::adapted(seen, link.exponent);
+            if link.seed {
+                seen = seen.at_most_one();
+            }
+        }
+        seen
+    }
+}

@@ -1,0 +1,82 @@
+//! Where a light stands as seen from a point, and whether anything is between.
+
+use super::Walk;
+use super::path::Tracer;
+use crate::math::{UnitVector, Vector};
+use crate::shape::Ray;
+use crate::world::LightKind;
+
+/// From a point toward a light.
+pub(super) struct Aim {
+    /// Of length 1.
+    pub to_light: Vector,
+    /// What is beyond this distance casts no shadow.
+    pub reach: f64,
+}
+
+/// `None` when the point is the light.
+///
+/// A `parallel` light shines on both sides of its plane; only what stands between the plane and
+/// the point, on the side it shines to, casts a shadow. **Source:** POV-Ray 3.7's behaviour.
+#[inline]
+pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
+    match *light {
+        LightKind::Point { position } => {
+            let way = position - point;
+            let square = way.length_squared();
+            if square.is_normal() {
+                let reach = square.sqrt();
+                Some(Aim { to_light: way / reach, reach })
+            } else {
+                let to_light = UnitVector::from_direction(way)?.get();
+                Some(Aim { to_light, reach: way.dot(to_light) })
+            }
+        }
+        LightKind::Directional { to_light } => {
+            Some(Aim { to_light: to_light.get(), reach: f64::INFINITY })
+        }
+        LightKind::Parallel { position, to_light } => {
+            let to_light = to_light.get();
+            Some(Aim { to_light, reach: (position - point).dot(to_light) })
+        }
+    }
+}
+
+/// Whether something stands between `origin` (just off a surface) and the light.
+pub(super) fn shadowed(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &Aim) -> bool {
+    if aim.reach <= 0.0 {
+        return false;
+    }
+    walk.counters.shadow += 1;
+    let ray = Ray { origin, direction: aim.to_light };
+    tracer.geometry.occluded(&ray, aim.reach)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_on_the_point_itself_has_no_direction() {
+        let light = LightKind::Point { position: Vector::ONE };
+        assert!(aim(&light, Vector::ONE).is_none());
+    }
+
+    #[test]
+    fn a_light_is_found_at_any_distance() {
+        for size in [1e-300, 1e-160, 1.0, 1e160, 1e300] {
+            let light = LightKind::Point { position: Vector::new(3.0, 4.0, 0.0) * size };
+            let aim = aim(&light, Vector::ZERO).expect("not on the light");
+            assert!((aim.to_light - Vector::new(0.6, 0.8, 0.0)).length() < 1e-14);
+            assert!((aim.reach / size - 5.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_parallel_light_reaches_to_its_plane_and_not_behind() {
+        let position = Vector::new(7.0, 2.0, 7.0);
+        let light = LightKind::Parallel { position, to_light: UnitVector::Y };
+        assert_eq!(aim(&light, Vector::ZERO).map(|a| a.reach), Some(2.0));
+        assert_eq!(aim(&light, Vector::Y * 5.0).map(|a| a.reach), Some(-3.0));
+    }
+}

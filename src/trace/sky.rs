@@ -1,0 +1,52 @@
+//! What a ray sees that leaves the scene.
+
+use super::pigment;
+use crate::color::Rgb;
+use crate::math::Vector;
+use crate::world::Sky;
+
+/// The sky's pigments painted one over the other, the last on top and `background` below all: each
+/// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
+/// tinted through its `filter`.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured for each kind of colour, alone and layered.
+pub(super) fn seen(sky: Option<&Sky>, background: Rgb, direction: Vector) -> Rgb {
+    let pigments = sky.iter().flat_map(|sky| &sky.pigments);
+    pigments.fold(background, |below, pigment| {
+        let top = pigment::at(pigment, direction);
+        if top.filter == 0.0 && top.transmit == 0.0 {
+            return top.rgb;
+        }
+        let opacity = 1.0 - top.filter - top.transmit;
+        top.rgb * opacity + below * top.rgb * top.filter + below * top.transmit
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Color;
+    use crate::world::Pigment;
+
+    #[test]
+    fn pigments_cover_what_lies_below_by_filter_and_transmit() {
+        let background = Rgb::new(1.0, 0.5, 0.25);
+        let rgb = Rgb::new(0.2, 0.4, 0.6);
+        let see = |colors: &[Color]| {
+            let pigments = colors.iter().copied().map(Pigment::Color).collect();
+            seen(Some(&Sky { pigments }), background, Vector::Z)
+        };
+        let close =
+            |a: Rgb, b: [f64; 3]| a.components().iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert_eq!(see(&[]), background);
+        assert_eq!(see(&[Color::WHITE, Color::opaque(rgb)]), rgb);
+        // The numbers POV-Ray shows.
+        let transmitting = Color { rgb, filter: 0.0, transmit: 0.5 };
+        assert!(close(see(&[transmitting]), [0.6, 0.45, 0.425]));
+        assert!(close(see(&[transmitting; 2]), [0.4, 0.425, 0.5125]));
+        let filtering = Color { rgb, filter: 0.5, transmit: 0.0 };
+        assert!(close(see(&[filtering]), [0.2, 0.3, 0.375]));
+        let both = Color { rgb, filter: 0.3, transmit: 0.5 };
+        assert!(close(see(&[both]), [0.6, 0.39, 0.29]));
+    }
+}
