@@ -307,6 +307,9 @@ impl Evaluator<'_> {
                 let from = self.sources.get(word_span.file).name.clone();
                 return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
             }
+            Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
+                return self.probe(here, word, word_span, list);
+            }
             _ => {}
         }
         let Some(arity) = builtin::arity(word) else {

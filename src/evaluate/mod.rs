@@ -10,6 +10,7 @@ mod builtin;
 mod directive;
 mod expression;
 mod lint;
+mod probe;
 mod report;
 mod scope;
 mod stream;
@@ -184,6 +185,8 @@ struct Evaluator<'a> {
     macro_depth: u32,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
+    /// What `trace` and its kin have looked at.
+    probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -248,6 +251,7 @@ impl<'a> Evaluator<'a> {
             halted: false,
             macro_depth: 0,
             openers: Vec::new(),
+            probes: HashMap::new(),
         }
     }
 

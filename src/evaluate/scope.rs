@@ -147,6 +147,13 @@ impl Scopes {
         }
     }
 
+    /// Replaces the value of the newest binding, if there is one.
+    pub fn overwrite(&mut self, symbol: Symbol, value: Value) {
+        if let Some(slot) = self.slot(symbol) {
+            self.slots[slot.0 as usize] = value;
+        }
+    }
+
     /// Binds a parameter to a value of its own.
     pub fn bind_value(&mut self, symbol: Symbol, value: Value) {
         let slot = self.new_slot(value);

@@ -279,7 +279,9 @@ mod tests {
 
     #[test]
     fn comparison_is_by_component_and_forgives_decimal_leftovers_only() {
-        let equal = |a, b| binary(BinaryOperator::Equal, a, b);
+        fn equal(a: &Value, b: &Value) -> Result<Value, OperationError> {
+            binary(BinaryOperator::Equal, a, b)
+        }
         assert_eq!(equal(&vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 5.0, 3.0])), Ok(vector(&[1.0, 0.0, 1.0])));
         assert_eq!(equal(&Value::Number(0.1 + 0.2), &Value::Number(0.3)), Ok(Value::truth(true)));
         assert_eq!(equal(&Value::Number(1e-12), &Value::Number(2e-12)), Ok(Value::truth(false)));
