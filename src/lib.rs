@@ -9,7 +9,9 @@
 
 pub mod color;
 pub mod diagnostic;
+pub mod evaluate;
 pub mod film;
+pub mod lower;
 pub mod math;
 pub mod pattern;
 pub mod picture;
@@ -17,4 +19,7 @@ pub mod plan;
 pub mod scene;
 pub mod shape;
 pub mod source;
+pub mod syntax;
+pub mod trace;
+pub mod vocabulary;
 pub mod world;

@@ -102,3 +102,4 @@ impl Plan {
         self.effects.iter().any(|called| called.effect == effect)
     }
 }
+pub fn plan(w: &crate::world::World, _: &crate::world::Origins, o: &PlanOptions) -> Plan { Plan { frame: o.frame, antialias: o.antialias, max_trace_level: w.settings.max_trace_level, adc_bailout: 0.0, effects: vec![], left_out: vec![] } }
