@@ -3,6 +3,8 @@
 //! **Invariant:** the tracer simulates what the Plan names and nothing else; pruning is exact or
 //! not done.
 
+pub mod print;
+
 use crate::source::Site;
 
 /// The whole picture's size and the part of it to trace, in pixels.
@@ -102,4 +104,13 @@ impl Plan {
         self.effects.iter().any(|called| called.effect == effect)
     }
 }
-pub fn plan(w: &crate::world::World, _: &crate::world::Origins, o: &PlanOptions) -> Plan { Plan { frame: o.frame, antialias: o.antialias, max_trace_level: w.settings.max_trace_level, adc_bailout: 0.0, effects: vec![], left_out: vec![] } }
+pub fn plan(w: &crate::world::World, _: &crate::world::Origins, o: &PlanOptions) -> Plan {
+    Plan {
+        frame: o.frame,
+        antialias: o.antialias,
+        max_trace_level: w.settings.max_trace_level,
+        adc_bailout: 0.0,
+        effects: vec![],
+        left_out: vec![],
+    }
+}

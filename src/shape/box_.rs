@@ -29,4 +29,15 @@ pub struct Face {
     /// l: half the distance between the two faces.
     pub half_width: f64,
 }
-impl Box_ { pub fn face(&self, i: usize) -> Face { Face { normal: self.normals[i], centre: self.centre, distance: 0.0, opposite_centre: self.centre, opposite_distance: 0.0, half_width: 0.0 } } }
+impl Box_ {
+    pub fn face(&self, i: usize) -> Face {
+        Face {
+            normal: self.normals[i],
+            centre: self.centre,
+            distance: 0.0,
+            opposite_centre: self.centre,
+            opposite_distance: 0.0,
+            half_width: 0.0,
+        }
+    }
+}
