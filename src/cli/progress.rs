@@ -4,19 +4,22 @@
 
 use std::io::IsTerminal;
 use std::process;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lucarne::trace::Watch;
 
 use super::exit::Exit;
 use super::messages;
+use super::stats::cpu_seconds;
 
 /// Watches one trace.
 pub struct Progress {
     bar: ProgressBar,
     stop: Arc<AtomicBool>,
+    started: f64,
+    built: OnceLock<f64>,
 }
 
 impl Progress {
@@ -41,7 +44,12 @@ impl Progress {
                 process::exit(Exit::Interrupted as i32);
             }
         });
-        Self { bar, stop }
+        Self { bar, stop, started: cpu_seconds(), built: OnceLock::new() }
+    }
+
+    /// CPU seconds from the start until the first piece of work was begun.
+    pub fn build_cpu_seconds(&self) -> f64 {
+        self.built.get().map_or(0.0, |built| built - self.started)
     }
 
     pub fn end(&self) {
@@ -50,12 +58,14 @@ impl Progress {
 }
 
 impl Watch for Progress {
-    fn progress(&self, done: u64, total: u64) {
-        self.bar.set_length(total);
-        self.bar.set_position(done);
+    fn progress(&self, done: usize, total: usize) {
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
     }
 
-    fn stop(&self) -> bool {
+    fn should_stop(&self) -> bool {
+        // The first piece of work is begun when the tree of boxes stands.
+        self.built.get_or_init(cpu_seconds);
         self.stop.load(Ordering::Relaxed)
     }
 }

@@ -60,7 +60,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let threads = arguments.threads.map(usize::from);
     let traced = trace(&world, &plan, &TraceOptions { threads }, &progress);
     progress.end();
-    stats.trace_cpu_s = watch.lap();
+    stats.build_cpu_s = progress.build_cpu_seconds();
+    stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
 
     let cannot = |why| Failure::file(format!("cannot write `{}`: {why}", output.name()));
     let bytes = encode(&develop(&traced.film, depth), format).map_err(cannot)?;

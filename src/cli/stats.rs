@@ -1,5 +1,6 @@
 //! What a render took: CPU seconds of each stage, memory, rays.
 
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use lucarne::trace::Counters;
@@ -86,13 +87,12 @@ pub struct Stopwatch {
 
 impl Stopwatch {
     pub fn start() -> Self {
-        let start = Instant::now();
-        Self { start, last: cpu_seconds(start) }
+        Self { start: Instant::now(), last: cpu_seconds() }
     }
 
     /// CPU seconds since the last call, or since the start.
     pub fn lap(&mut self) -> f64 {
-        let now = cpu_seconds(self.start);
+        let now = cpu_seconds();
         now - std::mem::replace(&mut self.last, now)
     }
 
@@ -101,19 +101,25 @@ impl Stopwatch {
     }
 }
 
-/// CPU seconds of this process.
-#[cfg(unix)]
-fn cpu_seconds(start: Instant) -> f64 {
-    use nix::sys::resource::{UsageWho, getrusage};
-    use nix::sys::time::TimeValLike;
-    let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) else { return start.elapsed().as_secs_f64() };
-    (usage.user_time() + usage.system_time()).num_microseconds() as f64 / 1e6
+/// CPU seconds of this process; where they cannot be had, wall-clock seconds since the first call.
+pub fn cpu_seconds() -> f64 {
+    process_cpu_seconds().unwrap_or_else(|| {
+        static FIRST: OnceLock<Instant> = OnceLock::new();
+        FIRST.get_or_init(Instant::now).elapsed().as_secs_f64()
+    })
 }
 
-/// Where CPU time cannot be had: wall-clock time.
+#[cfg(unix)]
+fn process_cpu_seconds() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    Some((usage.user_time() + usage.system_time()).num_microseconds() as f64 / 1e6)
+}
+
 #[cfg(not(unix))]
-fn cpu_seconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64()
+fn process_cpu_seconds() -> Option<f64> {
+    None
 }
 
 /// The most memory this process has had, in bytes.
