@@ -17,6 +17,7 @@ pub mod math;
 pub mod pattern;
 pub mod picture;
 pub mod plan;
+pub mod road;
 pub mod scene;
 pub mod shape;
 pub mod source;
