@@ -103,7 +103,7 @@ impl<'a> Road<'a> {
 
     pub fn parse(&mut self, file: FileId) -> Ast {
         let Options { dialect, nesting_limit, .. } = self.options;
-        let options = ParseOptions { dialect, nesting_limit };
+        let options = ParseOptions { dialect, nesting_limit: nesting_limit as usize };
         parse(self.sources.get(file), file, &options, &mut self.diagnostics)
     }
 

@@ -165,7 +165,7 @@ impl Evaluator<'_> {
             Ok(text) => Ok(Value::string(text)),
             Err((offset, message)) => {
                 let start = span.start as usize + 1 + offset;
-                let span = Span::new(span.file, start, (start + 2).min(span.end as usize));
+                let span = Span::new(span.file, start, start + 1);
                 let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(span, "this escape");
                 Err(self.report(here, diagnostic))
             }

@@ -451,7 +451,7 @@ vocabulary! {
         Min "min" function built "`min(a, b, …)`: the smallest";
         Mod "mod" function built "`mod(a, b)`: what is left of a / b, with a's sign";
         Pow "pow" function built "`pow(a, b)`: a to the power of b";
-        Prod "prod" function built "`prod(Name, from, to, a)`: the product over a counter, in functions";
+        Prod "prod" function later "`prod(Name, from, to, a)`: the product over a counter, in functions";
         Pwr "pwr" function later "reserved by version 3.7, without a documented meaning";
         Radians "radians" function1 built "`radians(a)`: degrees to radians";
         Rand "rand" function1 built "`rand(stream)`: the next random number of a stream, 0 to 1";
@@ -461,9 +461,9 @@ vocabulary! {
         Sinh "sinh" function1 built "`sinh(a)`: the hyperbolic sine";
         Sqr "sqr" function1 later "reserved by version 3.7: the square of a number";
         Sqrt "sqrt" function1 built "`sqrt(a)`: the square root; a ≥ 0";
-        Strcmp "strcmp" function built "`strcmp(a, b)`: -1, 0 or 1 as a stands before, at or after b";
+        Strcmp "strcmp" function built "`strcmp(a, b)`: below, at or above 0 as a stands before, at or after b";
         Strlen "strlen" function1 built "`strlen(string)`: how many characters it has";
-        Sum "sum" function built "`sum(Name, from, to, a)`: the sum over a counter, in functions";
+        Sum "sum" function later "`sum(Name, from, to, a)`: the sum over a counter, in functions";
         Tan "tan" function1 built "`tan(a)`: the tangent of an angle in radians";
         Tanh "tanh" function1 built "`tanh(a)`: the hyperbolic tangent";
         Val "val" function1 built "`val(string)`: the number a string writes";
