@@ -80,7 +80,7 @@ pub fn arity(word: Word) -> Option<RangeInclusive<usize>> {
 
 /// The value of `word(arguments…)`.
 ///
-/// Anything done with a poison value is that poison again.
+/// Anything done with a poison or broken value is that value again.
 ///
 /// # Errors
 /// As [`CallErrorKind`] lists them.
@@ -99,8 +99,9 @@ pub fn call(
     };
     let arguments = Arguments { word, values: arguments };
     arguments.expect_count(&function.arity)?;
-    if let Some(poison) = arguments.values.iter().find(|v| matches!(v, Value::Poison(_))) {
-        return Ok(poison.clone());
+    let lost = |value: &&Value| matches!(value, Value::Poison(_) | Value::Broken);
+    if let Some(lost) = arguments.values.iter().find(lost) {
+        return Ok(lost.clone());
     }
     let value = match function.body {
         Body::Plain(f) => Value::Number(f(arguments.number(0)?)),
