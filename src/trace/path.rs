@@ -114,7 +114,8 @@ impl<'a> Tracer<'a> {
             ray = Ray { origin, direction: reflection::mirrored(ray.direction, normal) };
         };
         while let Some(link) = walk.chain.pop() {
-            seen = link.local + link.reflectance * reflection::adapted(seen, link.exponent);
+            let seen_here = reflection::adapted(seen, link.exponent);
+            seen = link.local + reflection::passed_on(link.reflectance, seen_here);
             if link.seed {
                 seen = seen.at_most_one();
             }
