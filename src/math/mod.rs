@@ -6,6 +6,8 @@
 
 pub mod elementary;
 pub mod placement;
+#[cfg(test)]
+pub(crate) mod random;
 pub mod transform;
 pub mod vector;
 
