@@ -7,6 +7,8 @@
 pub mod double;
 pub mod elementary;
 pub mod placement;
+#[cfg(test)]
+pub(crate) mod random;
 pub mod transform;
 pub mod vector;
 

@@ -11,7 +11,8 @@ use crate::world::{Light, Material, Origins, Pigment, World};
 /// Lists every effect the picture needs with what called for it, and every one it does not need
 /// with the reason.
 pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
-    let max_trace_level = options.depth.unwrap_or(world.settings.max_trace_level);
+    // As POV-Ray: 0 still follows the camera's ray.
+    let max_trace_level = options.depth.unwrap_or(world.settings.max_trace_level).max(1);
     let mut plan = Plan {
         frame: options.frame,
         antialias: options.antialias,
@@ -108,8 +109,7 @@ impl Census<'_> {
         }
         if plan.max_trace_level <= 1 {
             let site = self.origins.max_trace_level.filter(|_| options.depth.is_none());
-            let why = format!("only {} is followed", surfaces(plan.max_trace_level));
-            return because(&why, site);
+            return because("`max_trace_level` is 1: a ray ends at the first surface", site);
         }
         let cost = format!("up to {} more rays a camera ray", plan.max_trace_level - 1);
         Ok((self.material_sites(reflects), cost))
@@ -198,6 +198,174 @@ fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-fn surfaces(levels: u32) -> String {
-    if levels == 0 { "no surface".to_owned() } else { count(levels as usize, "surface") }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{Color, Rgb};
+    use crate::math::Vector;
+    use crate::plan::Frame;
+    use crate::shape::{Shape, Sphere};
+    use crate::source::{ExpansionId, FileId, Span};
+    use crate::world::{Dropped, Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky};
+
+    fn site(place: usize) -> Site {
+        Site { span: Span::new(FileId(0), place, place + 1), expansion: ExpansionId::MAIN }
+    }
+
+    /// A mirroring, shining sphere (material called for at 10) under a lamp (at 20).
+    fn lit_mirror() -> (World, Origins) {
+        let part = Rgb::gray(0.5);
+        let lobe = Lobe { kind: LobeKind::Phong, weight: 0.5, exponent: 9.0, metallic: 0.0 };
+        let finish = Finish {
+            glow: Rgb::BLACK,
+            diffuse: 0.5,
+            brilliance: 1.0,
+            lobes: vec![lobe],
+            reflection: Some(Reflection {
+                minimum: part,
+                maximum: part,
+                falloff: 1.0,
+                exponent: 1.0,
+                metallic: 0.0,
+            }),
+            seed: false,
+        };
+        let world = World {
+            spheres: vec![Sphere { centre: Vector::ZERO, radius: 1.0 }],
+            objects: vec![Object {
+                shape: Shape::Sphere(0),
+                material: 0,
+                texture_from_world: None,
+                faces: None,
+                casts_shadow: true,
+                inverse: false,
+            }],
+            materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
+            lights: vec![Light {
+                kind: LightKind::Point { position: Vector::Y },
+                color: Rgb::WHITE,
+                casts_shadows: true,
+            }],
+            ..World::default()
+        };
+        let origins = Origins {
+            objects: vec![site(1)],
+            lights: vec![site(20)],
+            materials: vec![Some(site(10))],
+            max_trace_level: Some(site(30)),
+            ..Origins::default()
+        };
+        (world, origins)
+    }
+
+    const OPTIONS: PlanOptions =
+        PlanOptions { frame: Frame::whole(4, 3), antialias: Antialias::Off, depth: None };
+
+    /// Changes the lit mirror and asks why the effect is left out.
+    fn why_not(effect: Effect, change: impl FnOnce(&mut World)) -> (String, Option<Site>) {
+        let (mut world, origins) = lit_mirror();
+        change(&mut world);
+        let plan = plan(&world, &origins, &OPTIONS);
+        assert!(!plan.simulates(effect));
+        let left_out = plan.left_out.into_iter().find(|left| left.what == effect.name());
+        left_out.map(|left| (left.why, left.site)).expect("named")
+    }
+
+    #[test]
+    fn every_effect_is_either_called_for_or_left_out_with_a_reason() {
+        let (world, origins) = lit_mirror();
+        let plan = plan(&world, &origins, &OPTIONS);
+        for effect in Effect::ALL {
+            let left_out = plan.left_out.iter().any(|left| left.what == effect.name());
+            assert_ne!(plan.simulates(effect), left_out, "{effect:?}");
+        }
+        let called: Vec<_> = plan.effects.iter().map(|c| (c.effect, c.by.as_slice())).collect();
+        let expected: [(Effect, &[Site]); 4] = [
+            (Effect::Diffuse, &[site(10)]),
+            (Effect::Highlights, &[site(10)]),
+            (Effect::Shadows, &[site(20)]),
+            (Effect::Reflection, &[site(10)]),
+        ];
+        assert_eq!(called, expected);
+    }
+
+    #[test]
+    fn shadows_are_left_out_for_the_reason_that_holds() {
+        let why = |change: &dyn Fn(&mut World)| why_not(Effect::Shadows, change).0;
+        assert_eq!(why(&|w| w.lights.clear()), "no light");
+        assert_eq!(why(&|w| w.lights[0].color = Rgb::BLACK), "no light");
+        assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "all lights are shadowless");
+        assert_eq!(why(&|w| w.objects[0].casts_shadow = false), "no object casts a shadow");
+        let dull = |w: &mut World| {
+            w.materials[0].finish.diffuse = 0.0;
+            w.materials[0].finish.lobes.clear();
+        };
+        assert_eq!(why(&dull), "no surface answers a light");
+    }
+
+    #[test]
+    fn highlights_need_a_lobe_and_a_light_that_makes_them() {
+        let why = |change: &dyn Fn(&mut World)| why_not(Effect::Highlights, change).0;
+        assert_eq!(
+            why(&|w| w.materials[0].finish.lobes[0].weight = 0.0),
+            "no surface has a highlight"
+        );
+        assert_eq!(
+            why(&|w| w.lights[0].casts_shadows = false),
+            "shadowless lights make no highlight"
+        );
+        let (mut world, origins) = lit_mirror();
+        world.lights[0].casts_shadows = false;
+        world.materials[0].finish.seed = true;
+        assert!(plan(&world, &origins, &OPTIONS).simulates(Effect::Highlights));
+    }
+
+    #[test]
+    fn reflection_needs_a_surface_that_reflects_and_a_second_level() {
+        let black = |w: &mut World| {
+            let reflection = w.materials[0].finish.reflection.as_mut().expect("one");
+            (reflection.minimum, reflection.maximum) = (Rgb::BLACK, Rgb::BLACK);
+        };
+        assert_eq!(why_not(Effect::Reflection, black), ("no surface reflects".to_owned(), None));
+        let (why, at) = why_not(Effect::Reflection, |w| w.settings.max_trace_level = 0);
+        assert_eq!((why.contains("`max_trace_level` is 1"), at), (true, Some(site(30))));
+        // The caller's depth overrides the scene's, both ways, and then the scene is not to blame.
+        let (mut world, origins) = lit_mirror();
+        world.settings.max_trace_level = 1;
+        let deep = plan(&world, &origins, &PlanOptions { depth: Some(3), ..OPTIONS });
+        assert!(deep.simulates(Effect::Reflection) && deep.max_trace_level == 3);
+        let flat = plan(&world, &origins, &PlanOptions { depth: Some(1), ..OPTIONS });
+        let reason = flat.left_out.iter().find(|left| left.what == "reflection").expect("named");
+        assert_eq!(reason.site, None);
+    }
+
+    #[test]
+    fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
+        let (mut world, mut origins) = lit_mirror();
+        origins.sky = Some(site(40));
+        world.sky = Some(Sky {
+            pigments: vec![Pigment::Patterned {
+                pattern: crate::pattern::Pattern::Checker,
+                pattern_from_texture: crate::math::placement::Map::IDENTITY,
+                map: vec![(0.0, Color::WHITE)],
+            }],
+        });
+        let plan = plan(&world, &origins, &OPTIONS);
+        for effect in [Effect::Sky, Effect::Patterns] {
+            let called = plan.effects.iter().find(|called| called.effect == effect);
+            assert_eq!(called.map(|called| called.by.clone()), Some(vec![site(40)]));
+        }
+    }
+
+    #[test]
+    fn single_lights_and_what_lowering_dropped_are_listed_with_their_places() {
+        let (mut world, mut origins) = lit_mirror();
+        world.lights.push(Light { color: Rgb::BLACK, ..world.lights[0] });
+        world.lights.push(Light { casts_shadows: false, ..world.lights[0] });
+        origins.lights.extend([site(21), site(22)]);
+        origins.dropped.push(Dropped { site: site(50), why: "nothing is in it".to_owned() });
+        let plan = plan(&world, &origins, &OPTIONS);
+        let sites = plan.left_out.iter().filter_map(|left| left.site);
+        assert_eq!(sites.collect::<Vec<_>>(), [site(21), site(22), site(50)]);
+    }
 }

@@ -19,7 +19,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    pub fn whole(width: u32, height: u32) -> Self {
+    pub const fn whole(width: u32, height: u32) -> Self {
         Self { width, height, region: Region { x: 0, y: 0, width, height } }
     }
 }

@@ -40,8 +40,8 @@ impl Box_ {
 
     /// The point where `ray` enters or leaves, put onto the face it crosses there.
     ///
-    /// Its distance to the face is at most u·(8·|N|·|P − C| + 2·l) and twice u·|N|·|P|; the same
-    /// again is for the start of the next ray and its reading by [`slabs`].
+    /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) and u·|N|·|P|; the same again is
+    /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l) for its reading by [`slabs`].
     pub fn surface(&self, ray: &Ray, crossing: &Crossing, leaving: bool) -> SurfacePoint {
         let normals = self.normals.map(UnitVector::get);
         let face = match slabs(self.centre, normals, self.half_widths, ray) {
@@ -55,8 +55,8 @@ impl Box_ {
         let rough = (ray.origin - self.centre) + ray.direction * crossing.t;
         let local = rough - normal * (normal.dot(rough) - half_width);
         let point = self.centre + local;
-        let error =
-            U * (16.0 * normal.abs_dot(local) + 4.0 * half_width + 4.0 * normal.abs_dot(point));
+        let reach = local.abs().element_sum();
+        let error = U * (24.0 * reach + 12.0 * half_width + 2.0 * normal.abs_dot(point));
         SurfacePoint { point, normal, error, face }
     }
 
@@ -133,12 +133,14 @@ pub struct Slabs<R: Real = f64> {
 /// A line through three slabs; `None` when it misses their common part.
 ///
 /// With f = S − C, a = N·f, v = N·D a slab is entered at (−l·sgn v − a)/v and left at
-/// (l·sgn v − a)/v; a line along a slab (v not to be told
-/// from ±0) is in it or misses. Where entry and exit are
-/// closer than their errors, at an edge, the line counts as through: boxes that share a face leave
-/// no gap between them. An edge belongs to the first of its faces.
+/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it) is in it or misses. The
+/// box is entered where the last slab is, left where the first is; where these are closer than
+/// their errors, at an edge, the line counts as through: boxes that share a face leave no gap
+/// between them. An edge belongs to the first of its faces.
 ///
-/// **Error:** that of a plane: a by u·(5·|N|·|f| + 2·l), v by 4u·|N|·|D|.
+/// **Error:** a is off by u·(5·|f|₁ + l), v by 4u·|N|·|D| ≤ 4u, and 1/v, the difference and the
+/// product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l) + 8u·|t|) / |v|. The last entry lies
+/// between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
 ///
 /// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
 #[inline]
@@ -151,55 +153,76 @@ pub fn slabs<R: Real>(
     let number = R::from_f64;
     let u = R::UNIT_ROUNDOFF;
     let start = ray.origin - centre;
-    let place_error = |axis: usize| {
-        u * (number(5.0) * normals[axis].abs_dot(start) + number(2.0) * half_widths[axis])
-    };
-    let speed_error = |axis: usize| number(4.0) * u * normals[axis].abs_dot(ray.direction);
-    // No `speed_error` is more.
-    let parallel = number(8.0) * u;
-    let (mut enter, mut leave) = (R::NEG_INFINITY, R::INFINITY);
-    let (mut enter_axis, mut leave_axis) = (0, 0);
-    let mut speeds = [R::ZERO; 3];
+    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+    let mut enter =
+        End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
+    let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
     for axis in 0..3 {
         let place = normals[axis].dot(start);
         let speed = normals[axis].dot(ray.direction);
         let half_width = half_widths[axis];
-        speeds[axis] = speed;
-        if speed.abs() <= parallel && speed.abs() <= speed_error(axis) {
-            if place.abs() - half_width > place_error(axis) {
-                return None;
+        let place_error = u * (number(6.0) * reach + number(3.0) * half_width);
+        let mut speed_error = number(8.0) * u;
+        if speed.abs() <= number(STEEP) {
+            // A normal along an axis has an exact speed, however small.
+            speed_error = speed_error * normals[axis].abs_dot(ray.direction);
+            if speed.abs() <= number(4.0) * speed_error || speed.abs() <= number(LEVEL) {
+                if place.abs() - half_width > place_error {
+                    return None;
+                }
+                continue;
             }
-            continue;
         }
-        let side = if speed < R::ZERO { -half_width } else { half_width };
-        let (near, far) = ((-side - place) / speed, (side - place) / speed);
-        if near > enter {
-            (enter, enter_axis) = (near, axis);
+        let reciprocal = R::ONE / speed;
+        let rising = speed > R::ZERO;
+        let side = if rising { half_width } else { -half_width };
+        let error = |t: R| (place_error + speed_error * t.abs()) * reciprocal.abs();
+        let (first, second) =
+            (2 * axis as u32 + u32::from(rising), 2 * axis as u32 + u32::from(!rising));
+
+        let near = (-side - place) * reciprocal;
+        let near_error = error(near);
+        enter.least = enter.least.max(near - near_error);
+        enter.most = enter.most.max(near + near_error);
+        if near > enter.t {
+            (enter.t, enter.face) = (near, first);
         }
-        if far < leave {
-            (leave, leave_axis) = (far, axis);
+        let far = (side - place) * reciprocal;
+        let far_error = error(far);
+        leave.least = leave.least.min(far - far_error);
+        leave.most = leave.most.min(far + far_error);
+        if far < leave.t {
+            (leave.t, leave.face) = (far, second);
         }
     }
-    let crossing = |t: R, axis: usize| {
-        Crossing::at_quotient(t, place_error(axis), speeds[axis], speed_error(axis))
-    };
-    if enter == R::NEG_INFINITY || leave == R::INFINITY || enter == R::INFINITY {
-        // Only a ray along every slab, or whose crossings are past all numbers.
+    // Past all numbers when the ray moves along every slab.
+    let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
+    if !met {
         return None;
     }
-    let entering = crossing(enter, enter_axis);
-    let mut leaving = crossing(leave, leave_axis);
-    if enter > leave {
-        if enter - leave > entering.error + leaving.error {
-            return None;
-        }
-        leaving = Crossing { t: enter, error: entering.error + leaving.error };
-    }
-    let face = |axis: usize, outward: bool| 2 * axis as u32 + u32::from(!outward);
+    leave.t = leave.t.max(enter.t);
     Some(Slabs {
-        enter: entering,
-        leave: leaving,
-        enter_face: face(enter_axis, speeds[enter_axis] < R::ZERO),
-        leave_face: face(leave_axis, speeds[leave_axis] > R::ZERO),
+        enter: enter.crossing(),
+        leave: leave.crossing(),
+        enter_face: enter.face,
+        leave_face: leave.face,
     })
+}
+
+/// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
+const STEEP: f64 = 1.0 / 1_048_576.0;
+/// Slower than this a ray is along the slab: the speed has no reciprocal.
+const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
+
+struct End<R: Real> {
+    t: R,
+    least: R,
+    most: R,
+    face: u32,
+}
+
+impl<R: Real> End<R> {
+    fn crossing(&self) -> Crossing<R> {
+        Crossing { t: self.t, error: (self.t - self.least).max(self.most - self.t) }
+    }
 }

@@ -88,26 +88,6 @@ impl<R: Real> Crossing<R> {
     pub const BEFORE_ALL: Self = Self { t: R::NEG_INFINITY, error: R::ZERO };
     pub const BEYOND_ALL: Self = Self { t: R::INFINITY, error: R::ZERO };
 
-    /// The crossing of a flat surface: `place / speed`, each off by at most its error.
-    #[inline]
-    fn quotient(place: R, place_error: R, speed: R, speed_error: R) -> Self {
-        Self::at_quotient(place / speed, place_error, speed, speed_error)
-    }
-
-    /// As [`Crossing::quotient`], `t` being known: (α + |t|·ν) / (|v| − ν) + 2u·|t|, infinite when
-    /// the speed v cannot be told from 0.
-    #[inline]
-    fn at_quotient(t: R, place_error: R, speed: R, speed_error: R) -> Self {
-        let sure_speed = speed.abs() - speed_error;
-        let error = if sure_speed > R::ZERO {
-            (place_error + t.abs() * speed_error) / sure_speed
-                + R::from_f64(2.0) * R::UNIT_ROUNDOFF * t.abs()
-        } else {
-            R::INFINITY
-        };
-        Self { t, error }
-    }
-
     /// Certainly ahead of the ray's start, at a finite distance. A crossing that cannot be told
     /// from the start is the surface the ray starts on.
     #[inline]
@@ -167,5 +147,7 @@ impl Bounds {
 /// The roundoff of `f64`, 2⁻⁵³.
 const U: f64 = f64::EPSILON / 2.0;
 
+#[cfg(test)]
+mod exact;
 #[cfg(test)]
 mod tests;

@@ -40,28 +40,30 @@ impl Plane {
 }
 
 /// The part of the ray's line inside the half space: from −∞, or to +∞, or both when the line runs
-/// inside and parallel. A line in the plane itself, or outside and parallel, misses.
+/// inside and parallel (v not to be told from ±0). In the plane itself, or outside, it misses.
 ///
 /// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by
 /// ν = 4u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
-/// (α + |t|·ν) / (|v| − ν) + 2u·|t|; infinite when v cannot be told from 0, and such a crossing is
-/// never ahead of anything.
+/// (α + |t|·ν) / (|v| − ν) + 2u·|t|.
 ///
 /// **Source:** γₙ bounds: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §3.1.
 #[inline]
 pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Chord<R>> {
     let number = R::from_f64;
+    let u = R::UNIT_ROUNDOFF;
     let inside = distance - normal.dot(ray.origin);
     let speed = normal.dot(ray.direction);
-    if speed == R::ZERO {
+    let speed_error = number(4.0) * u * normal.abs_dot(ray.direction);
+    if speed.abs() <= speed_error {
         let whole = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
         return (inside > R::ZERO).then_some(whole);
     }
-    let u = R::UNIT_ROUNDOFF;
     let inside_error =
         u * (number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs());
-    let speed_error = number(4.0) * u * normal.abs_dot(ray.direction);
-    let crossing = Crossing::quotient(inside, inside_error, speed, speed_error);
+    let t = inside / speed;
+    let error = (inside_error + t.abs() * speed_error) / (speed.abs() - speed_error)
+        + number(2.0) * u * t.abs();
+    let crossing = Crossing { t, error };
     Some(if speed < R::ZERO {
         Chord { enter: crossing, leave: Crossing::BEYOND_ALL }
     } else {

@@ -1,1 +1,374 @@
+use super::exact::{self, Double};
 use super::*;
+use crate::math::placement::Placement;
+use crate::math::random::{Random, long};
+use crate::math::{Matrix, UnitVector};
+
+const EPS: f64 = f64::EPSILON;
+
+/// A ray aimed at or near a thing of a given size, from `far` sizes away.
+fn ray_at(random: &mut Random, centre: Vector, size: f64, far: f64) -> Ray {
+    let origin = centre + random.direction().get() * (size * far);
+    let reach = size * [0.5, 1.0, 1.2][random.below(3)];
+    let target = centre + random.direction().get() * reach;
+    let direction = UnitVector::from_direction(target - origin).unwrap_or(UnitVector::Z).get();
+    Ray { origin, direction }
+}
+
+fn assert_within(crossing: Crossing, exact: Double, what: impl std::fmt::Debug) {
+    let off = (Double::of(crossing.t) - exact).abs().0;
+    assert!(off <= crossing.error, "off by {off:e}, claimed {:e}: {what:?}", crossing.error);
+}
+
+#[test]
+fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
+    let mut random = Random(1);
+    for _ in 0..50_000 * long() {
+        let radius = random.size(-150.0, 150.0);
+        let far = random.size(-1.0, 8.0);
+        let centre = random.direction().get() * (radius * random.size(-8.0, 3.0));
+        let ray = ray_at(&mut random, centre, radius, far);
+        let sphere = Sphere { centre, radius };
+        let (share, roots) = exact::sphere(centre, radius, &ray);
+        match (sphere.chord(&ray), roots) {
+            (Some(chord), Some([enter, leave])) => {
+                assert_within(chord.enter, enter, (sphere, ray, share));
+                assert_within(chord.leave, leave, (sphere, ray, share));
+                assert!(chord.enter.t <= chord.leave.t);
+                // And the claim is not idle.
+                let blur = 30.0 * EPS * (far + 1.0);
+                let fair = blur * (1.0 + (1.0 / share.sqrt()).min(1.0 / blur.sqrt()));
+                let claimed = chord.leave.error.max(chord.enter.error) / radius;
+                assert!(claimed <= 4.0 * fair.max(blur), "{claimed:e} {far:e} {share:e} {ray:?}");
+            }
+            (None, None) => {}
+            (found, _) => assert!(
+                share.abs() <= 16.0 * EPS * (far + 2.0),
+                "{found:?}, h²/r² = {share:e}, {far:e} radii away"
+            ),
+        }
+    }
+}
+
+fn random_plane(random: &mut Random) -> (UnitVector, f64) {
+    let normal = match random.below(3) {
+        0 => [UnitVector::X, UnitVector::Y, -UnitVector::Z][random.below(3)],
+        _ => random.direction(),
+    };
+    (normal, random.number(-1.0, 1.0) * random.size(-8.0, 8.0))
+}
+
+#[test]
+fn a_plane_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(2);
+    let mut told = 0;
+    for _ in 0..50_000 * long() {
+        let (normal, distance) = random_plane(&mut random);
+        let reach = random.size(-8.0, 8.0);
+        let mut direction = random.direction().get();
+        if random.below(2) == 0 {
+            // Nearly along the plane.
+            let off =
+                normal.get() * (direction.dot(normal.get()) * (1.0 - random.size(-16.0, 0.0)));
+            direction = UnitVector::from_direction(direction - off).unwrap_or(normal).get();
+        }
+        let ray = Ray { origin: random.point(reach), direction };
+        let exact = exact::plane(normal.get(), distance, &ray);
+        let chord = Plane { normal, distance }.chord(&ray);
+        let Some(Chord { enter, leave }) = chord else { continue };
+        let crossing = if enter.t.is_finite() { enter } else { leave };
+        if crossing.t.is_finite() && crossing.error < crossing.t.abs() {
+            told += 1;
+            assert_within(crossing, exact, (normal, distance, ray));
+        }
+    }
+    assert!(told > 40_000, "{told} crossings told from the start");
+}
+
+#[test]
+fn a_ray_along_a_plane_is_inside_or_misses() {
+    let plane = Plane { normal: UnitVector::Y, distance: 1.0 };
+    for zero in [0.0, -0.0] {
+        let chord = |y| {
+            let direction = Vector::new(1.0, zero, 0.0);
+            plane.chord(&Ray { origin: Vector::new(0.0, y, 0.0), direction })
+        };
+        assert_eq!(chord(1.0), None);
+        assert_eq!(chord(2.0), None);
+        let through = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
+        assert_eq!(chord(0.5), Some(through));
+    }
+    // A slope of 1e-320 is a slope.
+    let ray = Ray { origin: Vector::Y * 1.5, direction: Vector::new(1.0, -1e-300, 0.0) };
+    let enter = plane.chord(&ray).map(|chord| chord.enter);
+    assert!(enter.is_some_and(|enter| enter.is_ahead() && enter.t > 1e299), "{enter:?}");
+}
+
+fn random_box(random: &mut Random) -> Box_ {
+    let size = random.size(-8.0, 8.0);
+    let normals = loop {
+        let normals = match random.below(3) {
+            0 => [UnitVector::X, -UnitVector::Y, UnitVector::Z],
+            1 => {
+                let a = random.direction().get();
+                let b = a.cross(random.direction().get());
+                let Some(b) = UnitVector::from_direction(b) else { continue };
+                let Some(c) = UnitVector::from_direction(a.cross(b.get())) else { continue };
+                [UnitVector::from_unit(a), b, c]
+            }
+            _ => [random.direction(), random.direction(), random.direction()],
+        };
+        let [a, b, c] = normals.map(UnitVector::get);
+        if a.dot(b.cross(c)).abs() > 1e-3 {
+            break normals;
+        }
+    };
+    let half_widths =
+        [0; 3].map(|_| if random.below(20) == 0 { 0.0 } else { size * random.size(-3.0, 0.0) });
+    let centre = random.direction().get() * (size * random.size(-8.0, 4.0));
+    Box_ { centre, normals, half_widths }
+}
+
+/// A point in or on the box: each coordinate inside, on a face, or in the middle.
+fn point_of(random: &mut Random, box_: &Box_) -> Vector {
+    let edges = [0, 1, 2].map(|axis| box_.face(axis).centre - box_.centre);
+    edges.into_iter().fold(box_.centre, |sum, edge| {
+        sum + edge * [-1.0, 0.0, 1.0, random.number(-1.1, 1.1)][random.below(4)]
+    })
+}
+
+#[test]
+fn a_box_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(3);
+    let (mut hits, mut misses) = (0, 0);
+    for _ in 0..50_000 * long() {
+        let box_ = random_box(&mut random);
+        let size = box_.half_widths.iter().copied().fold(0.0, f64::max);
+        let target = point_of(&mut random, &box_);
+        let origin = target + random.direction().get() * (size * random.size(-1.0, 5.0));
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let [enter, leave] = exact::slabs(&box_, &ray);
+        match box_.chord(&ray) {
+            Some(chord) => {
+                hits += 1;
+                let slack = chord.enter.error + chord.leave.error;
+                assert!((leave - enter).0 >= -slack, "a false hit of {box_:?} {ray:?}");
+                if chord.enter.t < chord.leave.t {
+                    assert_within(chord.enter, enter, (box_, ray));
+                    assert_within(chord.leave, leave, (box_, ray));
+                }
+            }
+            None => {
+                misses += 1;
+                assert!((leave - enter).0 <= 0.0, "a hole in {box_:?} {ray:?}");
+            }
+        }
+    }
+    assert!(hits > 20_000 && misses > 1_000, "{hits} hits, {misses} misses");
+}
+
+#[test]
+fn a_box_answers_structured_rays_without_a_nan() {
+    let cube = Box_ {
+        centre: Vector::ZERO,
+        normals: [UnitVector::X, UnitVector::Y, UnitVector::Z],
+        half_widths: [1.0; 3],
+    };
+    let places = [-2.0, -1.0, -0.0, 0.0, 0.5, 1.0, 2.0];
+    let slopes = [-1.0, -1e-310, -1e-160, -0.0, 0.0, 1e-300, 1e-17, 1.0];
+    let mut random = Random(4);
+    for _ in 0..100_000 * long() {
+        let origin = Vector::from_array([0; 3].map(|_| places[random.below(7)]));
+        let v = Vector::from_array([0; 3].map(|_| slopes[random.below(8)]));
+        let Some(direction) = UnitVector::from_direction(v) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let Some(chord) = cube.chord(&ray) else { continue };
+        assert!(!chord.enter.t.is_nan() && !chord.leave.t.is_nan(), "{ray:?} {chord:?}");
+        assert!(!chord.enter.error.is_nan() && !chord.leave.error.is_nan(), "{ray:?} {chord:?}");
+        assert!(chord.enter.t <= chord.leave.t, "{ray:?} {chord:?}");
+        for (crossing, leaving) in [(chord.enter, false), (chord.leave, true)] {
+            if crossing.t.abs() < 1e10 {
+                let surface = cube.surface(&ray, &crossing, leaving);
+                let above = exact::above_face(&cube, surface.face, surface.point);
+                assert!(above.abs() <= surface.error && surface.point.is_finite(), "{ray:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wall_of_boxes_has_no_holes_where_they_touch() {
+    let mut random = Random(5);
+    for _ in 0..20_000 * long() {
+        let [a, b, c] = [0; 3].map(|_| random.direction());
+        let size = random.size(-4.0, 4.0);
+        let half_widths = [size; 3];
+        let left = Box_ { centre: random.point(1e3), normals: [a, b, c], half_widths };
+        let seam = left.face(0).centre;
+        let right = Box_ { centre: seam + (seam - left.centre), ..left };
+        let target =
+            seam + b.get().cross(c.get()).cross(a.get()) * (size * random.number(-0.3, 0.3));
+        let origin = target + random.direction().get() * (size * 20.0);
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        // The right box's centre was rounded: as far as that opens a gap it is a gap.
+        let gap =
+            exact::above_face(&right, 1, seam).abs() + exact::above_face(&left, 0, seam).abs();
+        if gap < 1e-13 * size {
+            assert!(left.chord(&ray).is_some() || right.chord(&ray).is_some(), "{left:?} {ray:?}");
+        }
+    }
+}
+
+fn random_ellipsoid(random: &mut Random) -> Ellipsoid {
+    let size = random.size(-6.0, 6.0);
+    let stretch = Vector::from_array([0; 3].map(|_| random.size(-2.0, 1.0)));
+    let world_from_local = random.matrix() * Matrix::from_diagonal(stretch * size);
+    let centre = random.direction().get() * (size * random.size(-8.0, 4.0));
+    let local_from_world = world_from_local.inverse();
+    Ellipsoid { placement: Placement { centre, world_from_local, local_from_world } }
+}
+
+#[test]
+fn an_ellipsoid_is_hit_where_exact_arithmetic_hits_it() {
+    let mut random = Random(6);
+    let (mut hits, mut misses) = (0, 0);
+    for _ in 0..50_000 * long() {
+        let ellipsoid = random_ellipsoid(&mut random);
+        let Placement { centre, world_from_local, .. } = ellipsoid.placement;
+        let target = centre + world_from_local * (random.direction().get() * 1.05);
+        let far = random.size(-1.0, 6.0);
+        let size = world_from_local.x_axis.length();
+        let origin = target + random.direction().get() * (size * far);
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let (share, roots) = exact::ellipsoid(&ellipsoid.placement, &ray);
+        match (ellipsoid.chord(&ray), roots) {
+            (Some(chord), Some([enter, leave])) => {
+                hits += 1;
+                assert_within(chord.enter, enter, (ellipsoid, ray));
+                assert_within(chord.leave, leave, (ellipsoid, ray));
+            }
+            (None, None) => misses += 1,
+            _ => assert!(share.abs() < 1e5 * EPS * (far + 1.0), "{share:e} {far:e}"),
+        }
+    }
+    assert!(hits > 10_000 && misses > 1_000, "{hits} hits, {misses} misses");
+}
+
+/// The ways a ray may go on from a surface: anywhere, nearly along it, straight up.
+fn onward(random: &mut Random, normal: Vector) -> Vector {
+    let across = normal.cross(random.direction().get());
+    let steep = [random.number(-1.0, 1.0), random.size(-18.0, -1.0), -random.size(-18.0, -1.0)];
+    let v = across + normal * steep[random.below(3)];
+    [random.direction().get(), v, normal, v][random.below(4)]
+}
+
+/// Goes on from a surface point outward and finds nothing of the convex solid it left; goes on
+/// inward and finds no entry.
+fn assert_leaves_for_good(
+    random: &mut Random,
+    surface: &SurfacePoint,
+    at_edge: bool,
+    chord: impl Fn(&Ray) -> Option<Chord>,
+    what: impl std::fmt::Debug,
+) {
+    let Some(direction) = UnitVector::from_direction(onward(random, surface.normal)) else {
+        return;
+    };
+    let direction = direction.get();
+    let ray = Ray { origin: surface.spawn(direction), direction };
+    let Some(Chord { enter, leave }) = chord(&ray) else { return };
+    let slope = direction.dot(surface.normal);
+    // At an edge the inside of one face may be outside of another.
+    if slope < 0.0 && at_edge {
+        return;
+    }
+    assert!(!enter.is_ahead(), "entered again, slope {slope:e}: {ray:?} {what:?}");
+    assert!(slope < 0.0 || !leave.is_ahead(), "left again, slope {slope:e}: {ray:?} {what:?}");
+    assert!(slope >= 0.0 || leave.t > 0.0, "no way out, slope {slope:e}: {ray:?} {what:?}");
+}
+
+#[test]
+fn a_spawned_ray_does_not_meet_the_sphere_it_leaves() {
+    let mut random = Random(7);
+    for _ in 0..100_000 * long() {
+        let radius = random.size(-8.0, 8.0);
+        let centre = random.direction().get() * random.size(-8.0, 8.0);
+        let sphere = Sphere { centre, radius };
+        let ray = ray_at(&mut random, centre, radius, 10.0);
+        let Some(chord) = sphere.chord(&ray) else { continue };
+        let crossing = [chord.enter, chord.leave][random.below(2)];
+        let surface = sphere.surface(&ray, crossing.t);
+        let above = exact::above_sphere(centre, radius, surface.point);
+        assert!(above.abs() <= surface.error, "{above:e}: {sphere:?} {ray:?}");
+        assert!(sphere.bounds().contains(surface.point), "{sphere:?} {ray:?}");
+        assert_leaves_for_good(&mut random, &surface, false, |ray| sphere.chord(ray), sphere);
+    }
+}
+
+#[test]
+fn a_spawned_ray_does_not_meet_the_plane_it_leaves() {
+    let mut random = Random(8);
+    for _ in 0..100_000 * long() {
+        let (normal, distance) = random_plane(&mut random);
+        let plane = Plane { normal, distance };
+        let ray = Ray { origin: random.point(10.0), direction: random.direction().get() };
+        let Some(chord) = plane.chord(&ray) else { continue };
+        let t = if chord.enter.t.is_finite() { chord.enter.t } else { chord.leave.t };
+        let surface = plane.surface(&ray, t);
+        let above = exact::above_plane(normal.get(), distance, surface.point);
+        assert!(above.abs() <= surface.error, "{above:e}: {plane:?} {ray:?}");
+        assert_leaves_for_good(&mut random, &surface, false, |ray| plane.chord(ray), plane);
+    }
+}
+
+#[test]
+fn a_spawned_ray_does_not_meet_the_box_it_leaves() {
+    let mut random = Random(9);
+    for _ in 0..100_000 * long() {
+        let box_ = random_box(&mut random);
+        let target = point_of(&mut random, &box_);
+        let size = box_.half_widths.iter().copied().fold(0.0, f64::max);
+        let origin = target + random.direction().get() * (size * 10.0);
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let Some(chord) = box_.chord(&ray) else { continue };
+        let leaving = random.below(2) == 1;
+        let crossing = if leaving { chord.leave } else { chord.enter };
+        let surface = box_.surface(&ray, &crossing, leaving);
+        let above = exact::above_face(&box_, surface.face, surface.point);
+        assert!(above.abs() <= surface.error, "{above:e}: {box_:?} {ray:?}");
+        let Bounds { low, high } = box_.bounds();
+        // An edge is met within the error of the ray, which is not the box's.
+        let outside = (low - surface.point).max(surface.point - high).max_element();
+        let blur = 1e5 * EPS * (origin - box_.centre).length();
+        assert!(outside <= blur, "{outside:e}: {box_:?} {ray:?} {surface:?}");
+        let near = |face: u32| exact::above_face(&box_, face, surface.point) > -4.0 * surface.error;
+        let at_edge = (0..6).filter(|&face| near(face)).count() > 1;
+        assert_leaves_for_good(&mut random, &surface, at_edge, |ray| box_.chord(ray), box_);
+    }
+}
+
+#[test]
+fn a_spawned_ray_does_not_meet_the_ellipsoid_it_leaves() {
+    let mut random = Random(10);
+    for _ in 0..100_000 * long() {
+        let ellipsoid = random_ellipsoid(&mut random);
+        let Placement { centre, world_from_local, local_from_world } = ellipsoid.placement;
+        let target = centre + world_from_local * (random.direction().get() * 0.9);
+        let origin = target + random.direction().get() * (world_from_local.x_axis.length() * 10.0);
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let Some(chord) = ellipsoid.chord(&ray) else { continue };
+        let crossing = [chord.enter, chord.leave][random.below(2)];
+        let surface = ellipsoid.surface(&ray, crossing.t);
+        let steepness = 1.0 / (world_from_local.transpose() * surface.normal).length();
+        let above = exact::above_ellipsoid(&ellipsoid.placement, surface.point) / steepness;
+        assert!(above.abs() <= surface.error, "{above:e}: {ellipsoid:?} {ray:?}");
+        assert!(ellipsoid.bounds().contains(surface.point), "{ellipsoid:?} {ray:?}");
+        assert!(local_from_world.determinant() != 0.0);
+        assert_leaves_for_good(&mut random, &surface, false, |ray| ellipsoid.chord(ray), ellipsoid);
+    }
+}

@@ -66,8 +66,8 @@ impl<'a> Tracer<'a> {
 
     /// The radiance seen along `ray`.
     ///
-    /// The weight that `adc_bailout` cuts at is the product of the largest component of each
-    /// reflectance, as in POV-Ray; a seed finish neither lowers it nor is cut by it.
+    /// The weight that `adc_bailout` cuts at is the product of each reflection's largest component
+    /// at any angle, as in POV-Ray; a seed finish neither lowers it nor is cut by it.
     pub fn radiance<const SHADOWS: bool, const REFLECTION: bool>(
         &self,
         walk: &mut Walk,
@@ -77,10 +77,6 @@ impl<'a> Tracer<'a> {
         let mut weight = 1.0;
         walk.chain.clear();
         let mut seen = loop {
-            let level = walk.chain.len() + 1;
-            if level > self.max_trace_level as usize {
-                break Rgb::BLACK;
-            }
             let Some(hit) = self.geometry.nearest(&ray) else {
                 break sky::seen(self.sky, self.world.background, ray.direction);
             };
@@ -99,12 +95,13 @@ impl<'a> Tracer<'a> {
                 break clamped(local);
             }
             let Some(reflection) = &finish.reflection else { break clamped(local) };
-            let reflectance = reflection::reflectance(reflection, color, normal.dot(to_viewer));
+            let last = walk.chain.len() + 1 >= self.max_trace_level as usize;
             if !finish.seed {
-                weight *= reflectance.largest();
+                weight *= reflection.minimum.largest().max(reflection.maximum.largest());
             }
             let cut = !finish.seed && weight < self.adc_bailout;
-            if level == self.max_trace_level as usize || cut || reflectance.is_black() {
+            let reflectance = reflection::reflectance(reflection, color, normal.dot(to_viewer));
+            if last || cut || reflectance.is_black() {
                 break clamped(local);
             }
             walk.counters.reflection += 1;
@@ -117,7 +114,8 @@ impl<'a> Tracer<'a> {
             ray = Ray { origin, direction: reflection::mirrored(ray.direction, normal) };
         };
         while let Some(link) = walk.chain.pop() {
-            seen = link.local + link.reflectance * reflection::adapted(seen, link.exponent);
+            let seen_here = reflection::adapted(seen, link.exponent);
+            seen = link.local + reflection::passed_on(link.reflectance, seen_here);
             if link.seed {
                 seen = seen.at_most_one();
             }

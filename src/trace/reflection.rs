@@ -33,6 +33,18 @@ pub(super) fn adapted(seen: Rgb, exponent: f64) -> Rgb {
     seen.map(|c| if c > 0.0 { pow(c, 1.0 / exponent) } else { 0.0 })
 }
 
+/// The part of `seen` that is reflected. A component of weight zero is absent, not multiplied:
+/// what is seen may be infinite.
+#[inline]
+pub(super) fn passed_on(reflectance: Rgb, seen: Rgb) -> Rgb {
+    let part = |weight: f64, light: f64| if weight == 0.0 { 0.0 } else { weight * light };
+    Rgb::new(
+        part(reflectance.red, seen.red),
+        part(reflectance.green, seen.green),
+        part(reflectance.blue, seen.blue),
+    )
+}
+
 /// The mirrored direction.
 #[inline]
 pub(super) fn mirrored(direction: Vector, normal: Vector) -> Vector {
@@ -65,6 +77,12 @@ mod tests {
     fn a_metallic_reflection_has_the_surfaces_colour_head_on() {
         let reflection = Reflection { metallic: 1.0, ..VARIABLE };
         assert_eq!(reflectance(&reflection, Rgb::new(1.0, 0.5, 0.0), 1.0), Rgb::new(0.2, 0.1, 0.0));
+    }
+
+    #[test]
+    fn a_component_that_is_not_reflected_stays_black_however_bright_it_is() {
+        let reflected = passed_on(Rgb::new(0.5, 0.0, 1.0), Rgb::gray(f64::INFINITY));
+        assert_eq!(reflected, Rgb::new(f64::INFINITY, 0.0, f64::INFINITY));
     }
 
     #[test]
