@@ -136,7 +136,11 @@ fn every_scene_says_its_rule_in_its_first_line_and_shows_every_object_and_light(
         let page = Page::read(&read(&name, &text));
         let picture = page.picture(80, 60);
         let hidden = |fault: &str, page: &Page| {
-            if apart(&picture, &page.picture(80, 60)).0 <= TOLERANCE { Some(fault.to_owned()) } else { None }
+            if apart(&picture, &page.picture(80, 60)).0 <= TOLERANCE {
+                Some(fault.to_owned())
+            } else {
+                None
+            }
         };
         let objects = (0..page.objects.len()).filter_map(|o| {
             let mut without = page.clone();

@@ -55,13 +55,15 @@ impl Dice {
 
     pub fn solid(&mut self) -> ObjectKind {
         match self.below(5) {
-            0 => {
-                ObjectKind::Plane { normal: self.vector(-1.0, 1.0), distance: -self.between(2.0, 5.0) }
-            }
+            0 => ObjectKind::Plane {
+                normal: self.vector(-1.0, 1.0),
+                distance: -self.between(2.0, 5.0),
+            },
             1 | 2 => ObjectKind::Box { corners: [self.vector(-1.4, -0.3), self.vector(0.3, 1.4)] },
-            _ => {
-                ObjectKind::Sphere { centre: self.vector(-1.0, 1.0), radius: self.between(0.4, 1.3) }
-            }
+            _ => ObjectKind::Sphere {
+                centre: self.vector(-1.0, 1.0),
+                radius: self.between(0.4, 1.3),
+            },
         }
     }
 

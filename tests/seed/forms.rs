@@ -48,6 +48,14 @@ pub struct Pair {
     pub l: f64,
 }
 
+impl Pair {
+    /// The same two faces, the other one first.
+    pub fn opposite(self) -> Self {
+        let Self { n, c_f, d_f, c_o, d_o, l } = self;
+        Self { n: -n, c_f: c_o, d_f: d_o, c_o: c_f, d_o: d_f, l }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Faces(pub [Pair; 3]);
 

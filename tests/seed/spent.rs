@@ -40,22 +40,31 @@ fn forms(world: &World) -> Vec<Form> {
         .collect()
 }
 
+fn apart(a: Vector, b: Vector) -> f64 {
+    (a - b).length()
+}
+
+fn pairs(a: &Pair, b: &Pair) -> f64 {
+    let size = b.c_f.length() + b.c_o.length() + b.l;
+    let lengths = (a.d_f - b.d_f).abs() + (a.d_o - b.d_o).abs() + (a.l - b.l).abs();
+    apart(a.n, b.n) + (apart(a.c_f, b.c_f) + apart(a.c_o, b.c_o) + lengths) / size
+}
+
 /// The largest difference between two forms, in units of their size and distance.
 fn difference(a: Form, b: Form) -> f64 {
-    let apart = |a: Vector, b: Vector| (a - b).length();
     match (a, b) {
         (Form::Sphere(a), Form::Sphere(b)) => {
             (apart(a.c, b.c) + (a.r - b.r).abs()) / (b.c.length() + b.r)
         }
-        (Form::Plane(a), Form::Plane(b)) => {
-            apart(a.n, b.n) + (a.d - b.d).abs() / (1.0 + b.d.abs())
-        }
-        (Form::Box(Faces(a)), Form::Box(Faces(b))) => (0..3)
-            .map(|i| {
-                let (a, b) = (a[i], b[i]);
-                let size = b.c_f.length() + b.c_o.length() + b.l;
-                let lengths = (a.d_f - b.d_f).abs() + (a.d_o - b.d_o).abs() + (a.l - b.l).abs();
-                apart(a.n, b.n) + (apart(a.c_f, b.c_f) + apart(a.c_o, b.c_o) + lengths) / size
+        (Form::Plane(a), Form::Plane(b)) => apart(a.n, b.n) + (a.d - b.d).abs() / (1.0 + b.d.abs()),
+        // Any three faces that share a vertex will do: each pair of one box is some pair of the
+        // other, seen from the face or from its opposite.
+        (Form::Box(Faces(a)), Form::Box(Faces(b))) => b
+            .iter()
+            .map(|b| {
+                a.iter()
+                    .map(|a| pairs(a, b).min(pairs(&a.opposite(), b)))
+                    .fold(f64::INFINITY, f64::min)
             })
             .fold(0.0, f64::max),
         _ => f64::INFINITY,
