@@ -160,11 +160,19 @@ impl Evaluator<'_> {
     fn declare(&mut self, here: &Here, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let outer_poison = self.poison.take();
-        let value = self.value_or(here, target.span);
-        self.poison = outer_poison;
+        let outer_hold = self.hold.take();
+        let value = match self.next() {
+            Some(first) => {
+                self.hold = Some(self.frames.len());
+                self.value_of(&first)
+            }
+            None => Err(self.expected("a value", None, (here, target.span.after()))),
+        };
         if matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }
+        self.hold = outer_hold;
+        self.poison = outer_poison;
         let in_main = self.in_main();
         self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
         if !target.indices.is_empty() {

@@ -26,7 +26,7 @@ use crate::scene::{
 };
 use crate::color::Color;
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, Expression, ExpressionId, Item, Items};
+use crate::syntax::ast::{Ast, Expression, ExpressionId, Items};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -117,10 +117,6 @@ struct Unit {
 }
 
 impl Unit {
-    fn items(&self, items: Items) -> &[Item] {
-        self.ast.items(items)
-    }
-
     fn expression(&self, id: ExpressionId) -> &Expression {
         self.ast.expression(id)
     }
@@ -172,6 +168,9 @@ struct Evaluator<'a> {
     streams: RandomStreams,
     frames: Vec<Frame>,
     peeked: Option<Token>,
+    /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
+    /// past its end runs nothing there, since that may already ask for the value.
+    hold: Option<usize>,
     /// Files already read and parsed, by the name they were found under.
     parsed: HashMap<String, Rc<Unit>>,
     /// The names of the files that include each other now.
@@ -243,6 +242,7 @@ impl<'a> Evaluator<'a> {
             streams: RandomStreams::default(),
             frames: Vec::new(),
             peeked: None,
+            hold: None,
             parsed: HashMap::new(),
             including: Vec::new(),
             default_texture: TextureId(0),

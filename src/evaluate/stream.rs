@@ -205,7 +205,17 @@ impl Evaluator<'_> {
             if self.halted {
                 return None;
             }
+            // A directive may have looked at what comes after its value.
+            if let Some(token) = self.peeked.take() {
+                return Some(token);
+            }
+            let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
             let frame = self.frames.last_mut()?;
+            let waits = frame.at == frame.end
+                || matches!(frame.here.unit.ast.items[frame.at as usize].kind, ItemKind::Directive(_));
+            if held && waits {
+                return None;
+            }
             if frame.at == frame.end {
                 match frame.kind {
                     FrameKind::Barrier => return None,

@@ -60,3 +60,4 @@ fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Opt
     let best = candidates.into_iter().min_by_key(near)?;
     (near(&best) <= 1 + word.len() / 5).then_some(best)
 }
+pub mod print { pub fn dump(a: &super::ast::Ast, _: &crate::source::Source) -> String { format!("{a:#?}") } }

@@ -93,7 +93,7 @@ impl Evaluator<'_> {
         self.value_of(&token)
     }
 
-    fn value_of(&mut self, token: &Token) -> Outcome<Value> {
+    pub(super) fn value_of(&mut self, token: &Token) -> Outcome<Value> {
         let outer = self.poison.take();
         let value = match &token.kind {
             TokenKind::Expression(id) => self.expression(&token.here, *id),
