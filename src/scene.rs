@@ -11,6 +11,7 @@ use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::pattern::Pattern;
 use crate::source::{Expansions, Site};
+pub use crate::vocabulary::Dialect;
 
 /// Declares an index into one of the Scene's arenas.
 macro_rules! ids {
@@ -27,16 +28,6 @@ macro_rules! ids {
 }
 
 ids! { ObjectId TransformId TextureId PigmentId FinishId }
-
-/// How the main file's kind sets defaults; see the design's table of dialects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Dialect {
-    /// `.scene`: right-handed frame, lints on, the seed's own words.
-    #[default]
-    Scene,
-    /// `.pov`: POV-Ray's left-handed frame and defaults.
-    Pov,
-}
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {

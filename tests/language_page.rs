@@ -8,7 +8,8 @@ use std::path::Path;
 
 use lucarne::vocabulary::{Family, Word};
 
-const MARK: &str = "<!-- From here on this page is made from src/vocabulary by tests/language_page.rs. -->\n";
+const MARK: &str =
+    "<!-- From here on this page is made from src/vocabulary by tests/language_page.rs. -->\n";
 
 fn title(family: Family) -> &'static str {
     match family {
@@ -49,11 +50,18 @@ fn words() -> String {
         if words().any(|word| word.is_built()) {
             page.push_str("| word | means |\n|---|---|\n");
             for word in words().filter(|word| word.is_built()) {
-                let _ = writeln!(page, "| `{}` | {} |", word.name(), word.sentence().replace('|', "\\|"));
+                let _ = writeln!(
+                    page,
+                    "| `{}` | {} |",
+                    word.name(),
+                    word.sentence().replace('|', "\\|")
+                );
             }
         }
-        let later: Vec<String> =
-            words().filter(|word| !word.is_built()).map(|word| format!("`{}`", word.name())).collect();
+        let later: Vec<String> = words()
+            .filter(|word| !word.is_built())
+            .map(|word| format!("`{}`", word.name()))
+            .collect();
         if !later.is_empty() {
             let _ = write!(page, "\nKnown, and not built yet: {}.\n", later.join(", "));
         }
@@ -71,5 +79,8 @@ fn the_page_of_the_language_lists_every_word_as_the_vocabulary_has_it() {
         fs::write(&path, format!("{before}{MARK}{expected}")).expect("writable");
         return;
     }
-    assert!(after == expected, "docs/language.md is out of date: LUCARNE_UPDATE=1 cargo test --test language_page");
+    assert!(
+        after == expected,
+        "docs/language.md is out of date: LUCARNE_UPDATE=1 cargo test --test language_page"
+    );
 }

@@ -27,8 +27,11 @@ fn stages(name: &str, text: &str) -> String {
     let scene_text = lucarne::scene::print::dump(&scene, &road.sources);
     let (world, origins) = road.lower(scene);
     let plan = plan(&world, &origins, &PLAN);
-    let messages: String =
-        road.diagnostics.iter().map(|message| human(message, &road.sources, Style::PLAIN)).collect();
+    let messages: String = road
+        .diagnostics
+        .iter()
+        .map(|message| human(message, &road.sources, Style::PLAIN))
+        .collect();
     let sections = [
         ("source", text.to_owned()),
         ("ast", ast_text),

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::{Expansion, ExpansionKind, FileError, Source, Span, decode};
 use crate::syntax::ast::{
-    Argument, Arguments, Body, Callee, DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target,
-    Test,
+    Argument, Arguments, Body, Callee, DirectiveId, DirectiveKind, ExpressionId, ExpressionKind,
+    Items, Target, Test,
 };
 use crate::syntax::{self, ParseOptions};
 
@@ -55,8 +55,11 @@ impl Evaluator<'_> {
                 };
                 let (from, to, step) = (from?, to?, step_value?);
                 if step == 0.0 {
-                    let diagnostic = Diagnostic::new(Code::OutOfRange, "the step of a `#for` is zero, so it never ends")
-                        .at(step_span, "expected a number other than zero");
+                    let diagnostic = Diagnostic::new(
+                        Code::OutOfRange,
+                        "the step of a `#for` is zero, so it never ends",
+                    )
+                    .at(step_span, "expected a number other than zero");
                     return Err(self.report(here, diagnostic));
                 }
                 let symbol = here.symbol(*name);
@@ -78,8 +81,11 @@ impl Evaluator<'_> {
                 if self.break_out() {
                     return Ok(());
                 }
-                let diagnostic = Diagnostic::new(Code::StrayDirective, "`#break` stands outside of any loop or `#switch`")
-                    .at(directive.head, "nothing to break out of");
+                let diagnostic = Diagnostic::new(
+                    Code::StrayDirective,
+                    "`#break` stands outside of any loop or `#switch`",
+                )
+                .at(directive.head, "nothing to break out of");
                 Err(self.report(here, diagnostic))
             }
             DirectiveKind::Macro { name, name_span, parameters, body } => {
@@ -87,7 +93,10 @@ impl Evaluator<'_> {
                 let id = MacroId(self.macros.len() as u32);
                 self.macros.push(Rc::new(Macro {
                     name: symbol,
-                    parameters: parameters.iter().map(|parameter| here.symbol(parameter.name)).collect(),
+                    parameters: parameters
+                        .iter()
+                        .map(|parameter| here.symbol(parameter.name))
+                        .collect(),
                     body: match body {
                         Body::Items(items) => MacroBody::Items(*items),
                         Body::Raw(_) => MacroBody::Raw,
@@ -110,14 +119,17 @@ impl Evaluator<'_> {
                 Ok(())
             }
             DirectiveKind::Debug(text) => self.say(here, Code::AuthorDebug, *text, directive.head),
-            DirectiveKind::Warning(text) => self.say(here, Code::AuthorWarning, *text, directive.head),
+            DirectiveKind::Warning(text) => {
+                self.say(here, Code::AuthorWarning, *text, directive.head)
+            }
             DirectiveKind::Error(text) => {
                 let said = self.say(here, Code::AuthorError, *text, directive.head);
                 self.halted = true;
                 said
             }
             DirectiveKind::Fopen { mode, .. } => {
-                Err(self.not_supported(Poison { word: *mode, site: here.site(directive.head) }, None))
+                Err(self
+                    .not_supported(Poison { word: *mode, site: here.site(directive.head) }, None))
             }
             DirectiveKind::Fclose(_) | DirectiveKind::Read { .. } | DirectiveKind::Write { .. } => {
                 // `#fopen` has said it.
@@ -233,11 +245,17 @@ impl Evaluator<'_> {
         let (text, foreign) = decode(bytes);
         let id = self.sources.add(Source::new(name, text));
         if foreign && self.options.dialect == crate::scene::Dialect::Scene {
-            let diagnostic = Diagnostic::new(Code::BadEncoding, format!("`{name}` is not UTF-8, and was read as Latin-1"))
-                .at(span, "included here");
+            let diagnostic = Diagnostic::new(
+                Code::BadEncoding,
+                format!("`{name}` is not UTF-8, and was read as Latin-1"),
+            )
+            .at(span, "included here");
             self.report(here, diagnostic);
         }
-        let options = ParseOptions { dialect: self.options.dialect, nesting_limit: self.options.limits.nesting as usize };
+        let options = ParseOptions {
+            dialect: self.options.dialect,
+            nesting_limit: self.options.limits.nesting as usize,
+        };
         let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
         let unit = self.unit(ast);
         self.parsed.insert(name.to_owned(), unit.clone());
@@ -249,14 +267,20 @@ impl Evaluator<'_> {
         let innermost = self.including.last().cloned().unwrap_or_default();
         let again = self.including.iter().filter(|file| **file == innermost).count() > 1;
         let diagnostic = if again {
-            Diagnostic::new(Code::CircularInclude, format!("`{name}` includes itself, and never ends"))
-                .at(span, "included again here")
-                .help("guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`")
+            Diagnostic::new(
+                Code::CircularInclude,
+                format!("`{name}` includes itself, and never ends"),
+            )
+            .at(span, "included again here")
+            .help("guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`")
         } else {
             let limit = self.options.limits.include_depth;
-            Diagnostic::new(Code::IncludeLimit, format!("files include each other more than {limit} deep"))
-                .at(span, "this include is one too many")
-                .help("raise the limit with `--limit include-depth=N`")
+            Diagnostic::new(
+                Code::IncludeLimit,
+                format!("files include each other more than {limit} deep"),
+            )
+            .at(span, "this include is one too many")
+            .help("raise the limit with `--limit include-depth=N`")
         };
         self.report(here, diagnostic)
     }
@@ -283,7 +307,13 @@ impl Evaluator<'_> {
     }
 
     /// Runs a macro called inside an expression: it leaves one value.
-    pub(super) fn macro_value(&mut self, here: &Here, id: MacroId, arguments: Arguments, span: Span) -> Outcome<Value> {
+    pub(super) fn macro_value(
+        &mut self,
+        here: &Here,
+        id: MacroId,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
         let definition = self.macros[id.0 as usize].clone();
         let MacroBody::Items(body) = definition.body else {
             return Err(self.raw_macro(here, span));
@@ -298,8 +328,11 @@ impl Evaluator<'_> {
     }
 
     fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
-        let diagnostic = Diagnostic::new(Code::NotSupportedYet, "a macro whose brackets do not balance is not supported yet")
-            .at(span, "this call opens or closes a bracket of its surroundings");
+        let diagnostic = Diagnostic::new(
+            Code::NotSupportedYet,
+            "a macro whose brackets do not balance is not supported yet",
+        )
+        .at(span, "this call opens or closes a bracket of its surroundings");
         self.report(here, diagnostic)
     }
 
@@ -318,7 +351,10 @@ impl Evaluator<'_> {
             let (wanted, found) = (definition.parameters.len(), list.len());
             let diagnostic = Diagnostic::new(
                 Code::WrongArity,
-                format!("macro `{name}` takes {}, and is given {found}", super::report::count(&(wanted..=wanted), "argument")),
+                format!(
+                    "macro `{name}` takes {}, and is given {found}",
+                    super::report::count(&(wanted..=wanted), "argument")
+                ),
             )
             .at(span, format!("expected {}", super::report::count(&(wanted..=wanted), "argument")))
             .also(definition.defined, "defined here");
@@ -377,9 +413,14 @@ impl Evaluator<'_> {
         while let Some(Token { kind, here, .. }) = self.next() {
             match kind {
                 TokenKind::Expression(id) => drop(self.expression(&here, id)),
-                TokenKind::Block(items) | TokenKind::Entry(items) => self.inside(&here, items, Self::run_items),
+                TokenKind::Block(items) | TokenKind::Entry(items) => {
+                    self.inside(&here, items, Self::run_items)
+                }
                 TokenKind::Word(crate::vocabulary::Word::Function) => self.skip_function(),
-                TokenKind::Word(_) | TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+                TokenKind::Word(_)
+                | TokenKind::Comma
+                | TokenKind::Semicolon
+                | TokenKind::Literal(_) => {}
             }
         }
     }
@@ -388,7 +429,9 @@ impl Evaluator<'_> {
     pub(super) fn skip_function(&mut self) {
         while let Some(token) = self.peek() {
             match token.kind {
-                TokenKind::Expression(_) | TokenKind::Comma | TokenKind::Literal(_) => drop(self.next()),
+                TokenKind::Expression(_) | TokenKind::Comma | TokenKind::Literal(_) => {
+                    drop(self.next())
+                }
                 TokenKind::Block(_) => {
                     self.next();
                     return;
@@ -402,8 +445,9 @@ impl Evaluator<'_> {
 fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
     match error {
         FileError::NotFound { searched, similar } => {
-            let mut diagnostic = Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
-                .at(span, "no file of this name");
+            let mut diagnostic =
+                Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
+                    .at(span, "no file of this name");
             if let Some(similar) = similar.first() {
                 let file = format!("\"{similar}\"");
                 diagnostic = diagnostic.help(format!("did you mean `{similar}`?")).fix(span, file);
@@ -413,13 +457,15 @@ fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
             }
             diagnostic.help("`-I FOLDER` adds a folder to search")
         }
-        FileError::Forbidden => {
-            Diagnostic::new(Code::ForbiddenFile, format!("`{name}` lies outside the folders that may be read"))
-                .at(span, "outside the scene's folder and the `-I` folders")
-                .help("`-I FOLDER` allows reading below a folder")
-        }
+        FileError::Forbidden => Diagnostic::new(
+            Code::ForbiddenFile,
+            format!("`{name}` lies outside the folders that may be read"),
+        )
+        .at(span, "outside the scene's folder and the `-I` folders")
+        .help("`-I FOLDER` allows reading below a folder"),
         FileError::Unreadable(reason) => {
-            Diagnostic::new(Code::UnreadableFile, format!("`{name}` cannot be read: {reason}")).at(span, "this file")
+            Diagnostic::new(Code::UnreadableFile, format!("`{name}` cannot be read: {reason}"))
+                .at(span, "this file")
         }
     }
 }

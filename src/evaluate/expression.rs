@@ -45,7 +45,14 @@ impl Evaluator<'_> {
                     return Ok(value);
                 }
                 value::unary(operator, &value).map_err(|error| {
-                    self.operation_error(here, error, "this sign", expression.span, [operand; 2], [&value; 2])
+                    self.operation_error(
+                        here,
+                        error,
+                        "this sign",
+                        expression.span,
+                        [operand; 2],
+                        [&value; 2],
+                    )
                 })
             }
             ExpressionKind::Binary(operator, left, right) => {
@@ -60,7 +67,14 @@ impl Evaluator<'_> {
                 }
                 value::binary(operator, &a, &b).map_err(|error| {
                     let symbol = format!("`{}`", symbol(operator));
-                    self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
+                    self.operation_error(
+                        here,
+                        error,
+                        &symbol,
+                        expression.span,
+                        [left, right],
+                        [&a, &b],
+                    )
                 })
             }
             ExpressionKind::Conditional(condition, then, otherwise) => {
@@ -74,13 +88,20 @@ impl Evaluator<'_> {
                     (poison @ Value::Poison(_), _) => Ok(poison),
                     (_, Some(true)) => then,
                     (_, Some(false)) => otherwise,
-                    (condition, None) => {
-                        Err(self.wrong_type(here, expression.span, "a number before `?`", &condition))
-                    }
+                    (condition, None) => Err(self.wrong_type(
+                        here,
+                        expression.span,
+                        "a number before `?`",
+                        &condition,
+                    )),
                 }
             }
-            ExpressionKind::Vector(components) => self.vector_value(here, components, expression.span),
-            ExpressionKind::Call(callee, arguments) => self.call(here, callee, arguments, expression.span),
+            ExpressionKind::Vector(components) => {
+                self.vector_value(here, components, expression.span)
+            }
+            ExpressionKind::Call(callee, arguments) => {
+                self.call(here, callee, arguments, expression.span)
+            }
             ExpressionKind::Index(base, index) => {
                 let value = self.expression(here, base)?;
                 let index = self.expression(here, index)?;
@@ -144,7 +165,9 @@ impl Evaluator<'_> {
             Word::Z => axis(Vector::Z),
             Word::U => Ok(self.plane_axis([1.0, 0.0])),
             Word::V => Ok(self.plane_axis([0.0, 1.0])),
-            Word::T => Ok(Components::new(&[0.0, 0.0, 0.0, 1.0]).map_or(Value::Broken, Value::Vector)),
+            Word::T => {
+                Ok(Components::new(&[0.0, 0.0, 0.0, 1.0]).map_or(Value::Broken, Value::Vector))
+            }
             Word::Pi => number(std::f64::consts::PI),
             Word::True | Word::On | Word::Yes => number(1.0),
             Word::False | Word::Off | Word::No => number(0.0),
@@ -201,7 +224,9 @@ impl Evaluator<'_> {
                     )
                     .at(span, "expected a number");
                     let diagnostic = match other {
-                        Value::Vector(_) => diagnostic.help("write its components: `V.x, V.y, V.z`"),
+                        Value::Vector(_) => {
+                            diagnostic.help("write its components: `V.x, V.y, V.z`")
+                        }
                         _ => diagnostic,
                     };
                     self.report(here, diagnostic);
@@ -226,7 +251,8 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
             (None, many) => {
-                let message = format!("a vector has two to five components, this one has {}", many.len());
+                let message =
+                    format!("a vector has two to five components, this one has {}", many.len());
                 let diagnostic =
                     Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
                 Err(self.report(here, diagnostic))
@@ -234,7 +260,13 @@ impl Evaluator<'_> {
         }
     }
 
-    fn call(&mut self, here: &Here, callee: Callee, arguments: Arguments, span: Span) -> Outcome<Value> {
+    fn call(
+        &mut self,
+        here: &Here,
+        callee: Callee,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
         match callee {
             Callee::Word(word, word_span) => self.call_word(here, word, word_span, arguments, span),
             Callee::Name(name, name_span) => {
@@ -284,7 +316,14 @@ impl Evaluator<'_> {
         }
     }
 
-    fn call_word(&mut self, here: &Here, word: Word, word_span: Span, arguments: Arguments, span: Span) -> Outcome<Value> {
+    fn call_word(
+        &mut self,
+        here: &Here,
+        word: Word,
+        word_span: Span,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
         let unit = here.unit.clone();
         let list = unit.ast.arguments(arguments);
         match word {
@@ -346,13 +385,20 @@ impl Evaluator<'_> {
                     Argument::Items(_) => span,
                 }
             });
-            let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, "expected another value");
+            let mut diagnostic =
+                Diagnostic::new(error.kind.code(), error.message).at(at, "expected another value");
             diagnostic.help.extend(error.help);
             self.report(here, diagnostic)
         })
     }
 
-    fn component_value(&mut self, here: &Here, value: &Value, component: Component, base: Span) -> Outcome<Value> {
+    fn component_value(
+        &mut self,
+        here: &Here,
+        value: &Value,
+        component: Component,
+        base: Span,
+    ) -> Outcome<Value> {
         if let Value::Poison(_) = value {
             return Ok(value.clone());
         }
@@ -464,8 +510,9 @@ impl Evaluator<'_> {
             self.next();
         }
         if let Some(extra) = self.next() {
-            let diagnostic = Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
-                .at(extra.span, "this is more than one value");
+            let diagnostic =
+                Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
+                    .at(extra.span, "this is more than one value");
             return Err(self.report(&extra.here, diagnostic));
         }
         Ok(value)

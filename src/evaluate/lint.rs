@@ -29,13 +29,17 @@ impl Evaluator<'_> {
             let site = declared.site;
             let diagnostic = match value {
                 Some(Value::Broken) | None => continue,
-                Some(Value::Object(_)) => {
-                    Diagnostic::new(Code::NeverPlaced, format!("`{name}` is declared and never placed in the scene"))
-                        .at(site.span, "this object is not seen")
-                        .help(format!("place it with `object {{ {name} }}`"))
-                }
-                Some(_) => Diagnostic::new(Code::UnusedDeclaration, format!("`{name}` is declared and never used"))
-                    .at(site.span, "declared here"),
+                Some(Value::Object(_)) => Diagnostic::new(
+                    Code::NeverPlaced,
+                    format!("`{name}` is declared and never placed in the scene"),
+                )
+                .at(site.span, "this object is not seen")
+                .help(format!("place it with `object {{ {name} }}`")),
+                Some(_) => Diagnostic::new(
+                    Code::UnusedDeclaration,
+                    format!("`{name}` is declared and never used"),
+                )
+                .at(site.span, "declared here"),
             };
             unused.push(diagnostic);
         }
@@ -48,10 +52,12 @@ impl Evaluator<'_> {
     /// Degrees are wanted; these look like radians.
     pub(super) fn lint_degrees(&mut self, here: &Here, span: Span, degrees: &[f64]) {
         let text = self.sources.text(span);
-        let mentions_pi = text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "pi")
-            && !text.contains("degrees")
-            && !text.contains("180");
-        let is_radians = |value: f64| RADIANS.iter().any(|angle| (value.abs() - angle).abs() < 0.0011);
+        let mentions_pi =
+            text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "pi")
+                && !text.contains("degrees")
+                && !text.contains("180");
+        let is_radians =
+            |value: f64| RADIANS.iter().any(|angle| (value.abs() - angle).abs() < 0.0011);
         let literal = text.chars().all(|c| !c.is_alphabetic() || "xyz".contains(c));
         let largest = degrees.iter().fold(0.0f64, |most, value| most.max(value.abs()));
         if largest == 0.0 || largest > 6.5 {
@@ -59,9 +65,12 @@ impl Evaluator<'_> {
         }
         let looks = degrees.iter().any(|value| is_radians(*value));
         if mentions_pi || (literal && looks) {
-            let diagnostic = Diagnostic::new(Code::SuspiciousUnit, "this angle looks like radians, and is taken as degrees")
-                .at(span, format!("{largest:.4} degrees"))
-                .help("write degrees, or `degrees(…)` around it");
+            let diagnostic = Diagnostic::new(
+                Code::SuspiciousUnit,
+                "this angle looks like radians, and is taken as degrees",
+            )
+            .at(span, format!("{largest:.4} degrees"))
+            .help("write degrees, or `degrees(…)` around it");
             self.report(here, diagnostic);
         }
     }
@@ -74,21 +83,28 @@ impl Evaluator<'_> {
         let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
         if whole && largest >= 16.0 && (!gray || largest == 255.0) {
             let [red, green, blue] = rgb;
-            let diagnostic = Diagnostic::new(Code::ColorRange, "this colour looks as if written as 0 to 255; colours are 0 to 1")
-                .at(span, "far brighter than white")
-                .help(format!("write `<{red}, {green}, {blue}>/255`"));
+            let diagnostic = Diagnostic::new(
+                Code::ColorRange,
+                "this colour looks as if written as 0 to 255; colours are 0 to 1",
+            )
+            .at(span, "far brighter than white")
+            .help(format!("write `<{red}, {green}, {blue}>/255`"));
             self.report(here, diagnostic);
         }
     }
 
     pub(super) fn lint_negative_radius(&mut self, here: &Here, span: Span, radius: f64) {
-        let diagnostic = Diagnostic::new(Code::NegativeSize, format!("the radius is {radius}; {} is used", -radius))
-            .at(span, "a negative size");
+        let diagnostic = Diagnostic::new(
+            Code::NegativeSize,
+            format!("the radius is {radius}; {} is used", -radius),
+        )
+        .at(span, "a negative size");
         self.report(here, diagnostic);
     }
 
     pub(super) fn lint_legacy(&mut self, here: &Here, span: Span, message: &str, help: &str) {
-        let diagnostic = Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
+        let diagnostic =
+            Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
         self.report(here, diagnostic);
     }
 }

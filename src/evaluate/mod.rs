@@ -19,14 +19,14 @@ pub mod value;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::diagnostic::Diagnostics;
+use crate::color::Color;
+use crate::diagnostic::{Diagnostics, suggest};
 use crate::scene::{
     ClassicFinish, Dialect, Finish, FinishId, Pigment, PigmentId, PigmentKind, Scene, Texture,
     TextureId,
 };
-use crate::color::Color;
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, Expression, ExpressionId, Items};
+use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, Items, NameId};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -120,6 +120,30 @@ impl Unit {
     fn expression(&self, id: ExpressionId) -> &Expression {
         self.ast.expression(id)
     }
+
+    /// Everything this file declares, and where.
+    fn declarations(&self) -> impl Iterator<Item = (NameId, Span)> {
+        self.ast.directives.iter().filter_map(|directive| match &directive.kind {
+            DirectiveKind::Declare { target, .. } => Some((target.name, target.span)),
+            DirectiveKind::Macro { name, name_span, .. } => Some((*name, *name_span)),
+            _ => None,
+        })
+    }
+
+    /// Where this file declares a name, run or not.
+    fn declaration_of(&self, symbol: Symbol) -> Option<Span> {
+        self.declarations()
+            .find(|(name, _)| self.symbols[name.0 as usize] == symbol)
+            .map(|(_, span)| span)
+    }
+
+    /// A name this file declares somewhere that is much like `name`.
+    fn similar_declaration(&self, name: &str) -> Option<(String, Span)> {
+        let names = self.declarations().map(|(name, _)| self.ast.name(name));
+        let close = suggest::closest(name, names)?;
+        let span = self.declarations().find(|(name, _)| self.ast.name(*name) == close)?.1;
+        Some((close.to_owned(), span))
+    }
 }
 
 /// Where something is written: its file, and the expansion that runs it.
@@ -195,8 +219,7 @@ impl<'a> Evaluator<'a> {
         options: &'a EvaluateOptions,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
-        let nowhere =
-            Site { span: Span::new(FileId(0), 0, 0), expansion: ExpansionId::MAIN };
+        let nowhere = Site { span: Span::new(FileId(0), 0, 0), expansion: ExpansionId::MAIN };
         let scene = Scene {
             dialect: options.dialect,
             pigments: vec![Pigment {

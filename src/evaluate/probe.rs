@@ -30,7 +30,13 @@ pub(super) struct Probe {
 }
 
 impl Evaluator<'_> {
-    pub(super) fn probe(&mut self, here: &Here, word: Word, span: Span, list: &[Argument]) -> Outcome<Value> {
+    pub(super) fn probe(
+        &mut self,
+        here: &Here,
+        word: Word,
+        span: Span,
+        list: &[Argument],
+    ) -> Outcome<Value> {
         let arity = match word {
             Word::Trace => 3..=4,
             Word::Inside => 2..=2,
@@ -73,8 +79,11 @@ impl Evaluator<'_> {
             Word::Inside => Value::truth(probe.contains(vectors[0])),
             _ => {
                 let Some(direction) = UnitVector::from_direction(vectors[1]) else {
-                    let diagnostic = Diagnostic::new(Code::ZeroVector, "the direction of this `trace` is the zero vector")
-                        .at(spans[2], "expected a vector other than <0, 0, 0>");
+                    let diagnostic = Diagnostic::new(
+                        Code::ZeroVector,
+                        "the direction of this `trace` is the zero vector",
+                    )
+                    .at(spans[2], "expected a vector other than <0, 0, 0>");
                     return Err(self.report(here, diagnostic));
                 };
                 let (point, normal) = probe.trace(vectors[0], direction).unwrap_or_default();
@@ -86,7 +95,13 @@ impl Evaluator<'_> {
         })
     }
 
-    fn set_normal(&mut self, here: &Here, argument: &Argument, span: Span, normal: Vector) -> Outcome<()> {
+    fn set_normal(
+        &mut self,
+        here: &Here,
+        argument: &Argument,
+        span: Span,
+        normal: Vector,
+    ) -> Outcome<()> {
         if let Argument::Expression(id) = *argument
             && let ExpressionKind::Name(name) = here.unit.expression(id).kind
         {
@@ -99,8 +114,11 @@ impl Evaluator<'_> {
             self.scopes.overwrite(symbol, Value::vector3(normal));
             return Ok(());
         }
-        let diagnostic = Diagnostic::new(Code::WrongType, "the fourth argument of `trace` receives the normal, and must be a name")
-            .at(span, "expected a declared name as fourth argument");
+        let diagnostic = Diagnostic::new(
+            Code::WrongType,
+            "the fourth argument of `trace` receives the normal, and must be a name",
+        )
+        .at(span, "expected a declared name as fourth argument");
         Err(self.report(here, diagnostic))
     }
 
@@ -130,7 +148,8 @@ impl Probe {
     }
 
     fn contains(&self, point: Vector) -> bool {
-        (0..self.world.objects.len() as u32).any(|object| geometry::contains(&self.world, object, point))
+        (0..self.world.objects.len() as u32)
+            .any(|object| geometry::contains(&self.world, object, point))
     }
 
     /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward.
@@ -174,7 +193,10 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
                 children.iter_mut().for_each(|child| *child = renamed[child]);
             }
             ObjectKind::Use(child) => *child = renamed[child],
-            ObjectKind::Sphere { .. } | ObjectKind::Plane { .. } | ObjectKind::Box { .. } | ObjectKind::LightSource(_) => {}
+            ObjectKind::Sphere { .. }
+            | ObjectKind::Plane { .. }
+            | ObjectKind::Box { .. }
+            | ObjectKind::LightSource(_) => {}
         }
         small.objects.push(copy);
     }
@@ -186,8 +208,9 @@ fn children(kind: &ObjectKind) -> Vec<ObjectId> {
     match kind {
         ObjectKind::Union(children) => children.clone(),
         ObjectKind::Use(child) => vec![*child],
-        ObjectKind::Sphere { .. } | ObjectKind::Plane { .. } | ObjectKind::Box { .. } | ObjectKind::LightSource(_) => {
-            Vec::new()
-        }
+        ObjectKind::Sphere { .. }
+        | ObjectKind::Plane { .. }
+        | ObjectKind::Box { .. }
+        | ObjectKind::LightSource(_) => Vec::new(),
     }
 }

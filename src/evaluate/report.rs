@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::DirectiveId;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Role, Word};
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -16,7 +16,11 @@ impl Evaluator<'_> {
         self.report_in(here.expansion, diagnostic)
     }
 
-    pub(super) fn report_in(&mut self, expansion: ExpansionId, mut diagnostic: Diagnostic) -> Reported {
+    pub(super) fn report_in(
+        &mut self,
+        expansion: ExpansionId,
+        mut diagnostic: Diagnostic,
+    ) -> Reported {
         if let Some(span) = diagnostic.primary().map(|label| label.span) {
             let site = crate::source::Site { span, expansion };
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
@@ -25,14 +29,26 @@ impl Evaluator<'_> {
         Reported
     }
 
-    pub(super) fn wrong_type(&mut self, here: &Here, span: Span, wanted: &str, found: &Value) -> Reported {
+    pub(super) fn wrong_type(
+        &mut self,
+        here: &Here,
+        span: Span,
+        wanted: &str,
+        found: &Value,
+    ) -> Reported {
         let diagnostic = match found {
             Value::Broken => return Reported,
             Value::Poison(poison) => return self.not_supported(*poison, Some(span)),
-            found => Diagnostic::new(Code::WrongType, format!("expected {wanted}, found {}", found.kind()))
-                .at(span, format!("this is {}", found.kind())),
+            found => Diagnostic::new(
+                Code::WrongType,
+                format!("expected {wanted}, found {}", found.kind()),
+            )
+            .at(span, format!("this is {}", found.kind())),
         };
-        let name = self.scopes.symbol(self.sources.text(span)).and_then(|symbol| self.scopes.declared(symbol));
+        let name = self
+            .scopes
+            .symbol(self.sources.text(span))
+            .and_then(|symbol| self.scopes.declared(symbol));
         let diagnostic = match name {
             Some(declared) if declared.site.span != span => {
                 let site = declared.site;
@@ -59,19 +75,31 @@ impl Evaluator<'_> {
     /// A name that was never declared: said once for each name.
     pub(super) fn undeclared(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
-        let mut diagnostic = Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
-        let names = self.scopes.visible();
-        if let Some(close) = suggest::closest(&name, names) {
-            let close = close.to_owned();
+        let mut diagnostic =
+            Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
+        let close = suggest::closest(&name, self.scopes.visible()).map(str::to_owned);
+        let value_word = |word: Word| !matches!(word.role(), Role::Statement);
+        let later = here.unit.declaration_of(symbol);
+        if let Some(later) = later.filter(|later| later.start > span.start) {
+            diagnostic = diagnostic
+                .at(span, "not declared up to here")
+                .also(later, "declared only here: move it up");
+        } else if let Some(close) = close {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`?"))
                 .fix(span, close.clone());
-            if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s)) {
+            if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s))
+            {
                 let declared = declared.site.span;
                 diagnostic = diagnostic.also(declared, format!("`{close}` is declared here"));
             }
-        } else if let Some(word) = word_like(&name) {
+        } else if let Some((close, later)) = here.unit.similar_declaration(&name) {
+            diagnostic = diagnostic
+                .at(span, "not declared up to here")
+                .also(later, format!("`{close}` is declared here"))
+                .help(format!("did you mean `{close}`, declared before its use?"));
+        } else if let Some(word) = word_like(&name, value_word) {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
@@ -81,7 +109,8 @@ impl Evaluator<'_> {
             if let Some(include) = standard_include(&name)
                 && !self.parsed.keys().any(|file| file.ends_with(include))
             {
-                diagnostic = diagnostic.help(format!("`{name}` comes with `#include \"{include}\"`"));
+                diagnostic =
+                    diagnostic.help(format!("`{name}` comes with `#include \"{include}\"`"));
             }
         }
         let reported = self.report(here, diagnostic);
@@ -119,19 +148,27 @@ impl Evaluator<'_> {
     }
 
     /// Something stands where a value should.
-    pub(super) fn expected(&mut self, wanted: &str, found: Option<&Token>, otherwise: (&Here, Span)) -> Reported {
+    pub(super) fn expected(
+        &mut self,
+        wanted: &str,
+        found: Option<&Token>,
+        otherwise: (&Here, Span),
+    ) -> Reported {
         match found {
             Some(token) => {
                 let text = self.describe(token);
-                let diagnostic =
-                    Diagnostic::new(Code::ExpectedExpression, format!("expected {wanted}, found {text}"))
-                        .at(token.span, format!("expected {wanted}"));
+                let diagnostic = Diagnostic::new(
+                    Code::ExpectedExpression,
+                    format!("expected {wanted}, found {text}"),
+                )
+                .at(token.span, format!("expected {wanted}"));
                 self.report(&token.here.clone(), diagnostic)
             }
             None => {
                 let (here, span) = otherwise;
-                let diagnostic = Diagnostic::new(Code::MissingPart, format!("expected {wanted}, found nothing"))
-                    .at(span, format!("{wanted} is missing here"));
+                let diagnostic =
+                    Diagnostic::new(Code::MissingPart, format!("expected {wanted}, found nothing"))
+                        .at(span, format!("{wanted} is missing here"));
                 self.report(here, diagnostic)
             }
         }
@@ -172,15 +209,35 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
 }
 
 /// The word of the language that an author who wrote `name` most likely meant.
-pub(super) fn word_like(name: &str) -> Option<&'static str> {
-    suggest::closest(name, Word::ALL.iter().map(|word| word.name())).or_else(|| suggest::foreign(name))
+pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {
+    let words = || Word::ALL.iter().filter(|word| fits(**word)).map(|word| word.name());
+    suggest::closest(name, words())
+        .or_else(|| suggest::foreign(name).filter(|foreign| words().any(|word| word == *foreign)))
 }
 
 /// Where a well-known name is declared.
 fn standard_include(name: &str) -> Option<&'static str> {
     const COLORS: &[&str] = &[
-        "Red", "Green", "Blue", "Yellow", "Cyan", "Magenta", "Clear", "White", "Black", "Gray", "Orange",
-        "Brown", "Pink", "Gold", "Silver", "SkyBlue", "Violet", "Maroon", "Navy", "Turquoise",
+        "Red",
+        "Green",
+        "Blue",
+        "Yellow",
+        "Cyan",
+        "Magenta",
+        "Clear",
+        "White",
+        "Black",
+        "Gray",
+        "Orange",
+        "Brown",
+        "Pink",
+        "Gold",
+        "Silver",
+        "SkyBlue",
+        "Violet",
+        "Maroon",
+        "Navy",
+        "Turquoise",
     ];
     if COLORS.contains(&name) || name.starts_with("Gray") {
         Some("colors.inc")
@@ -188,9 +245,15 @@ fn standard_include(name: &str) -> Option<&'static str> {
         Some("stones.inc")
     } else if name.starts_with("T_Wood") {
         Some("woods.inc")
-    } else if name.starts_with("F_Glass") || name.starts_with("T_Glass") || name.starts_with("I_Glass") {
+    } else if name.starts_with("F_Glass")
+        || name.starts_with("T_Glass")
+        || name.starts_with("I_Glass")
+    {
         Some("glass.inc")
-    } else if name.starts_with("T_Chrome") || name.starts_with("T_Brass") || name.starts_with("T_Silver") {
+    } else if name.starts_with("T_Chrome")
+        || name.starts_with("T_Brass")
+        || name.starts_with("T_Silver")
+    {
         Some("metals.inc")
     } else {
         None

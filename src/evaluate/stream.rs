@@ -33,8 +33,21 @@ enum FrameKind {
     Branch,
     /// A case of a switch: `#break` ends it.
     Switch,
-    While { condition: ExpressionId, body: Items, turns: u64, directive: DirectiveId },
-    For { symbol: Symbol, value: f64, to: f64, step: f64, body: Items, turns: u64, directive: DirectiveId },
+    While {
+        condition: ExpressionId,
+        body: Items,
+        turns: u64,
+        directive: DirectiveId,
+    },
+    For {
+        symbol: Symbol,
+        value: f64,
+        to: f64,
+        step: f64,
+        body: Items,
+        turns: u64,
+        directive: DirectiveId,
+    },
     /// A macro's body: `#break` does not reach out of it.
     Macro,
     /// An included file.
@@ -53,7 +66,9 @@ impl Token {
     /// Where it starts: a block's own brace, or the whole of anything shorter.
     pub fn span_head(&self) -> Span {
         match self.kind {
-            TokenKind::Block(_) | TokenKind::Entry(_) => Span { end: self.span.start + 1, ..self.span },
+            TokenKind::Block(_) | TokenKind::Entry(_) => {
+                Span { end: self.span.start + 1, ..self.span }
+            }
             _ => self.span,
         }
     }
@@ -92,7 +107,13 @@ impl Evaluator<'_> {
     }
 
     fn push(&mut self, here: &Here, items: Items, kind: FrameKind) {
-        self.frames.push(Frame { here: here.clone(), at: items.start, end: items.end, taken: 0, kind });
+        self.frames.push(Frame {
+            here: here.clone(),
+            at: items.start,
+            end: items.end,
+            taken: 0,
+            kind,
+        });
     }
 
     pub(super) fn push_branch(&mut self, here: &Here, items: Items) {
@@ -106,14 +127,31 @@ impl Evaluator<'_> {
     }
 
     /// A loop starts at its (empty) end, where its condition is asked.
-    pub(super) fn push_while(&mut self, here: &Here, condition: ExpressionId, body: Items, directive: DirectiveId) {
+    pub(super) fn push_while(
+        &mut self,
+        here: &Here,
+        condition: ExpressionId,
+        body: Items,
+        directive: DirectiveId,
+    ) {
         let empty = Items { start: body.end, end: body.end };
         self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive });
     }
 
-    pub(super) fn push_for(&mut self, here: &Here, symbol: Symbol, [from, to, step]: [f64; 3], body: Items, directive: DirectiveId) {
+    pub(super) fn push_for(
+        &mut self,
+        here: &Here,
+        symbol: Symbol,
+        [from, to, step]: [f64; 3],
+        body: Items,
+        directive: DirectiveId,
+    ) {
         let empty = Items { start: body.end, end: body.end };
-        self.push(here, empty, FrameKind::For { symbol, value: from, to, step, body, turns: 0, directive });
+        self.push(
+            here,
+            empty,
+            FrameKind::For { symbol, value: from, to, step, body, turns: 0, directive },
+        );
     }
 
     /// The caller has opened the macro's table and bound its parameters.
@@ -212,7 +250,10 @@ impl Evaluator<'_> {
             let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
             let frame = self.frames.last_mut()?;
             let waits = frame.at == frame.end
-                || matches!(frame.here.unit.ast.items[frame.at as usize].kind, ItemKind::Directive(_));
+                || matches!(
+                    frame.here.unit.ast.items[frame.at as usize].kind,
+                    ItemKind::Directive(_)
+                );
             if held && waits {
                 return None;
             }
@@ -220,7 +261,10 @@ impl Evaluator<'_> {
                 match frame.kind {
                     FrameKind::Barrier => return None,
                     FrameKind::While { .. } | FrameKind::For { .. } => self.turn(),
-                    FrameKind::Branch | FrameKind::Switch | FrameKind::Macro | FrameKind::Include => {
+                    FrameKind::Branch
+                    | FrameKind::Switch
+                    | FrameKind::Macro
+                    | FrameKind::Include => {
                         self.pop_frame();
                     }
                 }

@@ -145,7 +145,9 @@ impl Value {
     pub fn as_vector3(&self) -> Option<Vector> {
         match self {
             Self::Number(n) => Some(Vector::splat(*n)),
-            Self::Vector(v) if v.len <= 3 => Some(Vector::new(v.values[0], v.values[1], v.values[2])),
+            Self::Vector(v) if v.len <= 3 => {
+                Some(Vector::new(v.values[0], v.values[1], v.values[2]))
+            }
             _ => None,
         }
     }
@@ -191,7 +193,11 @@ pub fn unary(operator: UnaryOperator, operand: &Value) -> Result<Value, Operatio
 }
 
 /// `a + b` and its kin, component by component after promotion.
-pub fn binary(operator: BinaryOperator, left: &Value, right: &Value) -> Result<Value, OperationError> {
+pub fn binary(
+    operator: BinaryOperator,
+    left: &Value,
+    right: &Value,
+) -> Result<Value, OperationError> {
     if let (Value::Number(a), Value::Number(b)) = (left, right) {
         return finite(apply(operator, *a, *b)?).map(Value::Number);
     }
@@ -266,7 +272,8 @@ mod tests {
     fn a_number_fills_all_components_and_a_short_vector_fills_up_with_zeros() {
         let sum = binary(BinaryOperator::Add, &Value::Number(1.0), &vector(&[1.0, 2.0, 3.0]));
         assert_eq!(sum, Ok(vector(&[2.0, 3.0, 4.0])));
-        let product = binary(BinaryOperator::Multiply, &vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 2.0]));
+        let product =
+            binary(BinaryOperator::Multiply, &vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 2.0]));
         assert_eq!(product, Ok(vector(&[1.0, 4.0, 0.0])));
     }
 
@@ -282,7 +289,10 @@ mod tests {
         fn equal(a: &Value, b: &Value) -> Result<Value, OperationError> {
             binary(BinaryOperator::Equal, a, b)
         }
-        assert_eq!(equal(&vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 5.0, 3.0])), Ok(vector(&[1.0, 0.0, 1.0])));
+        assert_eq!(
+            equal(&vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 5.0, 3.0])),
+            Ok(vector(&[1.0, 0.0, 1.0]))
+        );
         assert_eq!(equal(&Value::Number(0.1 + 0.2), &Value::Number(0.3)), Ok(Value::truth(true)));
         assert_eq!(equal(&Value::Number(1e-12), &Value::Number(2e-12)), Ok(Value::truth(false)));
     }

@@ -22,7 +22,7 @@ pub fn lower(scene: Scene, diagnostics: &mut Diagnostics) -> (World, Origins) {
     let mut lowering = Lowering {
         world: World::default(),
         origins: Origins::default(),
-        reporter: Reporter { diagnostics, expansions: &scene.expansions, faults: 0 },
+        reporter: Reporter { diagnostics, expansions: &scene.expansions },
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         scene: &scene,
@@ -95,8 +95,6 @@ impl Fault {
 struct Reporter<'s, 'd> {
     diagnostics: &'d mut Diagnostics,
     expansions: &'s Expansions,
-    /// How many faults there were: a lint about the whole scene needs to be certain.
-    faults: usize,
 }
 
 impl Reporter<'_, '_> {
@@ -106,9 +104,6 @@ impl Reporter<'_, '_> {
             .traced(site, self.expansions);
         if let Some(help) = fault.help {
             diagnostic = diagnostic.help(help);
-        }
-        if !fault.code.is_lint() {
-            self.faults += 1;
         }
         self.diagnostics.push(diagnostic);
     }

@@ -15,8 +15,8 @@ mod token;
 
 use self::ast::Ast;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::scene::Dialect;
 use crate::source::{FileId, Source, Span};
+use crate::vocabulary::Dialect;
 
 /// How a text is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,4 +60,8 @@ fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Opt
     let best = candidates.into_iter().min_by_key(near)?;
     (near(&best) <= 1 + word.len() / 5).then_some(best)
 }
-pub mod print { pub fn dump(a: &super::ast::Ast, _: &crate::source::Source) -> String { format!("{a:#?}") } }
+pub mod print {
+    pub fn dump(a: &super::ast::Ast, _: &crate::source::Source) -> String {
+        format!("{a:#?}")
+    }
+}

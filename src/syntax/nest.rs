@@ -16,8 +16,8 @@ use super::expression::{self, Operator, OperatorKind, Stacks};
 use super::numbers::{self, Piece, Pieces};
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::scene::Dialect;
 use crate::source::{FileId, Span};
+use crate::vocabulary::Dialect;
 use crate::vocabulary::{Role, Word};
 
 /// An open bracket or directive.

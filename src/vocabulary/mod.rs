@@ -4,6 +4,16 @@
 //! **Invariant:** a spelling names one word. Contextual words are words only directly inside their
 //! block; everywhere else they are free as names.
 
+/// How the main file's kind sets defaults; `docs/language.md` has the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Dialect {
+    /// `.scene`: right-handed frame, lints on, the seed's own words.
+    #[default]
+    Scene,
+    /// `.pov`: POV-Ray's left-handed frame and defaults.
+    Pov,
+}
+
 /// What a word belongs to. The families are the chapters of `docs/language.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Family {

@@ -67,10 +67,18 @@ impl Evaluator<'_> {
             }
             Word::Location => CameraItemKind::Location(self.vector_after(token, "a point")?.value),
             Word::LookAt => CameraItemKind::LookAt(self.vector_after(token, "a point")?.value),
-            Word::Sky => CameraItemKind::Sky(self.direction_after(token, "the sky's direction")?.value),
-            Word::Up => CameraItemKind::Up(self.direction_after(token, "the picture's height")?.value),
-            Word::Right => CameraItemKind::Right(self.direction_after(token, "the picture's width")?.value),
-            Word::Direction => CameraItemKind::Direction(self.direction_after(token, "the lens's axis")?.value),
+            Word::Sky => {
+                CameraItemKind::Sky(self.direction_after(token, "the sky's direction")?.value)
+            }
+            Word::Up => {
+                CameraItemKind::Up(self.direction_after(token, "the picture's height")?.value)
+            }
+            Word::Right => {
+                CameraItemKind::Right(self.direction_after(token, "the picture's width")?.value)
+            }
+            Word::Direction => {
+                CameraItemKind::Direction(self.direction_after(token, "the lens's axis")?.value)
+            }
             Word::Angle => self.angle(token, camera.kind)?,
             Word::Shift => self.shift(token)?,
             _ => {
@@ -88,7 +96,11 @@ impl Evaluator<'_> {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
         }
         if given.value >= 180.0 && kind == CameraKind::Perspective {
-            return Err(self.out_of_range(&given, Word::Angle, "less than 180 for a perspective camera"));
+            return Err(self.out_of_range(
+                &given,
+                Word::Angle,
+                "less than 180 for a perspective camera",
+            ));
         }
         self.lint_degrees(&given.here, given.span, &[given.value]);
         Ok(CameraItemKind::Angle(given.value))
@@ -108,7 +120,12 @@ impl Evaluator<'_> {
                 .help(Word::Shift.sentence().to_owned());
                 Err(self.report(&given.here, diagnostic))
             }
-            None => Err(self.wrong_type(&given.here, given.span, "a vector of two numbers", &given.value)),
+            None => Err(self.wrong_type(
+                &given.here,
+                given.span,
+                "a vector of two numbers",
+                &given.value,
+            )),
         }
     }
 }

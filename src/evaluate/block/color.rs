@@ -18,17 +18,24 @@ impl Evaluator<'_> {
         };
         let color = match word {
             Word::Color => match self.peek().map(|next| &next.kind) {
-                Some(TokenKind::Word(Word::Rgb | Word::Rgbf | Word::Rgbt | Word::Rgbft)) => match self.next() {
-                    Some(next) => return self.color_from(&next),
-                    None => Color::BLACK,
-                },
+                Some(TokenKind::Word(Word::Rgb | Word::Rgbf | Word::Rgbt | Word::Rgbft)) => {
+                    match self.next() {
+                        Some(next) => return self.color_from(&next),
+                        None => Color::BLACK,
+                    }
+                }
                 Some(TokenKind::Word(next)) if is_component(*next) => Color::BLACK,
                 _ => {
                     let given = self.given(token, "a colour")?;
                     match given.value.as_color() {
                         Some(color) => color,
                         None => {
-                            return Err(self.wrong_type(&given.here, given.span, "a colour", &given.value));
+                            return Err(self.wrong_type(
+                                &given.here,
+                                given.span,
+                                "a colour",
+                                &given.value,
+                            ));
                         }
                     }
                 }
@@ -66,7 +73,11 @@ impl Evaluator<'_> {
         if given_numbers.len() > wanted {
             let diagnostic = Diagnostic::new(
                 Code::WrongArity,
-                format!("`{}` takes {wanted} components, and is given {}", word.name(), given_numbers.len()),
+                format!(
+                    "`{}` takes {wanted} components, and is given {}",
+                    word.name(),
+                    given_numbers.len()
+                ),
             )
             .at(given.span, format!("expected {wanted} components"));
             let diagnostic = match given_numbers.len() {

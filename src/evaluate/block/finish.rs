@@ -49,7 +49,12 @@ impl Evaluator<'_> {
     }
 
     /// The seed's words come together, and with none of POV-Ray's.
-    fn whole_finish(&mut self, opener: &Token, finish: &mut Finish, written: &Written) -> Outcome<()> {
+    fn whole_finish(
+        &mut self,
+        opener: &Token,
+        finish: &mut Finish,
+        written: &Written,
+    ) -> Outcome<()> {
         let Some((seed, seed_span)) = written.seed else { return Ok(()) };
         if let Some((classic, classic_span)) = written.classic {
             let diagnostic = Diagnostic::new(
@@ -62,7 +67,9 @@ impl Evaluator<'_> {
             return Err(self.report(&opener.here, diagnostic));
         }
         let (old_kd, old_ks, old_exponent) = match finish {
-            Finish::Seed { kd, ks, phong_exponent } => (Some(*kd), Some(*ks), Some(*phong_exponent)),
+            Finish::Seed { kd, ks, phong_exponent } => {
+                (Some(*kd), Some(*ks), Some(*phong_exponent))
+            }
             Finish::Classic(_) => (None, None, None),
         };
         let kd = written.kd.or(old_kd);
@@ -77,13 +84,21 @@ impl Evaluator<'_> {
             .filter(|(_, value)| value.is_none())
             .map(|(name, _)| *name)
             .collect();
-        let diagnostic = Diagnostic::new(Code::IncompleteFinish, format!("this finish lacks {}", missing.join(" and ")))
-            .at(seed_span, "the seed's three words come together")
-            .also(opener.span, "in this finish");
+        let diagnostic = Diagnostic::new(
+            Code::IncompleteFinish,
+            format!("this finish lacks {}", missing.join(" and ")),
+        )
+        .at(seed_span, "the seed's three words come together")
+        .also(opener.span, "in this finish");
         Err(self.report(&opener.here, diagnostic))
     }
 
-    fn finish_item(&mut self, token: &Token, finish: &mut Finish, written: &mut Written) -> Outcome<()> {
+    fn finish_item(
+        &mut self,
+        token: &Token,
+        finish: &mut Finish,
+        written: &mut Written,
+    ) -> Outcome<()> {
         let word = match token.kind {
             TokenKind::Word(word) => word,
             TokenKind::Expression(id) => match self.named(token, id) {
@@ -134,7 +149,12 @@ impl Evaluator<'_> {
     }
 
     /// `Ok(false)` when the word is none of the built ones.
-    fn classic_item(&mut self, token: &Token, word: Word, finish: &mut ClassicFinish) -> Outcome<bool> {
+    fn classic_item(
+        &mut self,
+        token: &Token,
+        word: Word,
+        finish: &mut ClassicFinish,
+    ) -> Outcome<bool> {
         match word {
             Word::Ambient => finish.ambient = self.intensity_after(token)?,
             Word::Emission => finish.emission = self.intensity_after(token)?,
@@ -162,7 +182,13 @@ impl Evaluator<'_> {
 
     /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`.
     fn reflection(&mut self, token: &Token) -> Outcome<Reflection> {
-        let plain = |color: Rgb| Reflection { minimum: color, maximum: color, falloff: 1.0, exponent: 1.0, metallic: 0.0 };
+        let plain = |color: Rgb| Reflection {
+            minimum: color,
+            maximum: color,
+            falloff: 1.0,
+            exponent: 1.0,
+            metallic: 0.0,
+        };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
             return Ok(plain(self.intensity_after(token)?));
         }

@@ -2,7 +2,9 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::scene::{Dialect, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId, ObjectKind};
+use crate::scene::{
+    Dialect, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId, ObjectKind,
+};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -43,24 +45,26 @@ impl Evaluator<'_> {
     fn light_parts(&mut self, opener: &Token) -> Outcome<LightSource> {
         let ours = self.options.dialect == Dialect::Scene;
         let kind = match self.peek().map(|token| &token.kind) {
-            Some(TokenKind::Word(Word::Direction)) if ours => {
-                self.seed_direction()
-            }
+            Some(TokenKind::Word(Word::Direction)) if ours => self.seed_direction(),
             _ => self
-                .vector_after(opener, "the light's place, a vector,")
+                .vector_after(opener, "a vector for the light's place")
                 .map(|given| LightKind::Point { location: given.value }),
         };
-        let color = self.color_after(opener, "the light's colour");
+        let color = self.color_after(opener, "a colour for the light");
         Ok(LightSource { kind: kind?, color: color?.value.rgb, shadowless: false })
     }
 
     fn seed_direction(&mut self) -> Outcome<LightKind> {
         let Some(token) = self.next() else { return Err(Reported) };
-        let to_light = self.direction_after(&token, "the direction to the light, a vector,")?.value;
+        let to_light = self.direction_after(&token, "the direction to the light")?.value;
         Ok(LightKind::Direction { to_light })
     }
 
-    fn light_modifiers(&mut self, modifiers: &mut Vec<Modifier>, mut light: Option<&mut LightSource>) -> Outcome<()> {
+    fn light_modifiers(
+        &mut self,
+        modifiers: &mut Vec<Modifier>,
+        mut light: Option<&mut LightSource>,
+    ) -> Outcome<()> {
         let mut failed = false;
         let (mut parallel, mut point_at) = (false, Vector::ZERO);
         while let Some(token) = self.next() {
@@ -87,18 +91,23 @@ impl Evaluator<'_> {
                     }),
                     None => {
                         self.unexpected(&token, Place::LIGHT);
-                        let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                        let harmless =
+                            matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
                         if harmless || self.poison.is_some() { Ok(()) } else { Err(Reported) }
                     }
                 },
             };
             failed |= outcome.is_err();
             if let (true, Some(light)) = (parallel, &mut light)
-                && let LightKind::Point { location } | LightKind::Parallel { location, .. } = light.kind
+                && let LightKind::Point { location } | LightKind::Parallel { location, .. } =
+                    light.kind
             {
                 if location == point_at && self.peek().is_none() {
-                    let diagnostic = Diagnostic::new(Code::ZeroVector, "this parallel light points at its own place")
-                        .at(token.span, "expected a `point_at` other than the light's place");
+                    let diagnostic = Diagnostic::new(
+                        Code::ZeroVector,
+                        "this parallel light points at its own place",
+                    )
+                    .at(token.span, "expected a `point_at` other than the light's place");
                     self.report(&token.here, diagnostic);
                     failed = true;
                 }

@@ -53,7 +53,9 @@ impl Evaluator<'_> {
                 self.global_settings(token)?;
                 self.needs_poison()
             }
-            TokenKind::Word(word) if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
+            TokenKind::Word(word)
+                if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
+            {
                 match self.object(token, word)? {
                     Value::Object(object) => self.place(object),
                     Value::Poison(poison) => return Err(self.not_supported(poison, None)),
@@ -131,9 +133,11 @@ impl Evaluator<'_> {
             }
             _ => {
                 let name = word.name();
-                let diagnostic =
-                    Diagnostic::new(Code::ExpectedExpression, format!("expected a value, found `{name}`"))
-                        .at(token.span, "this word does not begin a value");
+                let diagnostic = Diagnostic::new(
+                    Code::ExpectedExpression,
+                    format!("expected a value, found `{name}`"),
+                )
+                .at(token.span, "this word does not begin a value");
                 let reported = self.report(&token.here, diagnostic);
                 self.skip_arguments(word);
                 Err(reported)
@@ -157,10 +161,12 @@ impl Evaluator<'_> {
                 };
                 let name = word.name();
                 let found = if found { "something else" } else { "nothing" };
-                let diagnostic =
-                    Diagnostic::new(Code::MissingPart, format!("expected `{{` after `{name}`, found {found}"))
-                        .at(token.span, "its block is missing")
-                        .help(word.sentence().to_owned());
+                let diagnostic = Diagnostic::new(
+                    Code::MissingPart,
+                    format!("expected `{{` after `{name}`, found {found}"),
+                )
+                .at(token.span, "its block is missing")
+                .help(word.sentence().to_owned());
                 let _ = span;
                 return Err(self.report(&token.here, diagnostic));
             }

@@ -38,9 +38,12 @@ impl Evaluator<'_> {
         if self.scene.objects.len() as u64 >= limit {
             self.halted = true;
             let expansion = object.site.expansion;
-            let diagnostic = Diagnostic::new(Code::ObjectLimit, format!("the scene has more than {limit} objects"))
-                .at(object.site.span, "this object is one too many")
-                .help("raise the limit with `--limit objects=N`");
+            let diagnostic = Diagnostic::new(
+                Code::ObjectLimit,
+                format!("the scene has more than {limit} objects"),
+            )
+            .at(object.site.span, "this object is one too many")
+            .help("raise the limit with `--limit objects=N`");
             return Err(self.report_in(expansion, diagnostic));
         }
         self.scene.objects.push(object);
@@ -83,10 +86,13 @@ impl Evaluator<'_> {
                     && matches!(next.kind, TokenKind::Word(w) if matches!(w.family(), Family::Shape | Family::Csg))
                 {
                     let text = self.sources.text(token.span).to_owned();
-                    let diagnostic = Diagnostic::new(Code::WrongType, format!("`{text}` stands in a `union` without `object`"))
-                        .at(token.span, "a declared object")
-                        .help(format!("write `object {{ {text} }}`"))
-                        .fix(token.span, format!("object {{ {text} }}"));
+                    let diagnostic = Diagnostic::new(
+                        Code::WrongType,
+                        format!("`{text}` stands in a `union` without `object`"),
+                    )
+                    .at(token.span, "a declared object")
+                    .help(format!("write `object {{ {text} }}`"))
+                    .fix(token.span, format!("object {{ {text} }}"));
                     return Some(Err(self.report(&token.here, diagnostic)));
                 }
                 Some(Ok(ObjectKind::Use(object)))
@@ -109,8 +115,8 @@ impl Evaluator<'_> {
     }
 
     fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let centre = self.vector_after(token, "the centre, a vector,");
-        let radius = self.number_after(token, "the radius, a number,");
+        let centre = self.vector_after(token, "a vector for the centre");
+        let radius = self.number_after(token, "a number for the radius");
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
@@ -124,22 +130,25 @@ impl Evaluator<'_> {
     }
 
     fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let normal = self.direction_after(token, "the normal, a vector,");
-        let distance = self.number_after(token, "the distance, a number,");
+        let normal = self.direction_after(token, "the normal");
+        let distance = self.number_after(token, "a number for the distance");
         let (normal, distance) = (normal?, distance?);
         Ok(ObjectKind::Plane { normal: normal.value, distance: distance.value })
     }
 
     fn box_(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let first = self.vector_after(token, "a corner, a vector,");
-        let second = self.vector_after(token, "the opposite corner, a vector,");
+        let first = self.vector_after(token, "a vector for a corner");
+        let second = self.vector_after(token, "a vector for the opposite corner");
         let (first, second) = (first?, second?);
         let size: Vector = (second.value - first.value).abs();
         let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
         if flat >= 2 {
-            let diagnostic = Diagnostic::new(Code::ZeroSize, "a box whose corners differ along less than two axes is nothing")
-                .at(second.span, "expected the opposite corner")
-                .also(first.span, "the first corner");
+            let diagnostic = Diagnostic::new(
+                Code::ZeroSize,
+                "a box whose corners differ along less than two axes is nothing",
+            )
+            .at(second.span, "expected the opposite corner")
+            .also(first.span, "the first corner");
             return Err(self.report(&second.here, diagnostic));
         }
         Ok(ObjectKind::Box { corners: [first.value, second.value] })
@@ -152,11 +161,19 @@ impl Evaluator<'_> {
             return Err(self.expected("a declared object", None, (&token.here, token.span)));
         };
         let value = match next.kind {
-            TokenKind::Word(word) if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
+            TokenKind::Word(word)
+                if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
+            {
                 self.object(&next, word)?
             }
             TokenKind::Expression(id) => self.expression(&next.here, id)?,
-            _ => return Err(self.expected("a declared object", Some(&next), (&token.here, token.span))),
+            _ => {
+                return Err(self.expected(
+                    "a declared object",
+                    Some(&next),
+                    (&token.here, token.span),
+                ));
+            }
         };
         match value {
             Value::Object(object) => Ok(ObjectKind::Use(object)),
@@ -227,14 +244,15 @@ impl Evaluator<'_> {
         }
         let TokenKind::Word(word) = token.kind else { return None };
         let site = token.here.site(token.span);
-        let start_texture = |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
-            // A pigment or finish alone changes a copy of the default texture.
-            if !*textured {
-                let kind = ModifierKind::Texture(evaluator.default_texture);
-                modifiers.push(Modifier { kind, site });
-                *textured = true;
-            }
-        };
+        let start_texture =
+            |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
+                // A pigment or finish alone changes a copy of the default texture.
+                if !*textured {
+                    let kind = ModifierKind::Texture(evaluator.default_texture);
+                    modifiers.push(Modifier { kind, site });
+                    *textured = true;
+                }
+            };
         let kind = match word {
             Word::Texture => self.texture(token).map(|texture: TextureId| {
                 *textured = true;
@@ -248,8 +266,12 @@ impl Evaluator<'_> {
                 start_texture(self, modifiers, textured);
                 self.finish(token).map(|finish| Some(ModifierKind::Finish(finish)))
             }
-            Word::NoShadow => self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow)),
-            Word::Inverse => self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse)),
+            Word::NoShadow => {
+                self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))
+            }
+            Word::Inverse => {
+                self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
+            }
             _ => return None,
         };
         Some(kind)

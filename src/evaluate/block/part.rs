@@ -48,8 +48,10 @@ impl Evaluator<'_> {
                     .at(found.span_head(), format!("expected {wanted}"))
                     .also(after.span, "for this")
                 }
-                None => Diagnostic::new(Code::MissingPart, format!("expected {wanted} after {name}"))
-                    .at(after.span, format!("{wanted} is missing after this")),
+                None => {
+                    Diagnostic::new(Code::MissingPart, format!("expected {wanted} after {name}"))
+                        .at(after.span, format!("{wanted} is missing after this"))
+                }
             };
             let diagnostic = match after.kind {
                 TokenKind::Word(word) => diagnostic.help(word.sentence().to_owned()),
@@ -76,7 +78,13 @@ impl Evaluator<'_> {
         Ok(given.with(number))
     }
 
-    pub(in crate::evaluate) fn as_number(&mut self, here: &Here, span: Span, value: &Value, wanted: &str) -> Outcome<f64> {
+    pub(in crate::evaluate) fn as_number(
+        &mut self,
+        here: &Here,
+        span: Span,
+        value: &Value,
+        wanted: &str,
+    ) -> Outcome<f64> {
         match value.as_number() {
             Some(number) => Ok(number),
             None => Err(self.wrong_type(here, span, wanted, value)),
@@ -107,11 +115,14 @@ impl Evaluator<'_> {
     }
 
     /// A direction: any vector but zero.
-    pub(super) fn direction_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
-        let given = self.vector_after(after, wanted)?;
+    pub(super) fn direction_after(&mut self, after: &Token, what: &str) -> Outcome<Given<Vector>> {
+        let given = self.vector_after(after, &format!("a vector for {what}"))?;
         if given.value == Vector::ZERO {
-            let diagnostic = Diagnostic::new(Code::ZeroVector, format!("{wanted} is the zero vector, and points nowhere"))
-                .at(given.span, "expected a vector other than <0, 0, 0>");
+            let diagnostic = Diagnostic::new(
+                Code::ZeroVector,
+                format!("{what} is the zero vector, and points nowhere"),
+            )
+            .at(given.span, "expected a vector other than <0, 0, 0>");
             return Err(self.report(&given.here, diagnostic));
         }
         Ok(given)
@@ -153,7 +164,12 @@ impl Evaluator<'_> {
     }
 
     /// Reports a number outside of what its place allows.
-    pub(super) fn out_of_range(&mut self, given: &Given<f64>, word: Word, wanted: &str) -> Reported {
+    pub(super) fn out_of_range(
+        &mut self,
+        given: &Given<f64>,
+        word: Word,
+        wanted: &str,
+    ) -> Reported {
         let diagnostic = Diagnostic::new(
             Code::OutOfRange,
             format!("`{}` is {}, and must be {wanted}", word.name(), given.value),

@@ -53,18 +53,22 @@ impl Evaluator<'_> {
                 pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
             }
             TokenKind::Word(Word::Gradient) => {
-                let direction = self.direction_after(token, "a direction")?.value;
+                let direction = self.direction_after(token, "the gradient's direction")?.value;
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
-                pigment.kind = PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
+                pigment.kind =
+                    PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
             }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
                 match &mut pigment.kind {
                     PigmentKind::Patterned { map, .. } => *map = given.as_ref().clone(),
                     PigmentKind::Color(_) => {
-                        let diagnostic = Diagnostic::new(Code::MissingPart, "a `color_map` needs a pattern before it")
-                            .at(token.span, "colours over the values of which pattern?")
-                            .help("write the pattern first: `gradient y color_map { … }`");
+                        let diagnostic = Diagnostic::new(
+                            Code::MissingPart,
+                            "a `color_map` needs a pattern before it",
+                        )
+                        .at(token.span, "colours over the values of which pattern?")
+                        .help("write the pattern first: `gradient y color_map { … }`");
                         return Err(self.report(&token.here, diagnostic));
                     }
                 }
@@ -105,7 +109,10 @@ impl Evaluator<'_> {
             _ => {
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::PIGMENT);
-                if !poisoned && self.poison.is_none() && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon) {
+                if !poisoned
+                    && self.poison.is_none()
+                    && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon)
+                {
                     return Err(Reported);
                 }
             }
@@ -115,15 +122,17 @@ impl Evaluator<'_> {
 
     /// The two colours of `checker`; blue and green where they are missing.
     fn color_pair(&mut self, token: &Token) -> Outcome<(Color, Color)> {
-        let mut colors = [
-            Color::opaque(Rgb::new(0.0, 0.0, 1.0)),
-            Color::opaque(Rgb::new(0.0, 1.0, 0.0)),
-        ];
+        let mut colors =
+            [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
         for color in &mut colors {
             self.skip_commas();
             if self.at_color() {
                 *color = self.color_after(token, "a colour")?.value;
-            } else if let Some(Token { kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)), .. }) = self.peek() {
+            } else if let Some(Token {
+                kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)),
+                ..
+            }) = self.peek()
+            {
                 let word = *word;
                 let Some(next) = self.next() else { break };
                 if word == Word::Pigment {
@@ -135,7 +144,10 @@ impl Evaluator<'_> {
                 } else {
                     self.skip_arguments(word);
                 }
-                self.set_poison(super::super::value::Poison { word, site: next.here.site(next.span) });
+                self.set_poison(super::super::value::Poison {
+                    word,
+                    site: next.here.site(next.span),
+                });
             }
         }
         Ok((colors[0], colors[1]))
@@ -151,7 +163,8 @@ impl Evaluator<'_> {
                 match &token.kind {
                     TokenKind::Entry(items) => {
                         let here = token.here.clone();
-                        let read = evaluator.inside(&here, *items, |evaluator| evaluator.map_entry(&token));
+                        let read = evaluator
+                            .inside(&here, *items, |evaluator| evaluator.map_entry(&token));
                         match read {
                             Ok(read) => entries.extend(read),
                             Err(Reported) => failed = true,
@@ -200,7 +213,12 @@ impl Evaluator<'_> {
             Value::Number(to) => {
                 let first = self.color_after(token, "a colour")?.value;
                 let last = self.color_after(token, "a second colour")?.value;
-                self.lint_legacy(&token.here, token.span, "an entry with two values is an old form", "write two entries, one for each value");
+                self.lint_legacy(
+                    &token.here,
+                    token.span,
+                    "an entry with two values is an old form",
+                    "write two entries, one for each value",
+                );
                 vec![(from, first), (to, last)]
             }
             value => match value.as_color() {
@@ -217,9 +235,12 @@ impl Evaluator<'_> {
         match self.next() {
             None => Ok(()),
             Some(extra) => {
-                let diagnostic = Diagnostic::new(Code::ExtraPart, "an entry of a `color_map` is one number and one colour")
-                    .at(extra.span_head(), "this is more")
-                    .also(entry.span_head(), "in this entry");
+                let diagnostic = Diagnostic::new(
+                    Code::ExtraPart,
+                    "an entry of a `color_map` is one number and one colour",
+                )
+                .at(extra.span_head(), "this is more")
+                .also(entry.span_head(), "in this entry");
                 Err(self.report(&extra.here, diagnostic))
             }
         }

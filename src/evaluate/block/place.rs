@@ -32,7 +32,13 @@ impl Place {
     };
     pub const PIGMENT: Self = Self {
         word: Some(Word::Pigment),
-        families: &[Family::Pattern, Family::PatternItem, Family::Color, Family::Transform, Family::Texture],
+        families: &[
+            Family::Pattern,
+            Family::PatternItem,
+            Family::Color,
+            Family::Transform,
+            Family::Texture,
+        ],
     };
     pub const COLOR_MAP: Self = Self { word: Some(Word::ColorMap), families: &[Family::Color] };
     pub const FINISH: Self = Self { word: Some(Word::Finish), families: &[Family::FinishItem] };
@@ -42,8 +48,12 @@ impl Place {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],
     };
-    pub const DEFAULT: Self = Self { word: Some(Word::Default), families: &[Family::Texture, Family::Setting, Family::Camera] };
-    pub const TRANSFORM: Self = Self { word: Some(Word::TransformWord), families: &[Family::Transform] };
+    pub const DEFAULT: Self = Self {
+        word: Some(Word::Default),
+        families: &[Family::Texture, Family::Setting, Family::Camera],
+    };
+    pub const TRANSFORM: Self =
+        Self { word: Some(Word::TransformWord), families: &[Family::Transform] };
     pub const CAMERA: Self = Self {
         word: Some(Word::Camera),
         families: &[Family::Camera, Family::Transform, Family::PatternItem, Family::Texture],
@@ -53,15 +63,22 @@ impl Place {
         families: &[Family::Light, Family::Transform, Family::Color, Family::Interior],
     };
     pub const BACKGROUND: Self = Self { word: Some(Word::Background), families: &[Family::Color] };
-    pub const SKY_SPHERE: Self =
-        Self { word: Some(Word::SkySphere), families: &[Family::Texture, Family::Transform, Family::FinishItem] };
+    pub const SKY_SPHERE: Self = Self {
+        word: Some(Word::SkySphere),
+        families: &[Family::Texture, Family::Transform, Family::FinishItem],
+    };
     pub const SETTINGS: Self =
         Self { word: Some(Word::GlobalSettings), families: &[Family::Setting, Family::Interior] };
 
     /// The block of a shape.
     pub fn shape(word: Word) -> Self {
-        const FAMILIES: &[Family] =
-            &[Family::Modifier, Family::Transform, Family::Texture, Family::Interior, Family::ShapeItem];
+        const FAMILIES: &[Family] = &[
+            Family::Modifier,
+            Family::Transform,
+            Family::Texture,
+            Family::Interior,
+            Family::ShapeItem,
+        ];
         Self { word: Some(word), families: FAMILIES }
     }
 
@@ -178,9 +195,11 @@ impl Evaluator<'_> {
             return;
         }
         let kind = value.kind();
-        let mut diagnostic =
-            Diagnostic::new(Code::ExtraPart, format!("{kind} has no meaning here {}", place.name()))
-                .at(token.span, "expected a word of this block, or its end");
+        let mut diagnostic = Diagnostic::new(
+            Code::ExtraPart,
+            format!("{kind} has no meaning here {}", place.name()),
+        )
+        .at(token.span, "expected a word of this block, or its end");
         let text = self.sources.text(token.span).to_owned();
         let wrapper = match value {
             Value::Texture(_) => Some("texture"),
@@ -213,18 +232,28 @@ impl Evaluator<'_> {
         }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let name = word.name();
-        let diagnostic = if has_block {
-            let home = if Place::SCENE.holds(word) { "it belongs to the scene itself" } else { "it belongs elsewhere" };
+        let foreign =
+            suggest::foreign(name).filter(|other| place.words().any(|word| word == *other));
+        let diagnostic = if let Some(near) = foreign {
+            Diagnostic::new(Code::ForeignWord, format!("`{name}` has no meaning {}", place.name()))
+                .at(token.span, format!("did you mean `{near}`?"))
+                .help(format!("replace it with `{near}`"))
+                .fix(token.span, near)
+        } else if has_block {
+            let home = if Place::SCENE.holds(word) {
+                "it belongs to the scene itself"
+            } else {
+                "it belongs elsewhere"
+            };
             Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
                 .at(token.span, home)
         } else {
-            let mut diagnostic =
-                Diagnostic::new(Code::UnknownWord, format!("`{name}` has no meaning {}", place.name()))
-                    .at(token.span, format!("not a word of this block: {}", word.sentence()));
-            let near = suggest::foreign(name).filter(|other| place.words().any(|word| word == *other));
-            if let Some(near) = near {
-                diagnostic = diagnostic.help(format!("did you mean `{near}`?")).fix(token.span, near);
-            } else if let Some(home) = place.word {
+            let mut diagnostic = Diagnostic::new(
+                Code::UnknownWord,
+                format!("`{name}` has no meaning {}", place.name()),
+            )
+            .at(token.span, format!("not a word of this block: {}", word.sentence()));
+            if let Some(home) = place.word {
                 diagnostic = diagnostic.help(home.sentence().to_owned());
             }
             diagnostic
@@ -241,22 +270,24 @@ impl Evaluator<'_> {
     fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
         let name = self.sources.text(span).to_owned();
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
-        let here = suggest::closest(&name, place.words())
-            .or_else(|| suggest::foreign(&name).filter(|word| place.words().any(|other| other == *word)));
+        let here = suggest::closest(&name, place.words()).or_else(|| {
+            suggest::foreign(&name).filter(|word| place.words().any(|other| other == *word))
+        });
         let declared = || self.scopes.visible().collect::<Vec<_>>();
         let near = match here {
             Some(word) => Some(word.to_owned()),
             None if has_block => {
-                super::super::report::word_like(&name).map(str::to_owned)
+                super::super::report::word_like(&name, |_| true).map(str::to_owned)
             }
             None => suggest::closest(&name, declared())
                 .map(str::to_owned)
-                .or_else(|| super::super::report::word_like(&name).map(str::to_owned)),
+                .or_else(|| super::super::report::word_like(&name, |_| true).map(str::to_owned)),
         };
         let is_foreign = near.as_deref().is_some_and(|near| suggest::foreign(&name) == Some(near))
             && suggest::closest(&name, near.as_deref()).is_none();
         let code = if is_foreign { Code::ForeignWord } else { Code::UnknownWord };
-        let mut diagnostic = Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
+        let mut diagnostic =
+            Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
         diagnostic = match near {
             Some(near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))
@@ -325,7 +356,9 @@ impl Evaluator<'_> {
                     }
                     return;
                 }
-                Some(TokenKind::Word(next)) if next.family() == Family::Color && word.family() != Family::Color => {
+                Some(TokenKind::Word(next))
+                    if next.family() == Family::Color && word.family() != Family::Color =>
+                {
                     drop(self.next());
                 }
                 Some(TokenKind::Word(_) | TokenKind::Semicolon) | None => return,

@@ -21,7 +21,8 @@ impl Evaluator<'_> {
     fn setting(&mut self, token: &Token) -> Outcome<()> {
         match token.kind {
             TokenKind::Word(Word::AmbientLight) => {
-                self.scene.settings.ambient_light = self.color_after(token, "a number or a colour")?.value.rgb;
+                self.scene.settings.ambient_light =
+                    self.color_after(token, "a number or a colour")?.value.rgb;
             }
             TokenKind::Word(Word::AssumedGamma) => {
                 // `srgb` stands for the curve of a usual display, whose mean exponent is 2.2.
@@ -33,7 +34,11 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::MaxTraceLevel) => {
                 let given = self.number_after(token, "a whole number")?;
                 if !(1.0..=1_000_000.0).contains(&given.value) || given.value.fract() != 0.0 {
-                    return Err(self.out_of_range(&given, Word::MaxTraceLevel, "a whole number from 1 to 1000000"));
+                    return Err(self.out_of_range(
+                        &given,
+                        Word::MaxTraceLevel,
+                        "a whole number from 1 to 1000000",
+                    ));
                 }
                 self.scene.settings.max_trace_level = given.value as u32;
                 self.scene.settings.max_trace_level_site = Some(given.site());

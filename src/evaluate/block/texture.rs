@@ -39,8 +39,12 @@ impl Evaluator<'_> {
             return Ok(());
         }
         match token.kind {
-            TokenKind::Word(Word::Pigment) => texture.pigment = self.pigment_from(token, texture.pigment)?,
-            TokenKind::Word(Word::Finish) => texture.finish = self.finish_from(token, texture.finish)?,
+            TokenKind::Word(Word::Pigment) => {
+                texture.pigment = self.pigment_from(token, texture.pigment)?
+            }
+            TokenKind::Word(Word::Finish) => {
+                texture.finish = self.finish_from(token, texture.finish)?
+            }
             TokenKind::Expression(id) => match self.named(token, id) {
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
                 Some(Value::Poison(poison)) => self.set_poison(poison),

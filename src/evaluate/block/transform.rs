@@ -46,10 +46,14 @@ impl Evaluator<'_> {
                 let factors = given.value;
                 if factors.to_array().contains(&0.0) {
                     let uniform = factors == Vector::ZERO;
-                    let mut diagnostic = Diagnostic::new(Code::ZeroScale, "a scale of zero flattens everything to nothing")
-                        .at(given.span, "expected factors other than zero");
+                    let mut diagnostic = Diagnostic::new(
+                        Code::ZeroScale,
+                        "a scale of zero flattens everything to nothing",
+                    )
+                    .at(given.span, "expected factors other than zero");
                     if !uniform {
-                        diagnostic = diagnostic.help("a direction that is to stay as it is takes the factor 1");
+                        diagnostic = diagnostic
+                            .help("a direction that is to stay as it is takes the factor 1");
                     }
                     return Err(self.report(&given.here, diagnostic));
                 }
@@ -62,7 +66,13 @@ impl Evaluator<'_> {
     fn matrix(&mut self, token: &Token) -> Outcome<Step> {
         let next = match self.next() {
             Some(next) => next,
-            None => return Err(self.expected("twelve numbers in angle brackets", None, (&token.here, token.span))),
+            None => {
+                return Err(self.expected(
+                    "twelve numbers in angle brackets",
+                    None,
+                    (&token.here, token.span),
+                ));
+            }
         };
         let components = match next.kind {
             TokenKind::Expression(id) => match next.here.unit.expression(id).kind {
@@ -72,7 +82,11 @@ impl Evaluator<'_> {
             _ => None,
         };
         let Some(components) = components else {
-            return Err(self.expected("twelve numbers in angle brackets", Some(&next), (&token.here, token.span)));
+            return Err(self.expected(
+                "twelve numbers in angle brackets",
+                Some(&next),
+                (&token.here, token.span),
+            ));
         };
         let unit = next.here.unit.clone();
         let mut numbers = Vec::with_capacity(12);
@@ -90,8 +104,9 @@ impl Evaluator<'_> {
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
         let rows = [row(0), row(1), row(2), row(3)];
         if rows[0].cross(rows[1]).dot(rows[2]) == 0.0 {
-            let diagnostic = Diagnostic::new(Code::ZeroScale, "this matrix flattens everything to nothing")
-                .at(next.span, "its determinant is zero");
+            let diagnostic =
+                Diagnostic::new(Code::ZeroScale, "this matrix flattens everything to nothing")
+                    .at(next.span, "its determinant is zero");
             return Err(self.report(&next.here, diagnostic));
         }
         Ok(Step::Matrix(rows))
@@ -111,7 +126,9 @@ impl Evaluator<'_> {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
                 match evaluator.transform_from(&token) {
-                    Some(Ok(id)) => steps.extend(evaluator.scene.transforms[id.index()].iter().cloned()),
+                    Some(Ok(id)) => {
+                        steps.extend(evaluator.scene.transforms[id.index()].iter().cloned())
+                    }
                     Some(Err(Reported)) => failed = true,
                     None => match token.kind {
                         TokenKind::Word(Word::Inverse) => {
@@ -119,7 +136,8 @@ impl Evaluator<'_> {
                         }
                         TokenKind::Expression(id) => match evaluator.named(&token, id) {
                             Some(Value::Transform(id)) => {
-                                steps.extend(evaluator.scene.transforms[id.index()].iter().cloned());
+                                steps
+                                    .extend(evaluator.scene.transforms[id.index()].iter().cloned());
                             }
                             _ => {
                                 evaluator.unexpected(&token, Place::TRANSFORM);
@@ -135,7 +153,11 @@ impl Evaluator<'_> {
     }
 
     /// The value of a token that is a lone declared name, or a call; nothing is reported.
-    pub(super) fn named(&mut self, token: &Token, id: crate::syntax::ast::ExpressionId) -> Option<Value> {
+    pub(super) fn named(
+        &mut self,
+        token: &Token,
+        id: crate::syntax::ast::ExpressionId,
+    ) -> Option<Value> {
         match token.here.unit.expression(id).kind {
             ExpressionKind::Name(name) => {
                 let symbol = token.here.symbol(name);
