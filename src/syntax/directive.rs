@@ -162,6 +162,12 @@ impl<'a> Nest<'a> {
                         return true;
                     }
                 }
+                TokenKind::Word(Word::Deprecated)
+                    if matches!(head, Head::Declare | Head::Local) && first =>
+                {
+                    self.skip_deprecation();
+                    return true;
+                }
                 // A reserved word where a name is wanted: told when the head is read.
                 TokenKind::Word(word)
                     if names && first && state == State::Idle && word.role() != Role::Value =>
@@ -214,6 +220,15 @@ impl<'a> Nest<'a> {
                 return false;
             }
             self.complete_head();
+        }
+    }
+
+    /// `deprecated once "why"` before the name: a note to readers, without effect here.
+    fn skip_deprecation(&mut self) {
+        for kind in [TokenKind::Word(Word::Once), TokenKind::String] {
+            if self.tokens.get(self.at + 1).is_some_and(|next| next.kind == kind) {
+                self.at += 1;
+            }
         }
     }
 

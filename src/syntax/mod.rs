@@ -44,7 +44,7 @@ pub fn parse(
     let quiet = comment::quiet(&source.text, file, diagnostics);
     let tokens = token::tokens(&quiet.text);
     let tokens = balance::balance(tokens, &quiet.text, source, file, options, diagnostics);
-    nest::nest(&source.text, file, &tokens, quiet.comments, options, diagnostics)
+    nest::nest(&quiet, source.text.len(), file, &tokens, options, diagnostics)
 }
 
 fn nesting_limit(span: Span, limit: usize) -> Diagnostic {

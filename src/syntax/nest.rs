@@ -11,6 +11,7 @@ use super::ast::{
     Argument, Arguments, Ast, Callee, Component, Expression, ExpressionId, ExpressionKind, Item,
     ItemKind, Items, NameId, UnaryOperator,
 };
+use super::comment::Quiet;
 use super::directive::Body;
 use super::expression::{self, Operator, OperatorKind, Stacks};
 use super::numbers::{self, Piece, Pieces};
@@ -74,7 +75,10 @@ pub(super) enum State {
 }
 
 pub(super) struct Nest<'a> {
+    /// Without its comments.
     pub text: &'a str,
+    /// The end of the text as the author wrote it.
+    end: usize,
     file: FileId,
     dialect: Dialect,
     nesting_limit: usize,
@@ -90,17 +94,18 @@ pub(super) struct Nest<'a> {
     stacks: Stacks,
 }
 
-/// Builds the tree of `tokens`, which lie in `text`.
+/// Builds the tree of `tokens`, which lie in a text that is `end` bytes long.
 pub(super) fn nest<'a>(
-    text: &'a str,
+    quiet: &'a Quiet<'a>,
+    end: usize,
     file: FileId,
     tokens: &'a [Token],
-    comments: Vec<Span>,
     options: &ParseOptions,
     diagnostics: &'a mut Diagnostics,
 ) -> Ast {
     let mut nest = Nest {
-        text,
+        text: &quiet.text,
+        end,
         file,
         dialect: options.dialect,
         nesting_limit: options.nesting_limit,
@@ -115,7 +120,7 @@ pub(super) fn nest<'a>(
             names: Vec::new(),
             arguments: Vec::new(),
             numbers: Vec::new(),
-            comments,
+            comments: quiet.comments.clone(),
             root: Items::default(),
         },
         names: HashMap::new(),
@@ -136,8 +141,8 @@ pub(super) fn nest<'a>(
 impl<'a> Nest<'a> {
     pub fn span(&self, token: Token) -> Span {
         // A quote that was put in to close a string may lie behind the end.
-        let end = self.text.len();
-        Span::new(self.file, (token.start as usize).min(end), (token.end as usize).min(end))
+        let (start, end) = (token.start as usize, token.end as usize);
+        Span::new(self.file, start.min(self.end), end.min(self.end))
     }
 
     pub fn slice(&self, span: Span) -> &'a str {
@@ -292,6 +297,10 @@ impl<'a> Nest<'a> {
                 if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Round))) {
                     return self.call(Callee::Word(word, span), span, one_argument);
                 }
+                if self.lists_items() && self.top().state != State::Wanting {
+                    // The functions of a `julia_fractal` stand alone.
+                    return self.item(ItemKind::Word(word), span);
+                }
                 let name = word.name();
                 self.report(
                     Diagnostic::new(
@@ -347,25 +356,27 @@ impl<'a> Nest<'a> {
         }
     }
 
+    /// True where values stand side by side as items.
+    fn lists_items(&mut self) -> bool {
+        let top = self.top();
+        match &top.kind {
+            FrameKind::File | FrameKind::Entry | FrameKind::Default(_) | FrameKind::Body(_) => true,
+            FrameKind::Block => !top.formula,
+            FrameKind::Group
+            | FrameKind::Vector
+            | FrameKind::Call(_)
+            | FrameKind::Index(_)
+            | FrameKind::Head(_)
+            | FrameKind::Condition(..)
+            | FrameKind::List(..) => false,
+        }
+    }
+
     /// Literals with their commas: one item where values stand side by side, else token by token.
     fn run(&mut self, token: Token) {
         let mut span = self.span(token);
         loop {
-            let top = self.top();
-            let list = match &top.kind {
-                FrameKind::File | FrameKind::Entry | FrameKind::Default(_) | FrameKind::Body(_) => {
-                    true
-                }
-                FrameKind::Block => !top.formula,
-                FrameKind::Group
-                | FrameKind::Vector
-                | FrameKind::Call(_)
-                | FrameKind::Index(_)
-                | FrameKind::Head(_)
-                | FrameKind::Condition(..)
-                | FrameKind::List(..) => false,
-            };
-            if list && top.state != State::Wanting {
+            if self.lists_items() && self.top().state != State::Wanting {
                 break;
             }
             span.start += self.first_of_run(span) as u32;
@@ -775,7 +786,9 @@ impl<'a> Nest<'a> {
     }
 
     fn close_vector(&mut self, span: Span) {
-        if self.top().state == State::Idle {
+        let base = self.top().arguments;
+        // A comma may stand before the `>`.
+        if self.top().state == State::Idle && self.arguments.len() == base {
             self.missing_before(span, "a component");
         }
         self.finish_expression();
@@ -897,7 +910,7 @@ impl<'a> Nest<'a> {
     }
 
     fn end_of_file(&mut self) {
-        let end = Span::new(self.file, self.text.len(), self.text.len());
+        let end = Span::new(self.file, self.end, self.end);
         loop {
             self.leave_vectors(end);
             self.finish_expression();
