@@ -8,10 +8,16 @@ pub mod ast;
 mod balance;
 mod comment;
 mod directive;
+mod dump;
 mod expression;
+mod layout;
 mod nest;
 mod numbers;
+mod raw;
+mod repair;
 mod token;
+
+pub use self::dump::dump;
 
 use self::ast::Ast;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -43,7 +49,7 @@ pub fn parse(
 ) -> Ast {
     let quiet = comment::quiet(&source.text, file, diagnostics);
     let tokens = token::tokens(&quiet.text);
-    let tokens = balance::balance(tokens, &quiet.text, source, file, options, diagnostics);
+    let tokens = balance::balance(tokens, &quiet.text, file, options, diagnostics);
     nest::nest(&quiet, source.text.len(), file, &tokens, options, diagnostics)
 }
 
@@ -60,3 +66,6 @@ fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Opt
     let best = candidates.into_iter().min_by_key(near)?;
     (near(&best) <= 1 + word.len() / 5).then_some(best)
 }
+
+#[cfg(test)]
+mod tests;

@@ -595,6 +595,13 @@ impl<'a> Nest<'a> {
                 self.finish_expression();
             }
             FrameKind::Call(_) | FrameKind::List(..) => {
+                let empty = self.items.len() == self.frames[self.frames.len() - 1].items;
+                if idle
+                    && empty
+                    && let FrameKind::Call(_) = self.top().kind
+                {
+                    self.missing_before(span, "an argument");
+                }
                 self.finish_expression();
                 self.end_argument();
             }
@@ -744,15 +751,16 @@ impl<'a> Nest<'a> {
 
     fn end_last_argument(&mut self, frame: &Frame, close: Span) {
         let empty = self.items.len() == frame.items;
-        if empty && self.arguments.len() > frame.arguments {
-            // `f(a, )`: told, but not for `#write`, whose parts may come from branches.
-            if !matches!(frame.kind, FrameKind::List(..)) {
-                let text = self.slice(close);
-                self.report(
-                    Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
-                        .at(close, format!("`{text}` follows the comma")),
-                );
-            }
+        // A macro's call and a directive's list may end with a comma, a function's may not.
+        if let FrameKind::Call(Callee::Word(..)) = frame.kind
+            && empty
+            && self.arguments.len() > frame.arguments
+        {
+            let text = self.slice(close);
+            self.report(
+                Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
+                    .at(close, format!("`{text}` follows the comma")),
+            );
         }
         self.arguments_from(frame.items);
     }
