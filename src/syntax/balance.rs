@@ -50,29 +50,29 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
     }
 }
 
-/// Returns tokens that pair.
+/// Returns tokens that pair, and whether they end before the text does.
 pub(super) fn balance(
     mut tokens: Vec<Token>,
     text: &str,
     file: FileId,
     options: &ParseOptions,
     diagnostics: &mut Diagnostics,
-) -> Vec<Token> {
+) -> (Vec<Token>, bool) {
     if let Some(at) = too_deep(&tokens, options.nesting_limit) {
         let span = Span::new(file, tokens[at].start as usize, tokens[at].end as usize);
         diagnostics.push(super::nesting_limit(span, options.nesting_limit));
         // Nothing behind it can be understood.
         tokens.truncate(at);
-        return tokens;
+        return (tokens, true);
     }
     if pairs(&tokens) {
-        return tokens;
+        return (tokens, false);
     }
     let tokens = raw::keep_raw(tokens, text);
     if pairs(&tokens) {
-        return tokens;
+        return (tokens, false);
     }
-    repair::repair(tokens, text, file, diagnostics)
+    (repair::repair(tokens, text, file, diagnostics), false)
 }
 
 /// True if every opener has its closer, and branches close what they open.

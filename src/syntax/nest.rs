@@ -30,7 +30,7 @@ pub(super) struct Frame {
     pub arguments: usize,
     operators: usize,
     /// Comparisons, logic and `?:` are allowed.
-    full: bool,
+    pub full: bool,
     /// Inside the body of a `function`, where calls and indices are full too.
     formula: bool,
     pub state: State,
@@ -39,6 +39,8 @@ pub(super) struct Frame {
     /// The next block is the body of a function.
     function_ahead: bool,
     after_contextual: bool,
+    /// That its expression needs parentheses has been told.
+    level_told: bool,
 }
 
 pub(super) enum FrameKind {
@@ -92,14 +94,20 @@ pub(super) struct Nest<'a> {
     pub items: Vec<Item>,
     pub arguments: Vec<Argument>,
     stacks: Stacks,
+    /// The tokens end before the text does, which has been told.
+    ends_early: bool,
+    /// The text was given up at a limit: what is open now is no mistake of the author's.
+    cut: bool,
 }
 
-/// Builds the tree of `tokens`, which lie in a text that is `end` bytes long.
+/// Builds the tree of `tokens`, which lie in a text that is `end` bytes long. `cut`: the
+/// text goes on behind them.
 pub(super) fn nest<'a>(
     quiet: &'a Quiet<'a>,
     end: usize,
     file: FileId,
     tokens: &'a [Token],
+    cut: bool,
     options: &ParseOptions,
     diagnostics: &'a mut Diagnostics,
 ) -> Ast {
@@ -128,9 +136,13 @@ pub(super) fn nest<'a>(
         items: Vec::new(),
         arguments: Vec::new(),
         stacks: Stacks::default(),
+        ends_early: cut,
+        cut: false,
     };
     nest.open(FrameKind::File, Span::new(file, 0, 0), false);
     while let Some(&token) = tokens.get(nest.at) {
+        // The last token before a cut lacks what follows it.
+        nest.cut |= cut && nest.at + 1 == tokens.len();
         nest.token(token);
         nest.at += 1;
     }
@@ -150,7 +162,9 @@ impl<'a> Nest<'a> {
     }
 
     pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        if !self.cut {
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     pub fn name(&mut self, name: &'a str) -> NameId {
@@ -197,6 +211,7 @@ impl<'a> Nest<'a> {
             block,
             function_ahead: false,
             after_contextual: false,
+            level_told: false,
         });
     }
 
@@ -507,7 +522,11 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Missing, Span { end: span.start, ..span }, false);
     }
 
+    /// Told once an expression.
     fn only_in_parentheses(&mut self, span: Span) {
+        if std::mem::replace(&mut self.top().level_told, true) {
+            return;
+        }
         let text = self.slice(span);
         let message = format!("`{text}` stands only inside parentheses");
         self.report(
@@ -869,7 +888,8 @@ impl<'a> Nest<'a> {
                 self.stacks.operands.push(id);
             }
         }
-        self.top().state = State::Idle;
+        let top = self.top();
+        (top.state, top.level_told) = (State::Idle, false);
         let Some(id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
         if self.in_vector() {
             self.arguments.push(Argument::Expression(id));
@@ -880,9 +900,12 @@ impl<'a> Nest<'a> {
     }
 
     fn too_deep(&mut self, span: Span) {
-        self.report(super::nesting_limit(span, self.nesting_limit));
+        if !self.ends_early {
+            self.report(super::nesting_limit(span, self.nesting_limit));
+        }
         // Nothing behind it can be understood: the text ends here.
         self.at = self.tokens.len();
+        self.cut = true;
     }
 
     fn stray(&mut self, token: Token) {

@@ -59,6 +59,8 @@ struct Open {
     outside: Option<usize>,
     /// Its closer stands in a branch; it is closed where the directive of that branch ends.
     closed_in_branch: bool,
+    /// For a directive: that a branch does not pair has been told.
+    told: bool,
 }
 
 struct Repair<'a> {
@@ -126,6 +128,7 @@ impl Repair<'_> {
                     inner: None,
                     outside: None,
                     closed_in_branch: false,
+                    told: false,
                 }),
                 Some(Turn::Close(Opener::Bracket(bracket))) => self.close(bracket, at),
                 Some(Turn::Close(Opener::Directive)) => self.end(at),
@@ -306,22 +309,22 @@ impl Repair<'_> {
 
     /// Closes the brackets that were opened since the innermost directive.
     fn close_since_directive(&mut self, at: usize) {
-        if !self.open.iter().any(|open| open.opener == Opener::Directive) {
-            return;
-        }
-        let mut first = true;
-        while let Some(top) = self.open.pop_if(|top| top.opener != Opener::Directive) {
-            if let Opener::Bracket(bracket) = top.opener {
-                if first {
-                    self.never_closed(top, at);
-                } else {
-                    self.insert_closer(&top, at);
-                }
-                if self.surplus[bracket as usize] <= 0 {
-                    self.owed[bracket as usize] += 1;
-                }
+        let last = self.open.iter().rposition(|open| open.opener == Opener::Directive);
+        let Some(directive) = last else { return };
+        while self.open.len() > directive + 1
+            && let Some(top) = self.open.pop()
+        {
+            let Opener::Bracket(bracket) = top.opener else { continue };
+            // The other branch is usually the same mistake again.
+            if std::mem::replace(&mut self.open[directive].told, true) {
+                self.insert_closer(&top, at);
+                self.surplus[bracket as usize] -= 1;
+            } else {
+                self.never_closed(top, at);
             }
-            first = false;
+            if self.surplus[bracket as usize] < 0 {
+                self.owed[bracket as usize] += 1;
+            }
         }
     }
 
