@@ -13,7 +13,7 @@ const SCENES: &str = "/usr/share/doc/povray/examples";
 const INCLUDES: &str = "/usr/share/povray-3.7/include";
 
 /// A form to be filled in, not a scene; POV-Ray rejects it too.
-const TEMPLATES: &[&str] = &["template.pov"];
+const TEMPLATES: &[&str] = &["__empty.pov"];
 
 fn files(folder: &Path, extensions: &[&str], found: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };

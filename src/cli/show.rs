@@ -27,7 +27,7 @@ pub fn show(
     let file = road.read(&path.to_string_lossy(), bytes);
     let ast = road.parse(file);
     let text = if stage == Stage::Ast {
-        syntax::print::dump(&ast, road.sources.get(file))
+        syntax::dump(&ast, road.sources.get(file))
     } else {
         let scene = road.evaluate(&ast);
         if stage == Stage::Scene {

@@ -1,14 +1,111 @@
+//! Makes brackets and directives pair before anything is nested.
+//!
+//! **In:** the tokens of a text. **Out:** tokens in which every `{ [ (` has its closer and every
+//! directive its `#end`; whatever had to be added or left out has been reported, once.
+//! **Invariant:** a text that pairs comes back as it is. Indentation only chooses *which* bracket is to
+//! blame in a text that certainly does not pair. Vectors are not paired here: `<` may be a comparison.
+
 use super::ParseOptions;
-use super::token::Token;
+use super::raw;
+use super::repair;
+use super::token::{Token, TokenKind};
 use crate::diagnostic::Diagnostics;
-use crate::source::{FileId, Source};
+use crate::source::{FileId, Span};
+
+/// Something that has to be closed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Opener {
+    Bracket(super::token::Bracket),
+    Directive,
+}
+
+/// What a token does to the pairing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Turn {
+    Open(Opener),
+    Close(Opener),
+    /// `#else` and its like: everything opened since the directive has to be closed.
+    Divide,
+}
+
+/// What a token does to the pairing, if anything.
+pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
+    use super::token::{Head, Mark};
+    match kind {
+        TokenKind::Mark(Mark::Open(bracket)) => Some(Turn::Open(Opener::Bracket(bracket))),
+        TokenKind::Mark(Mark::Close(bracket)) => Some(Turn::Close(Opener::Bracket(bracket))),
+        TokenKind::Directive(Head::End) => Some(Turn::Close(Opener::Directive)),
+        TokenKind::Directive(head) if head.opens() => Some(Turn::Open(Opener::Directive)),
+        TokenKind::Directive(head) if head.divides() => Some(Turn::Divide),
+        TokenKind::Directive(_)
+        | TokenKind::Mark(_)
+        | TokenKind::Word(_)
+        | TokenKind::Name
+        | TokenKind::Number
+        | TokenKind::String
+        | TokenKind::Numbers
+        | TokenKind::Vectors
+        | TokenKind::Raw
+        | TokenKind::Stray => None,
+    }
+}
+
+/// Returns tokens that pair, and whether they end before the text does.
 pub(super) fn balance(
-    tokens: Vec<Token>,
-    _: &str,
-    _: &Source,
-    _: FileId,
-    _: &ParseOptions,
-    _: &mut Diagnostics,
-) -> Vec<Token> {
-    tokens
+    mut tokens: Vec<Token>,
+    text: &str,
+    file: FileId,
+    options: &ParseOptions,
+    diagnostics: &mut Diagnostics,
+) -> (Vec<Token>, bool) {
+    if let Some(at) = too_deep(&tokens, options.nesting_limit) {
+        let span = Span::new(file, tokens[at].start as usize, tokens[at].end as usize);
+        diagnostics.push(super::nesting_limit(span, options.nesting_limit));
+        // Nothing behind it can be understood.
+        tokens.truncate(at);
+        return (tokens, true);
+    }
+    if pairs(&tokens) {
+        return (tokens, false);
+    }
+    let tokens = raw::keep_raw(tokens, text);
+    if pairs(&tokens) {
+        return (tokens, false);
+    }
+    (repair::repair(tokens, text, file, diagnostics), false)
+}
+
+/// True if every opener has its closer, and branches close what they open.
+pub(super) fn pairs(tokens: &[Token]) -> bool {
+    let mut open = Vec::new();
+    for token in tokens {
+        match turn(token.kind) {
+            None => {}
+            Some(Turn::Open(opener)) => open.push(opener),
+            Some(Turn::Close(closer)) => {
+                if open.pop() != Some(closer) {
+                    return false;
+                }
+            }
+            Some(Turn::Divide) => {
+                if open.last() != Some(&Opener::Directive) {
+                    return false;
+                }
+            }
+        }
+    }
+    open.is_empty()
+}
+
+/// The first token that opens more than `limit` levels.
+fn too_deep(tokens: &[Token], limit: usize) -> Option<usize> {
+    let mut depth = 0_usize;
+    tokens.iter().position(|token| {
+        match turn(token.kind) {
+            Some(Turn::Open(_)) => depth += 1,
+            Some(Turn::Close(_)) => depth = depth.saturating_sub(1),
+            Some(Turn::Divide) | None => {}
+        }
+        depth > limit
+    })
 }

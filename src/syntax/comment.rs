@@ -29,7 +29,8 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
         None => (scan, None),
     };
     if let Some(quote) = unclosed {
-        let end = text[quote..].find(['\n', '\r']).map_or(text.len(), |line| quote + line);
+        let line = text[quote..].lines().next().unwrap_or("\"");
+        let end = quote + line.trim_end_matches([' ', '\t', '\r', ';', ')', '}']).len();
         diagnostics.push(
             Diagnostic::new(Code::UnclosedString, "this string is never closed")
                 .at(

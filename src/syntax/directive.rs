@@ -83,23 +83,9 @@ impl<'a> Nest<'a> {
             Head::Else => self.else_branch(span),
             Head::End => self.end_directive(span),
             Head::Break => self.add_directive(DirectiveKind::Break, span, span),
-            Head::Unknown => self.unknown(span),
+            // Told already.
+            Head::Unknown => self.add_directive(DirectiveKind::Malformed, span, span),
         }
-    }
-
-    fn unknown(&mut self, span: Span) {
-        let word = self.slice(span).trim_start_matches(['#', ' ', '\t']);
-        let mut diagnostic =
-            Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
-                .at(span, "unknown word after `#`");
-        if let Some(near) = super::closest(word, Head::WORDS.iter().copied()) {
-            let start = span.end - word.len() as u32;
-            diagnostic = diagnostic
-                .help(format!("did you mean `#{near}`?"))
-                .fix(Span { start, ..span }, near);
-        }
-        self.report(diagnostic);
-        self.add_directive(DirectiveKind::Malformed, span, span);
     }
 
     /// Opens the parenthesis that has to follow the word of a directive.
@@ -116,6 +102,11 @@ impl<'a> Nest<'a> {
                 self.at += 1;
                 let open = self.span(next);
                 self.open(frame(span), open, full);
+            }
+            _ if full => {
+                let message = format!("`#{}` takes its condition in parentheses", head.word());
+                self.expected_in_head(span, &message, "expected `(` after it");
+                self.open(FrameKind::Head(head), span, true);
             }
             _ => {
                 let message = format!("`#{}` takes its arguments in parentheses", head.word());
@@ -145,7 +136,8 @@ impl<'a> Nest<'a> {
             let top = self.top();
             let FrameKind::Head(head) = top.kind else { return false };
             let first = self.items.len() == self.frames[self.frames.len() - 1].items;
-            let (state, names) = (self.top().state, names_something(head));
+            let (state, full) = (self.top().state, self.top().full);
+            let names = names_something(head);
             let span = self.span(token);
             match token.kind {
                 TokenKind::Mark(Mark::Equal) if matches!(head, Head::Declare | Head::Local) => {
@@ -161,6 +153,12 @@ impl<'a> Nest<'a> {
                         self.close_head(None);
                         return true;
                     }
+                }
+                TokenKind::Word(Word::Deprecated)
+                    if matches!(head, Head::Declare | Head::Local) && first =>
+                {
+                    self.skip_deprecation();
+                    return true;
                 }
                 // A reserved word where a name is wanted: told when the head is read.
                 TokenKind::Word(word)
@@ -189,15 +187,15 @@ impl<'a> Nest<'a> {
                     }
                 },
                 TokenKind::Mark(mark) => match mark {
-                    Mark::Open(Bracket::Round) | Mark::Less | Mark::Not => holding,
+                    Mark::Open(Bracket::Round) | Mark::Not => holding,
+                    Mark::Less => holding && !full,
                     Mark::Open(Bracket::Square) => state != State::Holding { indexable: true },
                     Mark::Plus | Mark::Minus => false,
                     Mark::Star | Mark::Slash | Mark::Dot => !holding && state != State::Wanting,
-                    Mark::Open(Bracket::Brace)
-                    | Mark::Close(_)
-                    | Mark::Comma
-                    | Mark::Semicolon
-                    | Mark::LessOrEqual
+                    Mark::Open(Bracket::Brace) | Mark::Close(_) | Mark::Comma | Mark::Semicolon => {
+                        true
+                    }
+                    Mark::LessOrEqual
                     | Mark::Equal
                     | Mark::NotEqual
                     | Mark::GreaterOrEqual
@@ -205,7 +203,7 @@ impl<'a> Nest<'a> {
                     | Mark::And
                     | Mark::Or
                     | Mark::Question
-                    | Mark::Colon => true,
+                    | Mark::Colon => !full,
                 },
                 TokenKind::Directive(_) | TokenKind::Raw => true,
                 TokenKind::Stray => false,
@@ -214,6 +212,15 @@ impl<'a> Nest<'a> {
                 return false;
             }
             self.complete_head();
+        }
+    }
+
+    /// `deprecated once "why"` before the name: a note to readers, without effect here.
+    fn skip_deprecation(&mut self) {
+        for kind in [TokenKind::Word(Word::Once), TokenKind::String] {
+            if self.tokens.get(self.at + 1).is_some_and(|next| next.kind == kind) {
+                self.at += 1;
+            }
         }
     }
 
@@ -233,7 +240,8 @@ impl<'a> Nest<'a> {
     }
 
     fn close_head(&mut self, equals: Option<Span>) {
-        let Some(Frame { kind: FrameKind::Head(head), open, items: base, .. }) = self.pop() else {
+        let Some(Frame { kind: FrameKind::Head(head), open, items: base, full, .. }) = self.pop()
+        else {
             return;
         };
         let parts = self.items.split_off(base);
@@ -244,22 +252,28 @@ impl<'a> Nest<'a> {
         });
         let Some(first) = first else {
             let what = if names_something(head) { "a name" } else { "a value" };
+            if full {
+                // That it has no parentheses either has been told.
+                let missing = self.add(ExpressionKind::Missing, open.after());
+                return self.conditioned(head, open, missing, open);
+            }
             let message = format!("`#{}` takes {what}", head.word());
             self.expected_in_head(open, &message, &format!("expected {what} after it"));
             return self.add_directive(DirectiveKind::Malformed, open, open);
         };
         let kind = match head {
             Head::Declare | Head::Local => {
-                if equals.is_none() {
-                    let span = self.ast.expression(first).span;
+                let span = self.ast.expression(first).span;
+                let told = self.target(first);
+                if equals.is_none() && told.is_some() {
                     let message = format!("`#{}` gives a name a value", head.word());
                     let label = "expected `=` and a value after this";
                     self.expected_in_head(span, &message, label);
-                    None
-                } else {
-                    let local = head == Head::Local;
-                    self.target(first).map(|target| DirectiveKind::Declare { local, target })
                 }
+                // Whatever was meant, the items that follow are its value.
+                let nameless = Target { name: self.name(""), indices: Vec::new(), span };
+                let target = told.unwrap_or(nameless);
+                Some(DirectiveKind::Declare { local: head == Head::Local, target })
             }
             Head::Undef => self.target(first).map(DirectiveKind::Undef),
             Head::Include => Some(DirectiveKind::Include(first)),
@@ -271,16 +285,14 @@ impl<'a> Nest<'a> {
             Head::Fclose => self.name_of(first).map(|(name, _)| DirectiveKind::Fclose(name)),
             Head::Fopen => self.fopen(first, &parts, open),
             Head::Macro => return self.open_macro(first, open),
-            Head::If
-            | Head::Ifdef
+            Head::If | Head::Elseif | Head::While | Head::Switch | Head::Case => {
+                return self.conditioned(head, open, first, last);
+            }
+            Head::Ifdef
             | Head::Ifndef
             | Head::Else
-            | Head::Elseif
             | Head::End
-            | Head::While
             | Head::For
-            | Head::Switch
-            | Head::Case
             | Head::Range
             | Head::Break
             | Head::Default

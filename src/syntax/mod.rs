@@ -8,10 +8,19 @@ pub mod ast;
 mod balance;
 mod comment;
 mod directive;
+mod dump;
 mod expression;
+mod layout;
 mod nest;
 mod numbers;
+mod print;
+mod raw;
+mod repair;
+mod spelling;
 mod token;
+
+pub use self::dump::dump;
+pub use self::print::print;
 
 use self::ast::Ast;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -41,27 +50,27 @@ pub fn parse(
     options: &ParseOptions,
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let quiet = comment::quiet(&source.text, file, diagnostics);
-    let tokens = token::tokens(&quiet.text);
-    let tokens = balance::balance(tokens, &quiet.text, source, file, options, diagnostics);
-    nest::nest(&source.text, file, &tokens, quiet.comments, options, diagnostics)
+    let mut found = Diagnostics::new(true);
+    let quiet = comment::quiet(&source.text, file, &mut found);
+    let mut tokens = token::tokens(&quiet.text);
+    spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
+    let (tokens, cut) = balance::balance(tokens, &quiet.text, file, options, &mut found);
+    let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
+    // Each pass found its own; the author reads from the top.
+    let mut found: Vec<_> = found.iter().cloned().collect();
+    found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
+    for diagnostic in found {
+        diagnostics.push(diagnostic);
+    }
+    ast
 }
 
 fn nesting_limit(span: Span, limit: usize) -> Diagnostic {
     let message = format!("brackets are nested more than {limit} deep");
     Diagnostic::new(Code::NestingLimit, message)
         .at(span, "reading stops here")
-        .help("`--nesting-limit` raises the limit")
+        .help("`--limit nesting=N` raises the limit")
 }
 
-/// The candidate nearest to a mistyped word, if one is near.
-fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let near = |candidate: &&str| strsim::osa_distance(&word.to_lowercase(), candidate);
-    let best = candidates.into_iter().min_by_key(near)?;
-    (near(&best) <= 1 + word.len() / 5).then_some(best)
-}
-pub mod print {
-    pub fn dump(a: &super::ast::Ast, _: &crate::source::Source) -> String {
-        format!("{a:#?}")
-    }
-}
+#[cfg(test)]
+mod tests;

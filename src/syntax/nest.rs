@@ -11,6 +11,7 @@ use super::ast::{
     Argument, Arguments, Ast, Callee, Component, Expression, ExpressionId, ExpressionKind, Item,
     ItemKind, Items, NameId, UnaryOperator,
 };
+use super::comment::Quiet;
 use super::directive::Body;
 use super::expression::{self, Operator, OperatorKind, Stacks};
 use super::numbers::{self, Piece, Pieces};
@@ -29,7 +30,7 @@ pub(super) struct Frame {
     pub arguments: usize,
     operators: usize,
     /// Comparisons, logic and `?:` are allowed.
-    full: bool,
+    pub full: bool,
     /// Inside the body of a `function`, where calls and indices are full too.
     formula: bool,
     pub state: State,
@@ -38,6 +39,8 @@ pub(super) struct Frame {
     /// The next block is the body of a function.
     function_ahead: bool,
     after_contextual: bool,
+    /// That its expression needs parentheses has been told.
+    level_told: bool,
 }
 
 pub(super) enum FrameKind {
@@ -74,7 +77,10 @@ pub(super) enum State {
 }
 
 pub(super) struct Nest<'a> {
+    /// Without its comments.
     pub text: &'a str,
+    /// The end of the text as the author wrote it.
+    end: usize,
     file: FileId,
     dialect: Dialect,
     nesting_limit: usize,
@@ -88,19 +94,26 @@ pub(super) struct Nest<'a> {
     pub items: Vec<Item>,
     pub arguments: Vec<Argument>,
     stacks: Stacks,
+    /// The tokens end before the text does, which has been told.
+    ends_early: bool,
+    /// The text was given up at a limit: what is open now is no mistake of the author's.
+    cut: bool,
 }
 
-/// Builds the tree of `tokens`, which lie in `text`.
+/// Builds the tree of `tokens`, which lie in a text that is `end` bytes long. `cut`: the
+/// text goes on behind them.
 pub(super) fn nest<'a>(
-    text: &'a str,
+    quiet: &'a Quiet<'a>,
+    end: usize,
     file: FileId,
     tokens: &'a [Token],
-    comments: Vec<Span>,
+    cut: bool,
     options: &ParseOptions,
     diagnostics: &'a mut Diagnostics,
 ) -> Ast {
     let mut nest = Nest {
-        text,
+        text: &quiet.text,
+        end,
         file,
         dialect: options.dialect,
         nesting_limit: options.nesting_limit,
@@ -115,7 +128,7 @@ pub(super) fn nest<'a>(
             names: Vec::new(),
             arguments: Vec::new(),
             numbers: Vec::new(),
-            comments,
+            comments: quiet.comments.clone(),
             root: Items::default(),
         },
         names: HashMap::new(),
@@ -123,9 +136,13 @@ pub(super) fn nest<'a>(
         items: Vec::new(),
         arguments: Vec::new(),
         stacks: Stacks::default(),
+        ends_early: cut,
+        cut: false,
     };
     nest.open(FrameKind::File, Span::new(file, 0, 0), false);
     while let Some(&token) = tokens.get(nest.at) {
+        // The last token before a cut lacks what follows it.
+        nest.cut |= cut && nest.at + 1 == tokens.len();
         nest.token(token);
         nest.at += 1;
     }
@@ -136,8 +153,8 @@ pub(super) fn nest<'a>(
 impl<'a> Nest<'a> {
     pub fn span(&self, token: Token) -> Span {
         // A quote that was put in to close a string may lie behind the end.
-        let end = self.text.len();
-        Span::new(self.file, (token.start as usize).min(end), (token.end as usize).min(end))
+        let (start, end) = (token.start as usize, token.end as usize);
+        Span::new(self.file, start.min(self.end), end.min(self.end))
     }
 
     pub fn slice(&self, span: Span) -> &'a str {
@@ -145,7 +162,9 @@ impl<'a> Nest<'a> {
     }
 
     pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        if !self.cut {
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     pub fn name(&mut self, name: &'a str) -> NameId {
@@ -192,6 +211,7 @@ impl<'a> Nest<'a> {
             block,
             function_ahead: false,
             after_contextual: false,
+            level_told: false,
         });
     }
 
@@ -292,6 +312,10 @@ impl<'a> Nest<'a> {
                 if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Round))) {
                     return self.call(Callee::Word(word, span), span, one_argument);
                 }
+                if self.lists_items() && self.top().state != State::Wanting {
+                    // The functions of a `julia_fractal` stand alone.
+                    return self.item(ItemKind::Word(word), span);
+                }
                 let name = word.name();
                 self.report(
                     Diagnostic::new(
@@ -347,25 +371,27 @@ impl<'a> Nest<'a> {
         }
     }
 
+    /// True where values stand side by side as items.
+    fn lists_items(&mut self) -> bool {
+        let top = self.top();
+        match &top.kind {
+            FrameKind::File | FrameKind::Entry | FrameKind::Default(_) | FrameKind::Body(_) => true,
+            FrameKind::Block => !top.formula,
+            FrameKind::Group
+            | FrameKind::Vector
+            | FrameKind::Call(_)
+            | FrameKind::Index(_)
+            | FrameKind::Head(_)
+            | FrameKind::Condition(..)
+            | FrameKind::List(..) => false,
+        }
+    }
+
     /// Literals with their commas: one item where values stand side by side, else token by token.
     fn run(&mut self, token: Token) {
         let mut span = self.span(token);
         loop {
-            let top = self.top();
-            let list = match &top.kind {
-                FrameKind::File | FrameKind::Entry | FrameKind::Default(_) | FrameKind::Body(_) => {
-                    true
-                }
-                FrameKind::Block => !top.formula,
-                FrameKind::Group
-                | FrameKind::Vector
-                | FrameKind::Call(_)
-                | FrameKind::Index(_)
-                | FrameKind::Head(_)
-                | FrameKind::Condition(..)
-                | FrameKind::List(..) => false,
-            };
-            if list && top.state != State::Wanting {
+            if self.lists_items() && self.top().state != State::Wanting {
                 break;
             }
             span.start += self.first_of_run(span) as u32;
@@ -496,7 +522,11 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Missing, Span { end: span.start, ..span }, false);
     }
 
+    /// Told once an expression.
     fn only_in_parentheses(&mut self, span: Span) {
+        if std::mem::replace(&mut self.top().level_told, true) {
+            return;
+        }
         let text = self.slice(span);
         let message = format!("`{text}` stands only inside parentheses");
         self.report(
@@ -584,6 +614,13 @@ impl<'a> Nest<'a> {
                 self.finish_expression();
             }
             FrameKind::Call(_) | FrameKind::List(..) => {
+                let empty = self.items.len() == self.frames[self.frames.len() - 1].items;
+                if idle
+                    && empty
+                    && let FrameKind::Call(_) = self.top().kind
+                {
+                    self.missing_before(span, "an argument");
+                }
                 self.finish_expression();
                 self.end_argument();
             }
@@ -733,15 +770,16 @@ impl<'a> Nest<'a> {
 
     fn end_last_argument(&mut self, frame: &Frame, close: Span) {
         let empty = self.items.len() == frame.items;
-        if empty && self.arguments.len() > frame.arguments {
-            // `f(a, )`: told, but not for `#write`, whose parts may come from branches.
-            if !matches!(frame.kind, FrameKind::List(..)) {
-                let text = self.slice(close);
-                self.report(
-                    Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
-                        .at(close, format!("`{text}` follows the comma")),
-                );
-            }
+        // A macro's call and a directive's list may end with a comma, a function's may not.
+        if let FrameKind::Call(Callee::Word(..)) = frame.kind
+            && empty
+            && self.arguments.len() > frame.arguments
+        {
+            let text = self.slice(close);
+            self.report(
+                Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
+                    .at(close, format!("`{text}` follows the comma")),
+            );
         }
         self.arguments_from(frame.items);
     }
@@ -775,7 +813,9 @@ impl<'a> Nest<'a> {
     }
 
     fn close_vector(&mut self, span: Span) {
-        if self.top().state == State::Idle {
+        let base = self.top().arguments;
+        // A comma may stand before the `>`.
+        if self.top().state == State::Idle && self.arguments.len() == base {
             self.missing_before(span, "a component");
         }
         self.finish_expression();
@@ -848,7 +888,8 @@ impl<'a> Nest<'a> {
                 self.stacks.operands.push(id);
             }
         }
-        self.top().state = State::Idle;
+        let top = self.top();
+        (top.state, top.level_told) = (State::Idle, false);
         let Some(id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
         if self.in_vector() {
             self.arguments.push(Argument::Expression(id));
@@ -859,9 +900,12 @@ impl<'a> Nest<'a> {
     }
 
     fn too_deep(&mut self, span: Span) {
-        self.report(super::nesting_limit(span, self.nesting_limit));
+        if !self.ends_early {
+            self.report(super::nesting_limit(span, self.nesting_limit));
+        }
         // Nothing behind it can be understood: the text ends here.
         self.at = self.tokens.len();
+        self.cut = true;
     }
 
     fn stray(&mut self, token: Token) {
@@ -897,7 +941,7 @@ impl<'a> Nest<'a> {
     }
 
     fn end_of_file(&mut self) {
-        let end = Span::new(self.file, self.text.len(), self.text.len());
+        let end = Span::new(self.file, self.end, self.end);
         loop {
             self.leave_vectors(end);
             self.finish_expression();

@@ -75,6 +75,7 @@ vocabulary! {
         Component "component" statement later "the old word for a part of a blob";
         ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
         ContainedBy "contained_by" statement later "the sphere or box that holds a function's surface";
+        Cube "cube" statement later "the third power, in a julia_fractal";
         CubicSpline "cubic_spline" statement later "a smooth spline through its points";
         Evaluate "evaluate" statement later "lets an isosurface learn its gradient";
         FaceIndices "face_indices" statement later "the triangles of a mesh2, as indices of vertices";
@@ -167,7 +168,6 @@ vocabulary! {
         Cells "cells" statement later "a random value for each unit cube";
         Checker "checker" statement built "`checker a, b`: unit cubes in two colours by turns";
         Crackle "crackle" statement later "cells like cracked mud";
-        Cube "cube" statement later "reserved by version 3.7, without a documented meaning";
         Cylindrical "cylindrical" statement later "falls from 1 on the y axis to 0 at radius 1";
         DensityFile "density_file" statement later "values from a file of a grid";
         Dents "dents" statement later "noise as dents";
@@ -452,14 +452,14 @@ vocabulary! {
         Mod "mod" function built "`mod(a, b)`: what is left of a / b, with a's sign";
         Pow "pow" function built "`pow(a, b)`: a to the power of b";
         Prod "prod" function later "`prod(Name, from, to, a)`: the product over a counter, in functions";
-        Pwr "pwr" function later "reserved by version 3.7, without a documented meaning";
+        Pwr "pwr" function later "`pwr(a, b)`: a power, in a julia_fractal";
         Radians "radians" function1 built "`radians(a)`: degrees to radians";
         Rand "rand" function1 built "`rand(stream)`: the next random number of a stream, 0 to 1";
         Seed "seed" function1 built "`seed(n)`: a new stream of random numbers";
         Select "select" function built "`select(a, b, c [, d])`: b if a < 0, c if a = 0 (or a ≥ 0), d if a > 0";
         Sin "sin" function1 built "`sin(a)`: the sine of an angle in radians";
         Sinh "sinh" function1 built "`sinh(a)`: the hyperbolic sine";
-        Sqr "sqr" function1 later "reserved by version 3.7: the square of a number";
+        Sqr "sqr" function1 later "the second power, in a julia_fractal";
         Sqrt "sqrt" function1 built "`sqrt(a)`: the square root; a ≥ 0";
         Strcmp "strcmp" function built "`strcmp(a, b)`: below, at or above 0 as a stands before, at or after b";
         Strlen "strlen" function1 built "`strlen(string)`: how many characters it has";

@@ -1,0 +1,43 @@
+//! How the author laid the text out: which tokens begin a line, and how far in.
+
+use super::token::Token;
+
+/// Where a token stands in its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Place {
+    /// True if nothing but blanks stands before it in its line.
+    pub first: bool,
+    /// Blanks before the first token of its line; a tab reaches the next multiple of four.
+    pub indent: u32,
+}
+
+pub(super) struct Layout(Vec<Place>);
+
+impl Layout {
+    /// Measures each token of `text`.
+    pub fn of(tokens: &[Token], text: &str) -> Self {
+        let bytes = text.as_bytes();
+        let mut places = Vec::with_capacity(tokens.len());
+        let (mut end, mut indent) = (0, 0);
+        for token in tokens {
+            let gap = bytes.get(end..token.start as usize).unwrap_or(&[]);
+            let line = gap.iter().rposition(|byte| matches!(byte, b'\n' | b'\r'));
+            let first = line.is_some() || places.is_empty();
+            if first {
+                let blanks = &gap[line.map_or(0, |line| line + 1)..];
+                indent = blanks.iter().fold(0, |width: u32, &byte| match byte {
+                    b'\t' => (width / 4 + 1) * 4,
+                    _ => width + 1,
+                });
+            }
+            places.push(Place { first, indent });
+            end = token.end as usize;
+        }
+        Self(places)
+    }
+
+    /// A token's place; one behind the last begins a line of its own.
+    pub fn place(&self, token: usize) -> Place {
+        self.0.get(token).copied().unwrap_or(Place { first: true, indent: 0 })
+    }
+}

@@ -1,0 +1,401 @@
+//! Says which brackets and `#end`s are missing or too many, and goes on as if they were right.
+//!
+//! **In:** tokens that do not pair. **Out:** tokens that do.
+//! **Invariant:** one message for one mistake: what a repair makes surplus elsewhere is dropped in
+//! silence. Time in proportion to the number of tokens times the nesting limit at most.
+
+use std::collections::{HashMap, HashSet};
+
+use super::balance::{Opener, Turn, turn};
+use super::layout::{Layout, Place};
+use super::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, Span};
+use crate::vocabulary::{Role, Word};
+
+/// Adds and drops closers until everything pairs.
+pub(super) fn repair(
+    tokens: Vec<Token>,
+    text: &str,
+    file: FileId,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Token> {
+    let layout = Layout::of(&tokens, text);
+    let mut surplus = [0; 3];
+    for token in &tokens {
+        match turn(token.kind) {
+            Some(Turn::Open(Opener::Bracket(bracket))) => surplus[bracket as usize] += 1,
+            Some(Turn::Close(Opener::Bracket(bracket))) => surplus[bracket as usize] -= 1,
+            Some(_) | None => {}
+        }
+    }
+    let openers = match_directives(&tokens, &layout);
+    let ended = openers.values().copied().collect();
+    let repair = Repair {
+        tokens: &tokens,
+        text,
+        file,
+        layout,
+        openers,
+        ended,
+        surplus,
+        owed: [0; 3],
+        open: Vec::new(),
+        inserted: Vec::new(),
+        dropped: vec![false; tokens.len()],
+        told: 0,
+        diagnostics,
+    };
+    repair.run()
+}
+
+struct Open {
+    opener: Opener,
+    token: usize,
+    /// The indentation of its line, and of the first line inside.
+    indent: u32,
+    inner: Option<u32>,
+    /// The first token inside that looks as if it stood outside.
+    outside: Option<usize>,
+    /// Its closer stands in a branch; it is closed where the directive of that branch ends.
+    closed_in_branch: bool,
+    /// For a directive: that a branch does not pair has been told.
+    told: bool,
+}
+
+struct Repair<'a> {
+    tokens: &'a [Token],
+    text: &'a str,
+    file: FileId,
+    layout: Layout,
+    /// The directive that each `#end` ends.
+    openers: HashMap<usize, usize>,
+    /// The directives that have an `#end`.
+    ended: HashSet<usize>,
+    /// Openers less closers, of each bracket, as far as they are not explained yet.
+    surplus: [i32; 3],
+    /// Closers that were added although their own may still come.
+    owed: [u32; 3],
+    open: Vec<Open>,
+    /// Closers to be put before the token of this number.
+    inserted: Vec<(usize, TokenKind)>,
+    dropped: Vec<bool>,
+    told: usize,
+    diagnostics: &'a mut Diagnostics,
+}
+
+/// Which directive each `#end` ends. Where `#end`s are missing, indentation says whose.
+fn match_directives(tokens: &[Token], layout: &Layout) -> HashMap<usize, usize> {
+    let count = |wanted: Turn| tokens.iter().filter(|t| turn(t.kind) == Some(wanted)).count();
+    let (opens, ends) =
+        (count(Turn::Open(Opener::Directive)), count(Turn::Close(Opener::Directive)));
+    let mut missing = opens.saturating_sub(ends);
+    let mut open: Vec<usize> = Vec::new();
+    let mut openers = HashMap::new();
+    for (at, token) in tokens.iter().enumerate() {
+        match turn(token.kind) {
+            Some(Turn::Open(Opener::Directive)) => open.push(at),
+            Some(Turn::Close(Opener::Directive)) => {
+                let place = layout.place(at);
+                let fits = |&opener: &usize| layout.place(opener).indent == place.indent;
+                if place.first && missing > 0 && open.last().is_some_and(|last| !fits(last)) {
+                    let skipped = open.iter().rev().position(fits);
+                    if let Some(skipped) = skipped.filter(|&skipped| skipped <= missing) {
+                        open.truncate(open.len() - skipped);
+                        missing -= skipped;
+                    }
+                }
+                if let Some(opener) = open.pop() {
+                    openers.insert(at, opener);
+                }
+            }
+            Some(_) | None => {}
+        }
+    }
+    openers
+}
+
+impl Repair<'_> {
+    fn run(mut self) -> Vec<Token> {
+        for at in 0..self.tokens.len() {
+            self.look_for_outside(at);
+            match turn(self.tokens[at].kind) {
+                None => {}
+                Some(Turn::Open(opener)) => self.open.push(Open {
+                    opener,
+                    token: at,
+                    indent: self.layout.place(at).indent,
+                    inner: None,
+                    outside: None,
+                    closed_in_branch: false,
+                    told: false,
+                }),
+                Some(Turn::Close(Opener::Bracket(bracket))) => self.close(bracket, at),
+                Some(Turn::Close(Opener::Directive)) => self.end(at),
+                Some(Turn::Divide) => self.close_since_directive(at),
+            }
+        }
+        let end = self.tokens.len();
+        while let Some(open) = self.open.pop() {
+            self.never_closed(open, end);
+        }
+        self.finish()
+    }
+
+    fn finish(mut self) -> Vec<Token> {
+        self.inserted.sort_by_key(|&(at, _)| at);
+        let mut inserted = self.inserted.into_iter().peekable();
+        let mut result = Vec::with_capacity(self.tokens.len());
+        for at in 0..=self.tokens.len() {
+            let start = self.tokens.get(at).map_or(self.text.len() as u32, |token| token.start);
+            while let Some((_, kind)) = inserted.next_if(|&(before, _)| before == at) {
+                result.push(Token { kind, start, end: start });
+            }
+            if let Some(&token) = self.tokens.get(at)
+                && !self.dropped[at]
+            {
+                result.push(token);
+            }
+        }
+        result
+    }
+
+    /// Notes where the innermost bracket or directive seems to have ended, by its look.
+    fn look_for_outside(&mut self, at: usize) {
+        let Place { first, indent } = self.layout.place(at);
+        let begins = first && self.begins_statement(at);
+        let kind = self.tokens[at].kind;
+        let Some(top) = self.open.last_mut() else { return };
+        if top.outside.is_some() {
+            return;
+        }
+        let indented = top.inner.is_some_and(|inner| inner > top.indent);
+        let outside = match top.opener {
+            Opener::Bracket(Bracket::Brace) | Opener::Directive => {
+                begins && indented && indent <= top.indent
+            }
+            Opener::Bracket(Bracket::Round | Bracket::Square) => {
+                kind == TokenKind::Mark(Mark::Semicolon) || (begins && indent <= top.indent)
+            }
+        };
+        if outside {
+            top.outside = Some(at);
+        }
+        if first && top.inner.is_none() {
+            top.inner = Some(indent);
+        }
+    }
+
+    /// True for a directive, and for a word that opens a block.
+    fn begins_statement(&self, at: usize) -> bool {
+        let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
+        match self.tokens[at].kind {
+            TokenKind::Directive(head) => head != Head::End && !head.divides(),
+            TokenKind::Word(word) => {
+                word.role() == Role::Statement
+                    && self.tokens.get(at + 1).is_some_and(|next| next.kind == brace)
+            }
+            _ => false,
+        }
+    }
+
+    fn close(&mut self, bracket: Bracket, at: usize) {
+        loop {
+            let Some(top) = self.open.last() else { return self.stray(bracket, at) };
+            let surplus = |bracket: Bracket| self.surplus[bracket as usize];
+            let unclosed = match top.opener {
+                Opener::Bracket(same) if same == bracket => {
+                    self.closes_an_outer_block(top, bracket, at)
+                }
+                Opener::Bracket(other) => {
+                    let outer = self.open_in_branch(bracket).is_some();
+                    if !outer || (surplus(other) <= 0 && surplus(bracket) < 0) {
+                        return self.stray(bracket, at);
+                    }
+                    if surplus(other) <= 0 {
+                        self.owed[other as usize] += 1;
+                    }
+                    true
+                }
+                Opener::Directive if !self.ended.contains(&top.token) => true,
+                Opener::Directive => return self.close_in_branch(bracket, at),
+            };
+            let Some(top) = self.open.pop() else { return };
+            if !unclosed {
+                return;
+            }
+            self.never_closed(top, at);
+        }
+    }
+
+    /// Where braces are missing: does this one, by its indentation, end the block around `top`?
+    fn closes_an_outer_block(&self, top: &Open, bracket: Bracket, at: usize) -> bool {
+        let place = self.layout.place(at);
+        let outer = self.open.len().checked_sub(2).map(|below| &self.open[below]);
+        self.surplus[bracket as usize] > 0
+            && bracket == Bracket::Brace
+            && place.first
+            && place.indent != top.indent
+            && outer.is_some_and(|o| o.opener == top.opener && o.indent == place.indent)
+    }
+
+    /// The innermost open `bracket`, if no directive was opened after it.
+    fn open_in_branch(&self, bracket: Bracket) -> Option<usize> {
+        let last = self.open.iter().rposition(|open| {
+            open.opener == Opener::Directive || open.opener == Opener::Bracket(bracket)
+        })?;
+        (self.open[last].opener == Opener::Bracket(bracket)).then_some(last)
+    }
+
+    /// A closer in a branch, of something opened before the directive.
+    fn close_in_branch(&mut self, bracket: Bracket, at: usize) {
+        let wanted = Opener::Bracket(bracket);
+        let Some(outer) = self.open.iter().rposition(|open| open.opener == wanted) else {
+            return self.stray(bracket, at);
+        };
+        if self.open[outer + 1].opener != Opener::Directive {
+            return self.stray(bracket, at);
+        }
+        self.dropped[at] = true;
+        if std::mem::replace(&mut self.open[outer].closed_in_branch, true) {
+            return;
+        }
+        let (opener, directive) = (self.open[outer].token, self.open[outer + 1].token);
+        let closer = bracket.closer();
+        let diagnostic = Diagnostic::new(
+            Code::UnclosedBlock,
+            format!("{} is closed only in a branch", self.shown(opener)),
+        )
+        .at(self.span(opener), "opened here, outside")
+        .also(self.span(at), format!("this `{closer}` is read only if this branch is"))
+        .also(self.span(directive), "the branch begins here")
+        .help("a branch closes what it opens, and nothing else");
+        self.tell(diagnostic);
+    }
+
+    fn stray(&mut self, bracket: Bracket, at: usize) {
+        self.dropped[at] = true;
+        let index = bracket as usize;
+        if self.owed[index] > 0 {
+            self.owed[index] -= 1;
+            return;
+        }
+        self.surplus[index] += 1;
+        let closer = bracket.closer();
+        let mut diagnostic =
+            Diagnostic::new(Code::StrayCloser, format!("this `{closer}` closes nothing"))
+                .at(self.span(at), format!("no `{}` is open here", bracket.opener()));
+        if let Some(top) = self.open.last() {
+            diagnostic = diagnostic.also(self.span(top.token), "this is open instead");
+        }
+        self.tell(diagnostic.fix(self.span(at), ""));
+    }
+
+    /// `#end`.
+    fn end(&mut self, at: usize) {
+        let Some(&opener) = self.openers.get(&at) else { return };
+        self.close_since_directive(at);
+        while let Some(top) = self.open.pop_if(|top| top.token != opener) {
+            self.never_closed(top, at);
+            self.close_since_directive(at);
+        }
+        self.open.pop();
+        if let Some(top) = self.open.pop_if(|top| top.closed_in_branch)
+            && let Opener::Bracket(bracket) = top.opener
+        {
+            self.inserted.push((at + 1, TokenKind::Mark(Mark::Close(bracket))));
+        }
+    }
+
+    /// Closes the brackets that were opened since the innermost directive.
+    fn close_since_directive(&mut self, at: usize) {
+        let last = self.open.iter().rposition(|open| open.opener == Opener::Directive);
+        let Some(directive) = last else { return };
+        while self.open.len() > directive + 1
+            && let Some(top) = self.open.pop()
+        {
+            let Opener::Bracket(bracket) = top.opener else { continue };
+            // The other branch is usually the same mistake again.
+            if std::mem::replace(&mut self.open[directive].told, true) {
+                self.insert_closer(&top, at);
+                self.surplus[bracket as usize] -= 1;
+            } else {
+                self.never_closed(top, at);
+            }
+            if self.surplus[bracket as usize] < 0 {
+                self.owed[bracket as usize] += 1;
+            }
+        }
+    }
+
+    fn insert_closer(&mut self, open: &Open, at: usize) {
+        let kind = match open.opener {
+            Opener::Bracket(bracket) => TokenKind::Mark(Mark::Close(bracket)),
+            Opener::Directive => TokenKind::Directive(Head::End),
+        };
+        self.inserted.push((open.outside.unwrap_or(at), kind));
+    }
+
+    /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
+    fn never_closed(&mut self, open: Open, at: usize) {
+        self.insert_closer(&open, at);
+        let place = self.span(open.outside.unwrap_or(at));
+        let shown = self.shown(open.token);
+        let found = match self.text.get(place.range()).and_then(|text| text.lines().next()) {
+            None | Some("") => "the file ends first".to_owned(),
+            Some(text) => text.to_owned(),
+        };
+        let ends_file = at == self.tokens.len() && open.outside.is_none();
+        let (code, message, expected) = match open.opener {
+            Opener::Bracket(bracket) => {
+                let surplus = &mut self.surplus[bracket as usize];
+                if open.closed_in_branch
+                    || (at == self.tokens.len() && *surplus <= 0 && self.told > 0)
+                {
+                    return;
+                }
+                *surplus -= 1;
+                let closer = bracket.closer();
+                (Code::UnclosedBlock, format!("{shown} is never closed"), format!("`{closer}`"))
+            }
+            Opener::Directive => {
+                (Code::MissingEnd, format!("{shown} has no `#end`"), "`#end`".to_owned())
+            }
+        };
+        let label = if ends_file { found } else { format!("expected {expected} before `{found}`") };
+        let diagnostic = Diagnostic::new(code, message)
+            .at(self.span(open.token), "opened here")
+            .also(place, label);
+        self.tell(diagnostic);
+    }
+
+    fn tell(&mut self, diagnostic: Diagnostic) {
+        self.told += 1;
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn span(&self, at: usize) -> Span {
+        let end = self.text.len();
+        let (start, end) = self
+            .tokens
+            .get(at)
+            .map_or((end, end), |token| (token.start as usize, (token.end as usize).min(end)));
+        Span::new(self.file, start.min(end), end)
+    }
+
+    /// An opener with the word before it: "`sphere {`".
+    fn shown(&self, at: usize) -> String {
+        let text = |at: usize| self.text.get(self.span(at).range()).unwrap_or("");
+        let named = |at: &usize| {
+            matches!(self.tokens[*at].kind, TokenKind::Word(_) | TokenKind::Name)
+                && self.tokens[*at].kind != TokenKind::Word(Word::Array)
+        };
+        let opener = text(at);
+        match (at.checked_sub(1).filter(named), opener) {
+            (Some(word), "{") => format!("`{} {{`", text(word)),
+            (Some(word), "(") => format!("`{}(`", text(word)),
+            (_, "{" | "(" | "[") => format!("this `{opener}`"),
+            (_, directive) => format!("`{directive}`"),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Puts right the misspelt words of directives, so that one letter does not unnest a file.
+
+use super::token::{Head, Token, TokenKind};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, Span};
+
+/// What other languages write.
+const FOREIGN: &[(&str, &str)] = &[
+    ("endif", "end"),
+    ("endwhile", "end"),
+    ("endfor", "end"),
+    ("endmacro", "end"),
+    ("elif", "elseif"),
+    ("elsif", "elseif"),
+    ("define", "declare"),
+    ("import", "include"),
+    ("print", "debug"),
+];
+
+/// Reports every unknown directive, and takes it for the one that was meant if that is likely.
+pub(super) fn correct_heads(
+    tokens: &mut [Token],
+    text: &str,
+    file: FileId,
+    diagnostics: &mut Diagnostics,
+) {
+    for token in tokens {
+        if token.kind != TokenKind::Directive(Head::Unknown) {
+            continue;
+        }
+        let span = Span::new(file, token.start as usize, token.end as usize);
+        let word = text.get(span.range()).unwrap_or("").trim_start_matches(['#', ' ', '\t']);
+        let mut diagnostic =
+            Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
+                .at(span, "unknown word after `#`");
+        let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
+        if let Some(near) = foreign.or_else(|| closest(word)) {
+            let start = span.end - word.len() as u32;
+            diagnostic = diagnostic
+                .help(format!("did you mean `#{near}`?"))
+                .fix(Span { start, ..span }, near);
+            token.kind = TokenKind::Directive(Head::from_word(near));
+        }
+        diagnostics.push(diagnostic);
+    }
+}
+
+/// The directive nearest to a mistyped word, if one is near.
+fn closest(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase();
+    let distance = |candidate: &&&str| strsim::osa_distance(&word, candidate);
+    let best = Head::WORDS.iter().min_by_key(distance)?;
+    (distance(&best) <= 1 + word.len() / 5).then_some(best)
+}
