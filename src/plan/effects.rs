@@ -21,7 +21,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         effects: Vec::new(),
         left_out: Vec::new(),
     };
-    let census = Census { world, origins };
+    let census = Census::new(world, origins);
     for effect in Effect::ALL {
         match census.decide(effect, &plan, options) {
             Ok((by, cost)) => plan.effects.push(Called { effect, by, cost }),
@@ -44,9 +44,20 @@ fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)
 struct Census<'a> {
     world: &'a World,
     origins: &'a Origins,
+    /// What called for each material: its pigment or texture, else the first object that has it.
+    callers: Vec<Option<Site>>,
 }
 
-impl Census<'_> {
+impl<'a> Census<'a> {
+    fn new(world: &'a World, origins: &'a Origins) -> Self {
+        let called = |i| origins.materials.get(i).copied().flatten();
+        let mut callers: Vec<_> = (0..world.materials.len()).map(called).collect();
+        for (object, site) in world.objects.iter().zip(&origins.objects) {
+            callers[object.material as usize].get_or_insert(*site);
+        }
+        Self { world, origins, callers }
+    }
+
     fn decide(&self, effect: Effect, plan: &Plan, options: &PlanOptions) -> Decision {
         match effect {
             Effect::Diffuse => self.diffuse(),
@@ -168,7 +179,7 @@ impl Census<'_> {
 
     fn material_sites(&self, calls: impl Fn(&Material) -> bool) -> Vec<Site> {
         let calling = self.materials().filter(|(_, material)| calls(material));
-        calling.filter_map(|(i, _)| self.origins.materials.get(i).copied().flatten()).collect()
+        calling.filter_map(|(i, _)| self.callers[i]).collect()
     }
 }
 
@@ -287,6 +298,15 @@ mod tests {
             (Effect::Reflection, &[site(10)]),
         ];
         assert_eq!(called, expected);
+    }
+
+    #[test]
+    fn a_material_nobody_wrote_is_called_for_by_the_first_object_that_has_it() {
+        let (mut world, mut origins) = lit_mirror();
+        world.objects.push(world.objects[0]);
+        origins.objects.push(site(2));
+        origins.materials = vec![None];
+        assert_eq!(plan(&world, &origins, &OPTIONS).effects[0].by, [site(1)]);
     }
 
     #[test]

@@ -376,7 +376,8 @@ fn the_pruned_kernel_and_the_full_one_give_the_same_bits() {
     use Effect::{Diffuse, Highlights, Reflection, Shadows};
     let without_reflection =
         |w: &mut World| w.materials.iter_mut().for_each(|m| m.finish.reflection = None);
-    let changes: [(&[Effect], &dyn Fn(&mut World)); 5] = [
+    type Change<'a> = &'a dyn Fn(&mut World);
+    let changes: [(&[Effect], Change); 5] = [
         (&[Shadows], &|w| w.lights.iter_mut().for_each(|light| light.casts_shadows = false)),
         (&[Reflection], &without_reflection),
         (&[Reflection], &|w| w.settings.max_trace_level = 1),
