@@ -354,7 +354,8 @@ mod tests {
         world.settings.max_trace_level = 1;
         let deep = plan(&world, &origins, &PlanOptions { depth: Some(3), ..OPTIONS });
         assert!(deep.simulates(Effect::Reflection) && deep.max_trace_level == 3);
-        let flat = plan(&world, &origins, &PlanOptions { depth: Some(1), ..OPTIONS });
+        let flat = plan(&world, &origins, &PlanOptions { depth: Some(0), ..OPTIONS });
+        assert_eq!(flat.max_trace_level, 1);
         let reason = flat.left_out.iter().find(|left| left.what == "reflection").expect("named");
         assert_eq!(reason.site, None);
     }

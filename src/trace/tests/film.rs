@@ -97,6 +97,8 @@ fn what_nothing_calls_for_is_counted_zero() {
     assert_eq!(rays(&|w| w.lights.iter_mut().for_each(|l| l.casts_shadows = false)).shadow, 0);
     assert_eq!(rays(&|w| w.objects.iter_mut().for_each(|o| o.casts_shadow = false)).shadow, 0);
     assert_eq!(rays(&|w| w.lights.iter_mut().for_each(|l| l.color = Rgb::BLACK)).shadow, 0);
+    let one_light_fewer = rays(&|w| w.lights.truncate(1)).shadow;
+    assert_eq!(rays(&|w| w.lights[1].color = Rgb::BLACK).shadow, one_light_fewer);
     let unanswering = |w: &mut World| {
         w.materials.iter_mut().for_each(|m| m.finish = Finish { ..NO_FINISH });
     };

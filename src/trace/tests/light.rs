@@ -59,6 +59,12 @@ fn a_seed_path_is_never_cut_by_its_weight() {
         world.settings.adc_bailout = 0.5;
     });
     assert_eq!(traced(&world, 1, 1, Antialias::Off).counters.reflection, 4);
+    // Between a seed surface and a mirror of one half, the mirror's weights alone count: ½, then ¼.
+    let world = Built::default()
+        .plane(UnitVector::Z, -3.0, seed(Rgb::WHITE, 0.5, 0.001, 9.0, 1.0))
+        .plane(-UnitVector::Z, -3.0, mirror(0.5, 0.0))
+        .world(|world| world.settings.adc_bailout = 0.3);
+    assert_eq!(traced(&world, 1, 1, Antialias::Off).counters.reflection, 3);
 }
 
 #[test]
@@ -104,6 +110,9 @@ fn a_light_behind_the_surface_or_on_it_or_behind_something_gives_nothing() {
     let wall = || Built::default().plane(UnitVector::Z, -3.0, matte(1.0, 1.0, 1.0));
     let glow = 0.1;
     assert_eq!(centre(&wall().light([0.0, 0.0, -5.0], 1.0).world(|_| ())).red, glow);
+    let behind = wall().light([0.0, 0.0, -5.0], 1.0);
+    let shining_through = behind.world(|world| world.lights[0].casts_shadows = false);
+    assert_eq!(centre(&shining_through).red, glow);
     assert_eq!(centre(&wall().light([0.0, 0.0, -3.0], 1.0).world(|_| ())).red, glow);
     let lit = wall().light([0.0, 2.0, 0.0], 1.0);
     assert!(centre(&lit.world(|_| ())).red > 0.5);
@@ -172,6 +181,23 @@ fn a_flat_face_takes_its_constant_texture_coordinate_from_the_world() {
         world.faces = vec![FaceCoordinates::default(), FaceCoordinates([None, None, Some(0.75)])];
     });
     assert_eq!(centre(&world), Rgb::gray(0.25));
+}
+
+#[test]
+fn a_pattern_is_read_in_the_textures_space_and_then_in_its_own() {
+    let mut striped = glowing(1.0);
+    striped.pigment = Pigment::Patterned {
+        pattern: Pattern::Gradient { direction: Vector::X },
+        pattern_from_texture: Map { centre: Vector::X * 0.125, ..Map::IDENTITY },
+        map: vec![(0.0, Color::BLACK), (1.0, Color::WHITE)],
+    };
+    let world = Built::default().plane(UnitVector::Z, -3.0, striped).world(|world| {
+        let matrix = Matrix::from_diagonal(Vector::splat(0.25));
+        world.texture_maps = vec![Map::IDENTITY, Map { centre: Vector::X * -2.0, matrix }];
+        world.objects[0].texture_from_world = Some(1);
+    });
+    // Seen at x = 0: (0 + 2) / 4 in the texture, an eighth less in the pattern.
+    assert_eq!(centre(&world), Rgb::gray(0.375));
 }
 
 #[test]

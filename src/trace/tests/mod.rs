@@ -6,7 +6,7 @@ mod light;
 use super::*;
 use crate::color::Color;
 use crate::math::placement::Map;
-use crate::math::{UnitVector, Vector};
+use crate::math::{Matrix, UnitVector, Vector};
 use crate::pattern::Pattern;
 use crate::plan::{Called, PlanOptions, plan};
 use crate::shape::{Box_, Plane, Shape, Sphere};
