@@ -1,8 +1,10 @@
-//! Light gathered, pixel by pixel.
+//! Light gathered, pixel by pixel, and what is shown of it.
 //!
-//! **Invariant:** the same bits for any number of threads; a pixel knows its samples.
+//! **In:** the radiance the tracer gathered. **Out:** an [`Image`]. **Invariant:** the same bits for
+//! any number of threads; a pixel knows its samples; an unreached pixel is black.
 
-use crate::color::Rgb;
+use crate::color::{Rgb, srgb_decode, srgb_encode};
+use crate::math::elementary::pow;
 use crate::plan::{Frame, Region};
 
 /// The traced region, row by row from its top left. Radiance is the mean of a pixel's samples.
@@ -41,5 +43,213 @@ impl Film {
             part.samples[to..to + row].copy_from_slice(&self.samples[from..from + row]);
         }
         part
+    }
+}
+
+/// What is shown: the film's region, row by row from its top left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    pub width: u32,
+    pub height: u32,
+    pub pixels: Pixels,
+}
+
+/// Red, green and blue of each pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pixels {
+    /// Display-referred: the sRGB curve, 0 … 255.
+    Eight(Vec<[u8; 3]>),
+    /// Display-referred: the sRGB curve, 0 … 65535.
+    Sixteen(Vec<[u16; 3]>),
+    /// Linear light, 0 … ∞; 1 is the display's white.
+    Linear(Vec<[f32; 3]>),
+}
+
+/// What an [`Image`] is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Depth {
+    #[default]
+    Eight,
+    Sixteen,
+    Linear,
+}
+
+/// Shows a film: linear light is `radiance ^ assumed_gamma`; a display-referred number is the
+/// nearest to `255 · sRGB` (or `65535 · sRGB`) of it. Negative and undefined light is black.
+pub fn develop(film: &Film, depth: Depth) -> Image {
+    let (width, height) = (film.frame.region.width, film.frame.region.height);
+    let gamma = film.assumed_gamma;
+    let pixels = match depth {
+        Depth::Eight => {
+            let curve = Curve::new(255, gamma, film.radiance.len() * 3);
+            let encode = |c| curve.code(c) as u8;
+            Pixels::Eight(each(film, encode))
+        }
+        Depth::Sixteen => {
+            let curve = Curve::new(65_535, gamma, film.radiance.len() * 3);
+            let encode = |c| curve.code(c) as u16;
+            Pixels::Sixteen(each(film, encode))
+        }
+        Depth::Linear => Pixels::Linear(each(film, |c| linear(c, gamma) as f32)),
+    };
+    Image { width, height, pixels }
+}
+
+fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {
+    film.radiance.iter().map(|c| [encode(c.red), encode(c.green), encode(c.blue)]).collect()
+}
+
+/// Linear light of a component in the scene's working space.
+fn linear(component: f64, gamma: f64) -> f64 {
+    if component.is_nan() || component <= 0.0 {
+        0.0
+    } else if gamma == 1.0 {
+        component
+    } else {
+        pow(component, gamma)
+    }
+}
+
+/// The number, 0 … `last`, that shows a component: the definition.
+fn code(component: f64, gamma: f64, last: u32) -> u32 {
+    (srgb_encode(linear(component, gamma)) * f64::from(last)).round() as u32
+}
+
+/// [`code`] by table: `steps[k]` is the least component whose code is above `k`.
+///
+/// The definition takes two powers; a search takes a few comparisons. Both agree on every
+/// number, as the steps are found with the definition itself.
+struct Curve {
+    last: u32,
+    gamma: f64,
+    /// Empty where so few numbers are wanted that finding the steps costs more.
+    steps: Vec<f64>,
+    /// For each of `starts.len()` equal parts of 0 … 1: the code of its lower end.
+    starts: Vec<u32>,
+}
+
+impl Curve {
+    fn new(last: u32, gamma: f64, wanted: usize) -> Self {
+        let mut curve = Self { last, gamma, steps: Vec::new(), starts: Vec::new() };
+        // Each step costs about twenty evaluations.
+        if wanted / 20 > last as usize {
+            curve.steps = (0..last).map(|k| step_above(k, gamma, last)).collect();
+            let parts = 16 * (last as usize + 1);
+            let mut at = 0;
+            curve.starts = (0..parts)
+                .map(|part| {
+                    let low = part as f64 / parts as f64;
+                    at += curve.steps[at..].iter().take_while(|&&step| step <= low).count();
+                    at as u32
+                })
+                .collect();
+        }
+        curve
+    }
+
+    #[inline]
+    fn code(&self, component: f64) -> u32 {
+        if self.steps.is_empty() {
+            return code(component, self.gamma, self.last);
+        }
+        // Casting clamps below and makes NaN 0.
+        let part = (component * self.starts.len() as f64) as usize;
+        let Some(&start) = self.starts.get(part) else { return self.last };
+        let mut code = start;
+        while code < self.last && self.steps[code as usize] <= component {
+            code += 1;
+        }
+        code
+    }
+}
+
+/// The least component whose code is above `k`, by bisection over the bits of a float around
+/// the inverse formula.
+fn step_above(k: u32, gamma: f64, last: u32) -> f64 {
+    let above = |bits: u64| code(f64::from_bits(bits), gamma, last) > k;
+    let guess = srgb_decode((f64::from(k) + 0.5) / f64::from(last));
+    let guess = if gamma == 1.0 { guess } else { pow(guess, 1.0 / gamma) }.to_bits();
+    let mut width = 16;
+    let (mut low, mut high) = (guess, guess);
+    while above(low) {
+        low = low.saturating_sub(width);
+        width *= 16;
+    }
+    width = 16;
+    while !above(high) {
+        high += width;
+        width *= 16;
+    }
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if above(middle) { high = middle } else { low = middle }
+    }
+    f64::from_bits(high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn film(radiance: Vec<Rgb>, assumed_gamma: f64) -> Film {
+        let frame = Frame::whole(radiance.len() as u32, 1);
+        Film { frame, assumed_gamma, samples: vec![1; radiance.len()], radiance }
+    }
+
+    #[test]
+    fn the_table_agrees_with_the_definition_at_and_around_every_step() {
+        for (last, gamma) in [(255, 1.0), (255, 2.2), (255, 0.4), (65_535, 1.0), (65_535, 2.2)] {
+            let curve = Curve::new(last, gamma, usize::MAX);
+            assert_eq!(curve.steps.len(), last as usize);
+            assert!(curve.steps.windows(2).all(|pair| pair[0] < pair[1]));
+            for &step in &curve.steps {
+                for bits in step.to_bits() - 3..step.to_bits() + 3 {
+                    let c = f64::from_bits(bits);
+                    assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
+                }
+            }
+            for i in -10..70_000 {
+                let c = f64::from(i) / 65_535.0;
+                assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
+            }
+            for c in [f64::NAN, f64::INFINITY, -f64::INFINITY, -0.0, 1e-320, 1.0, 1e300] {
+                assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
+            }
+        }
+    }
+
+    #[test]
+    fn small_and_large_films_are_shown_alike() {
+        let colors: Vec<Rgb> = (0..100).map(|i| Rgb::gray(f64::from(i) / 99.0)).collect();
+        let many: Vec<Rgb> = colors.iter().copied().cycle().take(100 * 300).collect();
+        let small = develop(&film(colors, 1.0), Depth::Eight);
+        let Pixels::Eight(small) = small.pixels else { panic!("not 8 bit") };
+        let Pixels::Eight(large) = develop(&film(many, 1.0), Depth::Eight).pixels else {
+            panic!("not 8 bit")
+        };
+        assert_eq!(small, large[29_900..]);
+    }
+
+    #[test]
+    fn gamma_turns_the_working_space_into_linear_light() {
+        let Pixels::Linear(pixels) =
+            develop(&film(vec![Rgb::new(0.5, -1.0, 4.0)], 2.0), Depth::Linear).pixels
+        else {
+            panic!("not linear")
+        };
+        assert_eq!(pixels, [[0.25, 0.0, 16.0]]);
+    }
+
+    #[test]
+    fn known_colours_have_known_numbers() {
+        let colors = vec![Rgb::new(0.0, 1.0, 0.5), Rgb::new(f64::NAN, 7.0, 0.215_860_5)];
+        let Pixels::Eight(eight) = develop(&film(colors.clone(), 1.0), Depth::Eight).pixels else {
+            panic!("not 8 bit")
+        };
+        assert_eq!(eight, [[0, 255, 188], [0, 255, 128]]);
+        let Pixels::Sixteen(sixteen) = develop(&film(colors, 1.0), Depth::Sixteen).pixels else {
+            panic!("not 16 bit")
+        };
+        assert_eq!(sixteen[0], [0, 65_535, 48_192]);
     }
 }

@@ -9,13 +9,19 @@
 
 pub mod color;
 pub mod diagnostic;
+pub mod evaluate;
 pub mod film;
 pub mod geometry;
+pub mod lower;
 pub mod math;
 pub mod pattern;
+pub mod picture;
 pub mod plan;
+pub mod road;
 pub mod scene;
 pub mod shape;
 pub mod source;
+pub mod syntax;
 pub mod trace;
+pub mod vocabulary;
 pub mod world;

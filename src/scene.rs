@@ -4,6 +4,8 @@
 //! what precedes it); numbers and degrees are still the author's. All trees are arenas: a child
 //! is an index, shared and never copied, and stands before its parents.
 
+pub mod print;
+
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;

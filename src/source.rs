@@ -165,6 +165,13 @@ impl Sources {
         &self.get(span.file).text[span.range()]
     }
 
+    /// `file:line:column` of where a span starts.
+    pub fn place(&self, span: Span) -> String {
+        let source = self.get(span.file);
+        let Position { line, column } = source.position(span.start as usize);
+        format!("{}:{line}:{column}", source.name)
+    }
+
     pub fn iter(&self) -> impl Iterator<Item = (FileId, &Source)> {
         self.0.iter().enumerate().map(|(i, source)| (FileId(i as u32), source))
     }

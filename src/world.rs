@@ -4,6 +4,8 @@
 //! invertible; every number finite. One flat list per kind; an object is (kind, index, material).
 //! Specified in `docs/world.md`.
 
+pub mod print;
+
 use crate::color::{Color, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};

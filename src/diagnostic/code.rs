@@ -30,6 +30,15 @@ macro_rules! codes {
                 match self { $(Code::$variant => $sentence),* }
             }
 
+            /// Its page, in Markdown: what it means, an example, and how to mend it.
+            pub fn page(self) -> &'static str {
+                match self {
+                    $(Code::$variant => {
+                        include_str!(concat!("../../docs/diagnostics/", $name, ".md"))
+                    })*
+                }
+            }
+
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|code| code.name() == name)
             }

@@ -4,6 +4,10 @@
 //! words in backticks, says what is wrong *and* what was expected.
 
 mod code;
+mod excerpt;
+pub mod json;
+pub mod render;
+pub mod suggest;
 
 pub use code::Code;
 
@@ -136,6 +140,11 @@ impl Diagnostics {
         if diagnostic.severity == Severity::Note || !self.list.iter().rev().take(256).any(same) {
             self.list.push(diagnostic);
         }
+    }
+
+    /// Takes back what was said after the first `len` messages: it was about code that does not count.
+    pub fn forget_after(&mut self, len: usize) {
+        self.list.truncate(len);
     }
 
     pub fn has_errors(&self) -> bool {

@@ -9,6 +9,7 @@ mod tree;
 
 use std::ops::Range;
 
+use crate::math::Vector;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
@@ -248,13 +249,26 @@ impl Race {
     }
 }
 
-fn bounds(world: &World, object: u32) -> Option<Bounds> {
+/// A box around an object; `None` when it is unbounded.
+pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
     match world.objects[object as usize].shape {
         Shape::Sphere(i) => Some(world.spheres[i as usize].bounds()),
         Shape::Plane(_) => None,
         Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
         Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
     }
+}
+
+/// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
+pub fn contains(world: &World, object: u32, point: Vector) -> bool {
+    let object = &world.objects[object as usize];
+    let inside = match object.shape {
+        Shape::Sphere(i) => world.spheres[i as usize].contains(point),
+        Shape::Plane(i) => world.planes[i as usize].contains(point),
+        Shape::Box(i) => world.boxes[i as usize].contains(point),
+        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].contains(point),
+    };
+    inside != object.inverse
 }
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.

@@ -4,6 +4,7 @@
 //! room that calls the elementary functions (through `libm`, so that a picture is the same on
 //! every machine) and the only one that names `glam`.
 
+pub mod double;
 pub mod elementary;
 pub mod placement;
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! not done.
 
 mod effects;
+pub mod print;
 
 pub use effects::plan;
 

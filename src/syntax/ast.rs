@@ -88,7 +88,11 @@ pub enum ItemKind {
     Directive(DirectiveId),
     /// A long run of literals, each followed by a comma: `numbers[start .. start + count · width]`.
     /// `width` 1: plain numbers; else vectors of that many.
-    Numbers { start: u32, count: u32, width: u32 },
+    Numbers {
+        start: u32,
+        count: u32,
+        width: u32,
+    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -188,15 +192,40 @@ pub struct Target {
 #[derive(Debug, Clone, PartialEq)]
 pub enum DirectiveKind {
     /// `#declare Name =` or `#local Name =`: the value is what the following items yield.
-    Declare { local: bool, target: Target },
+    Declare {
+        local: bool,
+        target: Target,
+    },
     Undef(Target),
-    If { test: Test, then: Items, otherwise: Items },
-    While { condition: ExpressionId, body: Items },
+    If {
+        test: Test,
+        then: Items,
+        otherwise: Items,
+    },
+    While {
+        condition: ExpressionId,
+        body: Items,
+    },
     /// `#for (Name, from, to, step)`.
-    For { name: NameId, name_span: Span, from: ExpressionId, to: ExpressionId, step: Option<ExpressionId>, body: Items },
-    Switch { value: ExpressionId, cases: Vec<Case> },
+    For {
+        name: NameId,
+        name_span: Span,
+        from: ExpressionId,
+        to: ExpressionId,
+        step: Option<ExpressionId>,
+        body: Items,
+    },
+    Switch {
+        value: ExpressionId,
+        cases: Vec<Case>,
+    },
     Break,
-    Macro { name: NameId, name_span: Span, parameters: Vec<Parameter>, body: Body },
+    Macro {
+        name: NameId,
+        name_span: Span,
+        parameters: Vec<Parameter>,
+        body: Body,
+    },
     Include(ExpressionId),
     /// `#default { … }`.
     Default(Items),
@@ -205,10 +234,20 @@ pub enum DirectiveKind {
     Warning(ExpressionId),
     Error(ExpressionId),
     /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`.
-    Fopen { name: NameId, file: ExpressionId, mode: Word },
+    Fopen {
+        name: NameId,
+        file: ExpressionId,
+        mode: Word,
+    },
     Fclose(NameId),
-    Read { name: NameId, targets: Vec<Target> },
-    Write { name: NameId, arguments: Arguments },
+    Read {
+        name: NameId,
+        targets: Vec<Target>,
+    },
+    Write {
+        name: NameId,
+        arguments: Arguments,
+    },
     /// `#render`, `#statistics`: old, and without effect.
     Ignored(ExpressionId),
     /// Not understood; reported.

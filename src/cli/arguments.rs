@@ -1,0 +1,341 @@
+//! The command line as it is typed: every flag, and the values it may have.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lucarne::plan::{Antialias, Frame, Region};
+use lucarne::road::{Options, dialect};
+use lucarne::scene::Dialect;
+
+use super::exit::Failure;
+use super::messages::{self, Messages};
+
+/// The most pixels a picture has unless `--limit pixels=N` says otherwise.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
+///
+/// `lucarne FILE` renders FILE, as `lucarne render FILE` does.
+#[derive(Debug, Parser)]
+#[command(name = "lucarne", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done; 1 the scene has errors; 2 wrong usage; 3 a file cannot be read or written;
+4 a limit stopped it; 5 a promise about accuracy or time was missed; 70 a bug; 130 interrupted.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Compile a scene and trace its picture
+    Render(RenderArguments),
+    /// Print the messages about scenes and render nothing
+    Check(CheckArguments),
+    /// Print what a scene becomes on its way to the picture
+    Show(ShowArguments),
+    /// Print what the tracer will simulate, what called for it, and what it leaves out
+    Plan(PlanArguments),
+    /// Explain a message by its code; without a code, list them all
+    Explain(ExplainArguments),
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// The scene: `.scene`, or POV-Ray's `.pov`
+    pub file: PathBuf,
+    /// Where to write; the extension chooses the format: png jpg ppm qoi hdr exr; `-` writes a PNG
+    /// to standard output [default: the scene's name with .png, in the current folder]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Bits a channel: 8 or 16 (png and ppm)
+    #[arg(long, value_parser = clap::value_parser!(u8))]
+    pub bits: Option<u8>,
+    /// Threads to trace with [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Print times, memory and rays, as a table or as JSON
+    #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
+    pub stats: Option<Option<StatsFormat>>,
+    /// Overwrite OUT even where it is not a picture. (A picture is always overwritten; a file the scene
+    /// was read from never is.)
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StatsFormat {
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// The scenes
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Only parse: read no includes, evaluate nothing
+    #[arg(long)]
+    pub syntax_only: bool,
+    /// Apply the fixes that messages offer to these files, then check again
+    #[arg(long)]
+    pub fix: bool,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct ShowArguments {
+    /// The scene
+    pub file: PathBuf,
+    #[arg(long, value_enum)]
+    pub stage: Stage,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// What was typed
+    Ast,
+    /// What the author meant: no macro, loop, include or name is left
+    Scene,
+    /// What is there, in canonical form
+    World,
+    /// What will be done about it
+    Plan,
+}
+
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// The scene
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub picture: PictureArguments,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArguments {
+    /// The word in front of a message, such as `unknown-word`
+    pub code: Option<String>,
+}
+
+/// How large and how fine.
+#[derive(Debug, Args)]
+pub struct PictureArguments {
+    /// The picture's width and height in pixels
+    #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x480")]
+    size: (u32, u32),
+    /// Trace only this part: left, top, width, height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    region: Option<Region>,
+    /// `off`: one ray a pixel; N: N×N rays a pixel; `adaptive`: more where neighbours differ
+    #[arg(long, value_name = "off|N|adaptive", value_parser = antialias, default_value = "adaptive")]
+    pub antialias: Antialias,
+    /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub depth: Option<u32>,
+}
+
+/// What a scene is compiled with, and how its messages are shown.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// Search this folder for includes too; may be given several times
+    #[arg(short = 'I', long = "include", value_name = "DIR")]
+    pub include: Vec<PathBuf>,
+    /// Declare a number before the scene starts; may be given several times
+    #[arg(short = 'D', long = "declare", value_name = "NAME=VALUE", value_parser = declare)]
+    declares: Vec<(String, f64)>,
+    /// Raise or lower a limit: loops, macros, includes, nesting, objects, pixels
+    #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
+    limits: Vec<(Limit, u64)>,
+    /// Warn about what is probably a mistake, in `.pov` files too
+    #[arg(long)]
+    lint: bool,
+    /// Treat warnings as errors
+    #[arg(long)]
+    deny_warnings: bool,
+    /// How messages are shown
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub message_format: messages::Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Limit {
+    Loops,
+    Macros,
+    Includes,
+    Nesting,
+    Objects,
+    Pixels,
+}
+
+impl SceneArguments {
+    pub fn messages(&self) -> Messages {
+        Messages::new(self.message_format, self.deny_warnings)
+    }
+
+    /// What the road takes, for a main file of this name.
+    pub fn options(&self, file: &std::path::Path, frame: Option<Frame>) -> Options {
+        let dialect = dialect(&file.to_string_lossy());
+        let mut options = Options::new(dialect);
+        options.lints = self.lint || dialect == Dialect::Scene;
+        options.declares = self.declares.clone();
+        if let Some(frame) = frame {
+            (options.width, options.height) = (frame.width, frame.height);
+        }
+        for &(limit, n) in &self.limits {
+            let small = u32::try_from(n).unwrap_or(u32::MAX);
+            match limit {
+                Limit::Loops => options.limits.loop_turns = n,
+                Limit::Macros => options.limits.macro_depth = small,
+                Limit::Includes => options.limits.include_depth = small,
+                Limit::Nesting => options.nesting_limit = small,
+                Limit::Objects => options.limits.objects = n,
+                Limit::Pixels => {}
+            }
+        }
+        options
+    }
+
+    fn most_pixels(&self) -> u64 {
+        let pixels = self.limits.iter().rev().find(|(limit, _)| *limit == Limit::Pixels);
+        pixels.map_or(MOST_PIXELS, |&(_, n)| n)
+    }
+}
+
+impl PictureArguments {
+    /// The picture and the part of it to trace; fails when the part is not inside.
+    pub fn frame(&self, scene: &SceneArguments) -> Result<Frame, Failure> {
+        let (width, height) = self.size;
+        let mut frame = Frame::whole(width, height);
+        if let Some(region) = self.region {
+            let right = u64::from(region.x) + u64::from(region.width);
+            let bottom = u64::from(region.y) + u64::from(region.height);
+            if right > width.into() || bottom > height.into() {
+                let sentence = format!(
+                    "the region ends at {right},{bottom}, outside of the {width}×{height} picture"
+                );
+                return Err(Failure::usage(sentence));
+            }
+            frame.region = region;
+        }
+        let (pixels, most) =
+            (u64::from(frame.region.width) * u64::from(frame.region.height), scene.most_pixels());
+        if pixels > most {
+            return Err(Failure::limit(format!(
+                "the picture has {pixels} pixels, and the limit is {most}"
+            ))
+            .help(format!("`--limit pixels={pixels}` raises it; `--region` renders a part")));
+        }
+        Ok(frame)
+    }
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let wrong =
+        || "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 1000000".to_owned();
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let side = |text: &str| match text.trim().parse::<u32>() {
+        Ok(side @ 1..=1_000_000) => Ok(side),
+        _ => Err(wrong()),
+    };
+    Ok((side(width)?, side(height)?))
+}
+
+fn region(text: &str) -> Result<Region, String> {
+    let wrong = || "expected LEFT,TOP,WIDTH,HEIGHT in pixels, such as 0,0,320,240".to_owned();
+    let numbers: Vec<u32> = text
+        .split(',')
+        .map(|part| part.trim().parse().map_err(|_| wrong()))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x, y, width @ (1..), height @ (1..)] => Ok(Region { x, y, width, height }),
+        _ => Err(wrong()),
+    }
+}
+
+fn antialias(text: &str) -> Result<Antialias, String> {
+    match (text, text.parse::<u32>()) {
+        ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
+        ("adaptive", _) => Ok(Antialias::default()),
+        (_, Ok(n @ 2..=64)) => Ok(Antialias::Grid(n)),
+        _ => Err("expected `off`, `adaptive`, or a number from 1 to 64".to_owned()),
+    }
+}
+
+fn declare(text: &str) -> Result<(String, f64), String> {
+    let (name, value) =
+        text.split_once('=').ok_or("expected NAME=VALUE, such as Radius=1.5".to_owned())?;
+    let (name, value) = (name.trim(), value.trim());
+    let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
+    if !name.starts_with(letter) || !name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
+        return Err(format!("`{name}` is not a name: letters, digits and `_`, no digit first"));
+    }
+    let number = match value {
+        "true" | "yes" | "on" => Some(1.0),
+        "false" | "no" | "off" => Some(0.0),
+        // Rust also reads `inf` and `nan`.
+        _ => value.parse().ok().filter(|number: &f64| number.is_finite()),
+    };
+    Ok((name.to_owned(), number.ok_or_else(|| format!("`{value}` is not a number"))?))
+}
+
+fn limit(text: &str) -> Result<(Limit, u64), String> {
+    let (name, value) =
+        text.split_once('=').ok_or("expected NAME=N, such as loops=1000000".to_owned())?;
+    let limit = Limit::from_str(name, true).map_err(|_| {
+        "the limits are loops, macros, includes, nesting, objects, pixels".to_owned()
+    })?;
+    let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;
+    Ok((limit, number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_description_of_the_arguments_is_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_and_regions_are_read() {
+        assert_eq!(size("64x48"), Ok((64, 48)));
+        for wrong in ["0x1", "64", "64x", "x", "-1x4", "1e3x3", "2000000x1"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(region("1, 2,3,4"), Ok(Region { x: 1, y: 2, width: 3, height: 4 }));
+        for wrong in ["1,2,3", "1,2,0,4", "1,2,3,4,5", "a,b,c,d"] {
+            assert!(region(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn antialias_is_off_a_number_or_adaptive() {
+        assert_eq!(antialias("off"), Ok(Antialias::Off));
+        assert_eq!(antialias("1"), Ok(Antialias::Off));
+        assert_eq!(antialias("3"), Ok(Antialias::Grid(3)));
+        assert_eq!(antialias("adaptive"), Ok(Antialias::default()));
+        assert!(antialias("0").is_err() && antialias("on").is_err() && antialias("65").is_err());
+    }
+
+    #[test]
+    fn a_declaration_is_a_name_and_a_finite_number() {
+        assert_eq!(declare("A_1=-2.5e3"), Ok(("A_1".to_owned(), -2500.0)));
+        assert_eq!(declare("On=yes"), Ok(("On".to_owned(), 1.0)));
+        for wrong in ["A", "1A=2", "=2", "A=", "A=inf", "A=nan", "A=b", "A b=2"] {
+            assert!(declare(wrong).is_err(), "{wrong}");
+        }
+    }
+}

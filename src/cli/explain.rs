@@ -1,0 +1,27 @@
+//! `lucarne explain`: the page of a code.
+
+use lucarne::diagnostic::Code;
+use lucarne::diagnostic::suggest::closest;
+
+use super::arguments::ExplainArguments;
+use super::exit::{Exit, Failure, Outcome};
+use super::messages;
+
+pub fn run(arguments: &ExplainArguments) -> Outcome {
+    let Some(name) = &arguments.code else {
+        let list: String =
+            Code::ALL.iter().map(|c| format!("{:20} {}\n", c.name(), c.sentence())).collect();
+        messages::print(&list)?;
+        return Ok(Exit::Done);
+    };
+    let Some(code) = Code::from_name(name) else {
+        let failure = Failure::usage(format!("there is no code `{name}`"));
+        let help = match closest(name, Code::ALL.iter().map(|code| code.name())) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "`lucarne explain` lists them all".to_owned(),
+        };
+        return Err(failure.help(help));
+    };
+    messages::print(code.page())?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,177 @@
+//! Messages on their way to the terminal.
+//!
+//! **Invariant:** people's messages go to standard error, a program's (`json`) to standard output;
+//! a reader that has gone away is no error.
+
+use std::io::{ErrorKind, IsTerminal, Write};
+
+use clap::ValueEnum;
+use lucarne::diagnostic::{Code, Diagnostic, Severity, json, render};
+use lucarne::source::Sources;
+
+use super::exit::{Exit, Failure, reason};
+
+/// In human form, more than this many messages are counted, not shown.
+const MOST_SHOWN: usize = 100;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Format {
+    /// With the lines they are about, on standard error
+    #[default]
+    Human,
+    /// `file:line:column: severity[code]: message`, on standard error
+    Short,
+    /// One JSON object a line, on standard output
+    Json,
+}
+
+/// Prints messages and remembers what they mean for the exit code.
+pub struct Messages {
+    format: Format,
+    deny_warnings: bool,
+    /// Standard output is taken by a picture.
+    pub picture_on_stdout: bool,
+    style: render::Style,
+    errors: usize,
+    warnings: usize,
+    limits: usize,
+    notes: usize,
+}
+
+impl Messages {
+    pub fn new(format: Format, deny_warnings: bool) -> Self {
+        let style = style();
+        let (errors, warnings, limits, notes) = (0, 0, 0, 0);
+        Self {
+            format,
+            deny_warnings,
+            picture_on_stdout: false,
+            style,
+            errors,
+            warnings,
+            limits,
+            notes,
+        }
+    }
+
+    /// Prints them all.
+    pub fn print<'a>(
+        &mut self,
+        list: impl Iterator<Item = &'a Diagnostic>,
+        sources: &Sources,
+    ) -> Result<(), Failure> {
+        let (mut out, mut shown, mut more) = (String::new(), 0, 0);
+        for diagnostic in list {
+            match diagnostic.severity {
+                Severity::Error if is_limit(diagnostic.code) => self.limits += 1,
+                Severity::Error => self.errors += 1,
+                Severity::Warning => self.warnings += 1,
+                Severity::Note => self.notes += 1,
+            }
+            shown += 1;
+            match self.format {
+                // The author's own words need no drawing.
+                Format::Human if diagnostic.code == Code::AuthorDebug => {
+                    out.push_str(&diagnostic.message);
+                    if !out.ends_with('\n') {
+                        out.push('\n');
+                    }
+                }
+                Format::Human if shown > MOST_SHOWN => more += 1,
+                Format::Human => {
+                    out.push_str(&render::human(diagnostic, sources, self.style));
+                    out.push('\n');
+                }
+                Format::Short => out.push_str(&(render::short(diagnostic, sources) + "\n")),
+                Format::Json => out.push_str(&(json::line(diagnostic, sources) + "\n")),
+            }
+        }
+        if more > 0 {
+            out.push_str(&format!("… and {more} more; `--message-format short` shows them all\n"));
+        }
+        match self.format == Format::Json && !self.picture_on_stdout {
+            true => print(&out),
+            false => {
+                eprint(&out);
+                Ok(())
+            }
+        }
+    }
+
+    /// `2 errors, 1 warning`, where people read it.
+    pub fn summarize(&self) {
+        let errors = self.errors + self.limits;
+        let count = |n: usize, what: &str| match n {
+            0 => None,
+            1 => Some(format!("1 {what}")),
+            n => Some(format!("{n} {what}s")),
+        };
+        let parts: Vec<String> = [count(errors, "error"), count(self.warnings, "warning")]
+            .into_iter()
+            .flatten()
+            .collect();
+        if self.format == Format::Human && !parts.is_empty() {
+            eprint(&format!("{}\n", parts.join(", ")));
+        }
+    }
+
+    /// What the messages so far mean: errors, a limit, or nothing.
+    pub fn exit(&self) -> Exit {
+        match self {
+            Self { errors: 1.., .. } => Exit::Scene,
+            Self { limits: 1.., .. } => Exit::Limit,
+            Self { warnings: 1.., deny_warnings: true, .. } => Exit::Scene,
+            _ => Exit::Done,
+        }
+    }
+}
+
+fn is_limit(code: Code) -> bool {
+    matches!(
+        code,
+        Code::LoopLimit
+            | Code::MacroLimit
+            | Code::IncludeLimit
+            | Code::ObjectLimit
+            | Code::NestingLimit
+    )
+}
+
+/// The width of the terminal on standard error, and colour when it is one and `NO_COLOR` is unset.
+fn style() -> render::Style {
+    let stderr = std::io::stderr();
+    if !stderr.is_terminal() {
+        return render::Style::PLAIN;
+    }
+    let width = terminal_size::terminal_size_of(&stderr).map_or(80, |(width, _)| width.0.into());
+    let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+        || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    render::Style { width, color: !plain }
+}
+
+/// To standard output. A closed pipe is no error: nobody reads any more.
+pub fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(text.as_bytes())
+}
+
+/// As [`print`], for a picture.
+pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::file(format!("cannot write to standard output: {}", reason(&error))))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// To standard error.
+pub fn eprint(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Says why the program ends.
+pub fn fail(failure: &Failure) {
+    let help = failure.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
+    eprint(&format!("error: {}\n{help}", failure.sentence));
+}

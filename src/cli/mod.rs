@@ -1,0 +1,128 @@
+//! The command line: one file a subcommand.
+//!
+//! **Architecture invariant:** the only room that prints, reads and writes disks, and exits.
+
+mod arguments;
+mod check;
+mod exit;
+mod explain;
+mod files;
+mod messages;
+mod output;
+mod plan;
+mod progress;
+mod render;
+mod show;
+mod stats;
+
+use std::ffi::OsString;
+use std::panic;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+use lucarne::diagnostic::suggest::closest;
+
+use arguments::{Arguments, Command};
+use exit::{Exit, Outcome};
+
+/// Reads the command line, does what it says, and tells how it went.
+pub fn main() -> ExitCode {
+    guarded(|| {
+        let arguments = Arguments::parse_from(complete(std::env::args_os().collect()));
+        run(arguments).unwrap_or_else(|failure| {
+            messages::fail(&failure);
+            failure.exit
+        })
+    })
+    .into()
+}
+
+fn run(arguments: Arguments) -> Outcome {
+    match arguments.command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Show(arguments) => show::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+    }
+}
+
+/// Runs `work`; a panic in it is a bug, and becomes a sentence on how to report it.
+fn guarded(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
+    panic::set_hook(Box::new(|info| {
+        messages::eprint(&format!(
+            "lucarne {}: internal error: {info}\n",
+            env!("CARGO_PKG_VERSION")
+        ));
+    }));
+    panic::catch_unwind(work).unwrap_or_else(|_| {
+        messages::eprint(
+            "This is a bug in lucarne, not in your scene. Please report it with the lines above, \
+             the command line\nand the scene (the smaller the better), where you got lucarne from.\n",
+        );
+        Exit::Panic
+    })
+}
+
+/// `lucarne FILE` means `lucarne render FILE`, and `--stats json` is `--stats=json`.
+fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    let command = Arguments::command();
+    let is_command = |word: &str| {
+        word == "help" || command.get_subcommands().any(|command| command.get_name() == word)
+    };
+    let first = arguments.get(1).map(|first| first.to_string_lossy().into_owned());
+    let render = first.is_some_and(|first| {
+        let names = command.get_subcommands().map(|command| command.get_name());
+        // A misspelt subcommand, unless there is such a file.
+        let misspelt =
+            !first.contains('.') && closest(&first, names).is_some() && !Path::new(&first).exists();
+        let ours = ["-h", "--help", "-V", "--version"].contains(&first.as_str());
+        !ours && !is_command(&first) && !misspelt
+    });
+    if render {
+        arguments.insert(1, "render".into());
+    }
+    if let Some(at) = arguments.windows(2).position(|two| two[0] == "--stats" && two[1] == "json") {
+        arguments.splice(at..at + 2, ["--stats=json".into()]);
+    }
+    arguments
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn completed(words: &str) -> String {
+        let words = words.split(' ').map(OsString::from).collect();
+        let words: Vec<String> =
+            complete(words).into_iter().filter_map(|word| word.into_string().ok()).collect();
+        words.join(" ")
+    }
+
+    #[test]
+    fn a_file_alone_means_render() {
+        assert_eq!(completed("lucarne a.scene"), "lucarne render a.scene");
+        assert_eq!(completed("lucarne --size 3x3 a.scene"), "lucarne render --size 3x3 a.scene");
+        assert_eq!(completed("lucarne check a.scene"), "lucarne check a.scene");
+        assert_eq!(completed("lucarne --help"), "lucarne --help");
+        assert_eq!(completed("lucarne chekc a.scene"), "lucarne chekc a.scene");
+        assert_eq!(completed("lucarne"), "lucarne");
+    }
+
+    #[test]
+    fn stats_takes_json_as_its_next_word() {
+        assert_eq!(
+            completed("lucarne a.scene --stats json"),
+            "lucarne render a.scene --stats=json"
+        );
+        assert_eq!(completed("lucarne --stats a.scene"), "lucarne render --stats a.scene");
+    }
+
+    #[test]
+    fn a_panic_ends_with_seventy() {
+        assert_eq!(guarded(|| panic!("a planted fault")), Exit::Panic);
+        assert_eq!(guarded(|| Exit::Done), Exit::Done);
+        let _ = panic::take_hook();
+    }
+}

@@ -1,0 +1,226 @@
+//! Where a picture goes.
+//!
+//! **Invariant:** what can be known before the render is: the format, and whether the place can be
+//! written. A file is written beside and renamed, so that it is whole or not there; a file the scene was
+//! read from is never overwritten.
+
+use std::fs;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use lucarne::picture::{Format, is_picture};
+use lucarne::source::Sources;
+
+use super::exit::{Failure, reason};
+use super::messages;
+
+/// A place for one picture.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    Stdout,
+    File { path: PathBuf, format: Format },
+}
+
+impl Output {
+    /// `OUT` as typed, or the scene's name with `.png` in the current folder.
+    pub fn from_arguments(scene: &Path, out: Option<&Path>) -> Result<Self, Failure> {
+        let Some(out) = out else {
+            let mut path = scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
+            path.push(".png");
+            let path = PathBuf::from(path);
+            return Ok(Self::File { path, format: Format::Png });
+        };
+        if out == Path::new("-") {
+            return Ok(Self::Stdout);
+        }
+        if out.is_dir() {
+            let sentence = format!("cannot write `{}`: it is a folder", out.display());
+            return Err(Failure::file(sentence));
+        }
+        let extension = out.extension().map(|e| e.to_string_lossy().into_owned());
+        let format = extension.as_deref().and_then(Format::from_extension).ok_or_else(|| {
+            let known = Format::ALL.iter().flat_map(|format| format.extensions());
+            let known: Vec<String> = known.map(|e| format!(".{e}")).collect();
+            let sentence = match &extension {
+                Some(extension) => format!("`.{extension}` is no format that can be written"),
+                None => format!("`{}` has no extension to tell the format by", out.display()),
+            };
+            Failure::usage(sentence).help(format!("use one of {}", known.join(" ")))
+        })?;
+        Ok(Self::File { path: out.to_owned(), format })
+    }
+
+    pub fn format(&self) -> Format {
+        match self {
+            Self::Stdout => Format::Png,
+            Self::File { format, .. } => *format,
+        }
+    }
+
+    /// How the line that says what was done calls it.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Stdout => "standard output".to_owned(),
+            Self::File { path, .. } => path.display().to_string(),
+        }
+    }
+
+    /// Where an interrupted picture goes: `OUT.partial.EXT`.
+    pub fn partial(&self) -> Option<Self> {
+        match self {
+            Self::Stdout => None,
+            Self::File { path, format } => {
+                let extension = path.extension().unwrap_or_default().to_string_lossy();
+                let path = path.with_extension(format!("partial.{extension}"));
+                Some(Self::File { path, format: *format })
+            }
+        }
+    }
+
+    /// Fails when it is clear before the render that the picture could not be written, or should
+    /// not: `force` allows what is not a picture to be overwritten.
+    pub fn check(&self, pixels: u64, force: bool) -> Result<(), Failure> {
+        let Self::File { path, .. } = self else { return Ok(()) };
+        if let Ok(file) = fs::File::open(path) {
+            let mut start = Vec::new();
+            let read = file.take(64).read_to_end(&mut start);
+            if read.is_ok() && !start.is_empty() && !is_picture(&start) && !force {
+                let sentence =
+                    format!("`{}` exists and is not a picture: not overwritten", path.display());
+                return Err(Failure::file(sentence).help("`--force` overwrites it"));
+            }
+        }
+        // The one sure way to know that a file can be made there is to make one.
+        temporary(path).map(drop)?;
+        match free_bytes(folder(path)) {
+            Some(free) if free < least_bytes(pixels) => Err(cannot(path, "the disk is full")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Fails when the picture would take the place of a text that the scene was read from.
+    pub fn keeps(&self, sources: &Sources) -> Result<(), Failure> {
+        let Self::File { path, .. } = self else { return Ok(()) };
+        let Ok(truth) = fs::canonicalize(path) else { return Ok(()) };
+        let is = |name: &str| fs::canonicalize(name).is_ok_and(|other| other == truth);
+        match sources.iter().any(|(_, source)| is(&source.name)) {
+            true => Err(Failure::file(format!(
+                "`{}` is a part of the scene: not overwritten",
+                path.display()
+            ))),
+            false => Ok(()),
+        }
+    }
+
+    /// Writes the picture whole.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        let Self::File { path, .. } = self else { return messages::print_bytes(bytes) };
+        // A link stays a link: what it leads to is replaced.
+        let path = &fs::canonicalize(path).unwrap_or(path.clone());
+        let mut file = temporary(path)?;
+        file.write_all(bytes).map_err(|error| cannot(path, &reason(&error)))?;
+        file.persist(path).map_err(|error| cannot(path, &reason(&error.error)))?;
+        Ok(())
+    }
+}
+
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn cannot(path: &Path, why: &str) -> Failure {
+    Failure::file(format!("cannot write `{}`: {why}", path.display()))
+}
+
+/// A file beside `path`, removed again unless it is renamed.
+fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lucarne-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // What any other new file would get; the system takes the umask off.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder(path)).map_err(|error| {
+        let folder = folder(path);
+        match folder.is_dir() {
+            true => cannot(path, &reason(&error)),
+            false => cannot(path, &format!("there is no folder `{}`", folder.display())),
+        }
+    })
+}
+
+/// No picture of so many pixels is smaller: a header, and a bit for every few pixels.
+fn least_bytes(pixels: u64) -> u64 {
+    64 + pixels / 1000
+}
+
+#[cfg(unix)]
+fn free_bytes(folder: &Path) -> Option<u64> {
+    let about = nix::sys::statvfs::statvfs(folder).ok()?;
+    // The count has 32 bits on some systems.
+    #[allow(clippy::useless_conversion)]
+    let blocks = u64::from(about.blocks_available());
+    Some(blocks.saturating_mul(about.fragment_size() as u64))
+}
+
+#[cfg(not(unix))]
+fn free_bytes(_: &Path) -> Option<u64> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_is_the_scenes_name_where_it_was_run() {
+        let output = Output::from_arguments(Path::new("scenes/gallery/first.scene"), None);
+        let path = PathBuf::from("first.png");
+        assert_eq!(output.expect("a place"), Output::File { path, format: Format::Png });
+    }
+
+    #[test]
+    fn the_extension_chooses_the_format() {
+        let format = |out: &str| {
+            Output::from_arguments(Path::new("a.scene"), Some(Path::new(out)))
+                .map(|output| output.format())
+                .map_err(|failure| failure.exit)
+        };
+        assert_eq!(format("a.EXR"), Ok(Format::Exr));
+        assert_eq!(format("-"), Ok(Format::Png));
+        assert_eq!(format("a.gif"), Err(super::super::exit::Exit::Usage));
+        assert_eq!(format("a"), Err(super::super::exit::Exit::Usage));
+    }
+
+    #[test]
+    fn a_partial_picture_keeps_its_extension() {
+        let output = Output::File { path: "b/a.png".into(), format: Format::Png };
+        assert_eq!(output.partial().map(|partial| partial.name()), Some("b/a.partial.png".into()));
+        assert_eq!(Output::Stdout.partial(), None);
+    }
+
+    #[test]
+    fn only_pictures_are_overwritten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.ppm");
+        let output = Output::File { path: path.clone(), format: Format::Ppm };
+        assert!(output.check(1, false).is_ok());
+        fs::write(&path, "my notes").expect("written");
+        assert!(output.check(1, false).is_err());
+        assert!(output.check(1, true).is_ok());
+        fs::write(&path, "P6\n1 1\n255\nabc").expect("written");
+        assert!(output.check(1, false).is_ok());
+        output.write(b"P6\n1 1\n255\ndef").expect("written");
+        assert_eq!(fs::read(&path).expect("read"), b"P6\n1 1\n255\ndef");
+        assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_is_known_before() {
+        let output = Output::File { path: "/no/such/folder/a.png".into(), format: Format::Png };
+        let failure = output.check(1, false).expect_err("no folder");
+        assert!(failure.sentence.contains("there is no folder `/no/such/folder`"));
+    }
+}

@@ -1,0 +1,71 @@
+//! A bar while the tracer works, and Ctrl-C.
+//!
+//! **Invariant:** the bar stands on standard error, and only on a terminal.
+
+use std::io::IsTerminal;
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use lucarne::trace::Watch;
+
+use super::exit::Exit;
+use super::messages;
+use super::stats::cpu_seconds;
+
+/// Watches one trace.
+pub struct Progress {
+    bar: ProgressBar,
+    stop: Arc<AtomicBool>,
+    started: f64,
+    built: OnceLock<f64>,
+}
+
+impl Progress {
+    /// From here on the first Ctrl-C stops the trace, and the second ends the program.
+    pub fn start() -> Self {
+        let bar = match std::io::stderr().is_terminal() {
+            true => ProgressBar::new(0),
+            false => ProgressBar::hidden(),
+        };
+        let template = "  {bar:40} {percent:>3} %  {elapsed} (about {eta} left)";
+        bar.set_style(
+            ProgressStyle::with_template(template)
+                .unwrap_or_else(|_| ProgressStyle::default_bar())
+                .progress_chars("━━ "),
+        );
+        let stop = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&stop);
+        // Without a handler Ctrl-C ends the program at once, which is no error.
+        let _ = ctrlc::set_handler(move || {
+            if flag.swap(true, Ordering::SeqCst) {
+                messages::eprint("\n");
+                process::exit(Exit::Interrupted as i32);
+            }
+        });
+        Self { bar, stop, started: cpu_seconds(), built: OnceLock::new() }
+    }
+
+    /// CPU seconds from the start until the first piece of work was begun.
+    pub fn build_cpu_seconds(&self) -> f64 {
+        self.built.get().map_or(0.0, |built| built - self.started)
+    }
+
+    pub fn end(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watch for Progress {
+    fn progress(&self, done: usize, total: usize) {
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
+    }
+
+    fn should_stop(&self) -> bool {
+        // The first piece of work is begun when the tree of boxes stands.
+        self.built.get_or_init(cpu_seconds);
+        self.stop.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,102 @@
+//! `lucarne render`: from a scene file to a picture file.
+
+use lucarne::film::develop;
+use lucarne::picture::encode;
+use lucarne::plan::{PlanOptions, plan};
+use lucarne::road::Road;
+use lucarne::trace::{TraceOptions, trace};
+
+use super::arguments::RenderArguments;
+use super::exit::{Exit, Failure, Outcome};
+use super::files::{DiskFiles, read_main};
+use super::messages;
+use super::output::Output;
+use super::progress::Progress;
+use super::stats::{Stats, Stopwatch, peak_rss_bytes};
+
+pub fn run(arguments: &RenderArguments) -> Outcome {
+    let mut watch = Stopwatch::start();
+    let mut stats = Stats::default();
+    let output = Output::from_arguments(&arguments.file, arguments.output.as_deref())?;
+    let format = output.format();
+    let depth = format.depth(arguments.bits).ok_or_else(|| {
+        let bits = arguments.bits.unwrap_or_default();
+        let name = format.extensions()[0];
+        Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
+            .help("`--bits` may be 8 (png, jpg, ppm, qoi) or 16 (png, ppm)")
+    })?;
+    let frame = arguments.picture.frame(&arguments.scene)?;
+    let bytes = read_main(&arguments.file)?;
+    output
+        .check(u64::from(frame.region.width) * u64::from(frame.region.height), arguments.force)?;
+
+    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let options = arguments.scene.options(&arguments.file, Some(frame));
+    let mut road = Road::new(&files, options);
+    watch.lap();
+    let file = road.read(&arguments.file.to_string_lossy(), bytes);
+    let ast = road.parse(file);
+    stats.parse_cpu_s = watch.lap();
+    let scene = road.evaluate(&ast);
+    stats.evaluate_cpu_s = watch.lap();
+    let (world, origins) = road.lower(scene);
+    stats.lower_cpu_s = watch.lap();
+
+    let mut messages = arguments.scene.messages();
+    messages.picture_on_stdout = output == Output::Stdout;
+    messages.print(road.diagnostics.iter(), &road.sources)?;
+    messages.summarize();
+    match messages.exit() {
+        Exit::Done => {}
+        other => return Ok(other),
+    }
+    output.keeps(&road.sources)?;
+
+    let picture = &arguments.picture;
+    let options = PlanOptions { frame, antialias: picture.antialias, depth: picture.depth };
+    let plan = plan(&world, &origins, &options);
+    watch.lap();
+    let progress = Progress::start();
+    let threads = arguments.threads.map(usize::from);
+    let traced = trace(&world, &plan, &TraceOptions { threads }, &progress);
+    progress.end();
+    stats.build_cpu_s = progress.build_cpu_seconds();
+    stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
+
+    let cannot = |why| Failure::file(format!("cannot write `{}`: {why}", output.name()));
+    let bytes = encode(&develop(&traced.film, depth), format).map_err(cannot)?;
+    let written = match traced.complete {
+        true => Some(output.clone()),
+        false => output.partial(),
+    };
+    if let Some(place) = &written {
+        place.write(&bytes)?;
+    }
+    stats.encode_cpu_s = watch.lap();
+    stats.wall_s = watch.wall_seconds();
+    stats.peak_rss_bytes = peak_rss_bytes();
+    (stats.objects, stats.lights) = (world.objects.len(), world.lights.len());
+    stats.rays = (&traced.counters).into();
+
+    if !traced.complete {
+        messages::eprint(&match written {
+            Some(place) => format!("interrupted: what is done is in {}\n", place.name()),
+            None => "interrupted: nothing was written\n".to_owned(),
+        });
+        return Ok(Exit::Interrupted);
+    }
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    messages::eprint(&format!(
+        "{}: {}×{}, {}, {}, {:.2} s\n",
+        output.name(),
+        frame.region.width,
+        frame.region.height,
+        count(stats.objects, "object"),
+        count(stats.lights, "light"),
+        stats.wall_s
+    ));
+    if let Some(format) = arguments.stats {
+        stats.print(format, output == Output::Stdout)?;
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,56 @@
+//! `lucarne show`: what a scene is at each stage of the road.
+
+use lucarne::plan::{self, PlanOptions};
+use lucarne::road::Road;
+use lucarne::{scene, syntax, world};
+
+use super::arguments::{PictureArguments, SceneArguments, ShowArguments, Stage};
+use super::exit::{Exit, Failure, Outcome};
+use super::files::{DiskFiles, read_main};
+use super::messages;
+
+pub fn run(arguments: &ShowArguments) -> Outcome {
+    show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)
+}
+
+/// Prints one stage; a broken scene shows what there is of it.
+pub fn show(
+    path: &std::path::Path,
+    stage: Stage,
+    picture: &PictureArguments,
+    arguments: &SceneArguments,
+) -> Outcome {
+    let frame = picture.frame(arguments)?;
+    let bytes = read_main(path)?;
+    let files = DiskFiles::new(path, &arguments.include);
+    let mut road = Road::new(&files, arguments.options(path, Some(frame)));
+    let file = road.read(&path.to_string_lossy(), bytes);
+    let ast = road.parse(file);
+    let text = if stage == Stage::Ast {
+        syntax::print::dump(&ast, road.sources.get(file))
+    } else {
+        let scene = road.evaluate(&ast);
+        if stage == Stage::Scene {
+            scene::print::dump(&scene, &road.sources)
+        } else {
+            let (world, origins) = road.lower(scene);
+            match stage {
+                Stage::Plan => {
+                    let (antialias, depth) = (picture.antialias, picture.depth);
+                    let options = PlanOptions { frame, antialias, depth };
+                    plan::print::dump(&plan::plan(&world, &origins, &options), &road.sources)
+                }
+                Stage::Ast | Stage::Scene | Stage::World => {
+                    world::print::dump(&world, &origins, &road.sources)
+                }
+            }
+        }
+    };
+    let mut messages = arguments.messages();
+    // The stage takes standard output.
+    messages.picture_on_stdout = true;
+    messages.print(road.diagnostics.iter(), &road.sources)?;
+    messages.summarize();
+    messages::print(&text)?;
+    Ok::<Exit, Failure>(messages.exit())
+}

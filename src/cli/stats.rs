@@ -1,0 +1,137 @@
+//! What a render took: CPU seconds of each stage, memory, rays.
+
+use std::sync::OnceLock;
+use std::time::Instant;
+
+use lucarne::trace::Counters;
+use serde::Serialize;
+
+use super::arguments::StatsFormat;
+use super::exit::Failure;
+use super::messages;
+
+/// CPU seconds are of the whole process, all threads together.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Stats {
+    pub parse_cpu_s: f64,
+    pub evaluate_cpu_s: f64,
+    pub lower_cpu_s: f64,
+    /// The tree of boxes.
+    pub build_cpu_s: f64,
+    pub trace_cpu_s: f64,
+    pub encode_cpu_s: f64,
+    pub wall_s: f64,
+    /// Zero where the system does not tell.
+    pub peak_rss_bytes: u64,
+    pub objects: usize,
+    pub lights: usize,
+    pub rays: Rays,
+}
+
+/// Rays by what sent them.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Rays {
+    pub camera: u64,
+    pub shadow: u64,
+    pub reflection: u64,
+}
+
+impl From<&Counters> for Rays {
+    fn from(counters: &Counters) -> Self {
+        Self { camera: counters.camera, shadow: counters.shadow, reflection: counters.reflection }
+    }
+}
+
+impl Stats {
+    /// As one line of JSON, or as a table; on standard error where a picture takes the other.
+    pub fn print(&self, format: Option<StatsFormat>, to_stderr: bool) -> Result<(), Failure> {
+        let text = match format {
+            // Numbers only: nothing here can fail to serialise.
+            Some(StatsFormat::Json) => serde_json::to_string(self).unwrap_or_default() + "\n",
+            None => self.table(),
+        };
+        match to_stderr {
+            true => messages::eprint(&text),
+            false => messages::print(&text)?,
+        }
+        Ok(())
+    }
+
+    fn table(&self) -> String {
+        let seconds = |name: &str, s: f64| format!("{name:12}{s:14.3} s\n");
+        let count = |name: &str, n: u64| format!("{name:12}{n:14}\n");
+        [
+            seconds("parse", self.parse_cpu_s),
+            seconds("evaluate", self.evaluate_cpu_s),
+            seconds("lower", self.lower_cpu_s),
+            seconds("build", self.build_cpu_s),
+            seconds("trace", self.trace_cpu_s),
+            seconds("encode", self.encode_cpu_s),
+            seconds("wall clock", self.wall_s),
+            format!("{:12}{:14.1} MiB\n", "peak memory", self.peak_rss_bytes as f64 / 1_048_576.0),
+            count("objects", self.objects as u64),
+            count("lights", self.lights as u64),
+            count("camera rays", self.rays.camera),
+            count("shadow rays", self.rays.shadow),
+            count("mirrored", self.rays.reflection),
+        ]
+        .concat()
+    }
+}
+
+/// Measures one stage after another.
+pub struct Stopwatch {
+    start: Instant,
+    last: f64,
+}
+
+impl Stopwatch {
+    pub fn start() -> Self {
+        Self { start: Instant::now(), last: cpu_seconds() }
+    }
+
+    /// CPU seconds since the last call, or since the start.
+    pub fn lap(&mut self) -> f64 {
+        let now = cpu_seconds();
+        now - std::mem::replace(&mut self.last, now)
+    }
+
+    pub fn wall_seconds(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+}
+
+/// CPU seconds of this process; where they cannot be had, wall-clock seconds since the first call.
+pub fn cpu_seconds() -> f64 {
+    process_cpu_seconds().unwrap_or_else(|| {
+        static FIRST: OnceLock<Instant> = OnceLock::new();
+        FIRST.get_or_init(Instant::now).elapsed().as_secs_f64()
+    })
+}
+
+#[cfg(unix)]
+fn process_cpu_seconds() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    Some((usage.user_time() + usage.system_time()).num_microseconds() as f64 / 1e6)
+}
+
+#[cfg(not(unix))]
+fn process_cpu_seconds() -> Option<f64> {
+    None
+}
+
+/// The most memory this process has had, in bytes.
+#[cfg(unix)]
+pub fn peak_rss_bytes() -> u64 {
+    use nix::sys::resource::{UsageWho, getrusage};
+    let Ok(usage) = getrusage(UsageWho::RUSAGE_SELF) else { return 0 };
+    let unit = if cfg!(target_vendor = "apple") { 1 } else { 1024 };
+    u64::try_from(usage.max_rss()).unwrap_or(0) * unit
+}
+
+#[cfg(not(unix))]
+pub fn peak_rss_bytes() -> u64 {
+    0
+}

@@ -1,0 +1,274 @@
+//! The few lines a message shows, made safe to print.
+//!
+//! **In:** places in any number of files. **Out:** the lines around them, one text a run of
+//! neighbouring lines, all runs in one space of offsets. **Invariant:** only those lines are
+//! copied; no line is longer than the room for it (unless labels fill it); no control or
+//! direction-changing character is left.
+
+use crate::source::{FileId, Position, Sources, Span};
+
+/// A label over more lines than this is cut to its first line.
+const LONGEST_LABEL: usize = 8;
+/// Characters kept on both sides of a label when a line is cut.
+const AROUND: usize = 24;
+
+/// Some neighbouring lines of one file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    pub file: FileId,
+    /// Counted from 1.
+    pub first_line: usize,
+    /// Where this run starts in the space of offsets.
+    pub base: usize,
+    /// Each line ends in a line feed.
+    pub text: String,
+    /// For each character shown: its byte in the source, its byte in `text`.
+    places: Vec<(usize, usize)>,
+}
+
+/// The runs that hold all the places, and those places in their offsets.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Excerpt {
+    pub runs: Vec<Run>,
+    /// For each span given: start and end offset, and the true position of its start.
+    pub marks: Vec<(usize, usize, Position)>,
+}
+
+impl Excerpt {
+    /// Lines around `spans`, each with one line before and after; `room` characters a line.
+    pub fn around(spans: &[Span], sources: &Sources, room: usize) -> Self {
+        let spans: Vec<Span> = spans.iter().map(|&span| shortened(span, sources)).collect();
+        let mut files: Vec<FileId> = Vec::new();
+        for span in &spans {
+            if !files.contains(&span.file) {
+                files.push(span.file);
+            }
+        }
+        let mut excerpt = Self::default();
+        for file in files {
+            let here: Vec<Span> = spans.iter().copied().filter(|span| span.file == file).collect();
+            excerpt.add_file(file, &here, sources, room);
+        }
+        excerpt.marks = spans
+            .iter()
+            .map(|span| {
+                let position = sources.get(span.file).position(span.start as usize);
+                let start = excerpt.offset(span.file, span.start as usize);
+                (start, excerpt.offset(span.file, span.end as usize).max(start), position)
+            })
+            .collect();
+        excerpt
+    }
+
+    fn add_file(&mut self, file: FileId, spans: &[Span], sources: &Sources, room: usize) {
+        let source = sources.get(file);
+        let mut lines: Vec<usize> = Vec::new();
+        let blank = |line: usize| source.line(line).trim().is_empty();
+        for span in spans {
+            let first = source.position(span.start as usize).line;
+            let last = source.position(span.end as usize).line;
+            lines.extend(first..=last);
+            // One line of context on both sides, where it says something.
+            lines.extend((first > 1 && !blank(first - 1)).then(|| first - 1));
+            lines.extend((last < source.line_count() && !blank(last + 1)).then_some(last + 1));
+        }
+        lines.sort_unstable();
+        let gaps: Vec<usize> =
+            lines.windows(2).filter(|w| w[1] == w[0] + 2).map(|w| w[0] + 1).collect();
+        lines.extend(gaps);
+        lines.sort_unstable();
+        lines.dedup();
+        let mut previous = None;
+        for line in lines {
+            if previous.is_none_or(|previous| line > previous + 1) {
+                let base = self.runs.last().map_or(0, |run| run.base + run.text.len() + 1);
+                let (text, places) = (String::new(), Vec::new());
+                self.runs.push(Run { file, first_line: line, base, text, places });
+            }
+            previous = Some(line);
+            if let Some(run) = self.runs.last_mut() {
+                run.add_line(source.line(line), source.line_start(line), spans, room);
+            }
+        }
+    }
+
+    /// Where byte `at` of `file` is shown: exactly, or at the cut before it.
+    fn offset(&self, file: FileId, at: usize) -> usize {
+        let begins = |run: &&Run| run.file == file && run.places.first().is_some_and(|p| p.0 <= at);
+        let Some(run) = self.runs.iter().rev().find(begins) else { return 0 };
+        let after = run.places.partition_point(|place| place.0 <= at);
+        run.base + run.places[after.saturating_sub(1)].1
+    }
+}
+
+impl Run {
+    fn add_line(&mut self, line: &str, start: usize, spans: &[Span], room: usize) {
+        let mut shown = 0;
+        for window in windows(line, start, spans, room) {
+            if window.start > shown {
+                self.text.push('…');
+            }
+            for (i, c) in line[window.clone()].char_indices() {
+                self.places.push((start + window.start + i, self.text.len()));
+                push_visible(&mut self.text, c);
+            }
+            self.places.push((start + window.end, self.text.len()));
+            shown = window.end;
+        }
+        if shown < line.len() {
+            self.text.push('…');
+        }
+        self.text.push('\n');
+    }
+}
+
+/// The parts of a line to show: all of it when there is room, else what surrounds the labels.
+fn windows(line: &str, start: usize, spans: &[Span], room: usize) -> Vec<std::ops::Range<usize>> {
+    if line.len() <= room || (line.len() <= 4 * room && line.chars().count() <= room) {
+        return std::iter::once(0..line.len()).collect();
+    }
+    let mut windows: Vec<std::ops::Range<usize>> = Vec::new();
+    let end = start + line.len();
+    let here = |span: &&Span| span.start as usize <= end && span.end as usize >= start;
+    let mut labels: Vec<_> = spans.iter().filter(here).collect();
+    labels.sort_unstable_by_key(|span| span.start);
+    for span in labels {
+        let from = (span.start as usize).saturating_sub(start);
+        let to = (span.end as usize).min(end) - start;
+        let longest = room.saturating_sub(2 * AROUND + 2).max(1);
+        let to = to.min(forward(line, from, longest));
+        let window = back(line, from, AROUND)..forward(line, to, AROUND);
+        match windows.last_mut() {
+            Some(last) if last.end >= window.start => last.end = last.end.max(window.end),
+            _ => windows.push(window),
+        }
+    }
+    if windows.is_empty() {
+        windows.push(0..forward(line, 0, room.saturating_sub(1)));
+    }
+    windows
+}
+
+/// The byte `count` characters after byte `at`, or the line's end.
+fn forward(line: &str, at: usize, count: usize) -> usize {
+    line[at..].char_indices().nth(count).map_or(line.len(), |(i, _)| at + i)
+}
+
+/// The byte `count` characters before byte `at`, or 0.
+fn back(line: &str, at: usize, count: usize) -> usize {
+    line[..at].char_indices().rev().take(count).last().map_or(at, |(i, _)| i)
+}
+
+/// A span over many lines, cut to its first line.
+fn shortened(span: Span, sources: &Sources) -> Span {
+    let source = sources.get(span.file);
+    let first = source.position(span.start as usize).line;
+    if source.position(span.end as usize).line - first < LONGEST_LABEL {
+        return span;
+    }
+    let end = source.line_start(first) + source.line(first).len();
+    Span::new(span.file, span.start as usize, end.max(span.start as usize))
+}
+
+/// Writes `c` so that it is seen and moves nothing: control characters as their pictures,
+/// invisible and direction-changing ones by number.
+pub fn push_visible(text: &mut String, c: char) {
+    match c {
+        '\t' => text.push('\t'),
+        '\0'..' ' => text.extend(char::from_u32(0x2400 + c as u32)),
+        '\u{7f}' => text.push('␡'),
+        '\u{80}'..='\u{9f}'
+        | '\u{ad}'
+        | '\u{61c}'
+        | '\u{180e}'
+        | '\u{200b}'..='\u{200f}'
+        | '\u{2028}'..='\u{202e}'
+        | '\u{2060}'..='\u{206f}'
+        | '\u{feff}'
+        | '\u{fff9}'..='\u{fffb}'
+        | '\u{e0000}'..='\u{e0fff}' => text.push_str(&format!("‹U+{:04X}›", c as u32)),
+        _ => text.push(c),
+    }
+}
+
+/// A sentence made safe to print: like [`push_visible`], but line breaks stay.
+pub fn visible(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.trim_end().chars() {
+        if c == '\n' { out.push(c) } else { push_visible(&mut out, c) }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Source;
+
+    fn excerpt(text: &str, spans: &[(usize, usize)]) -> Excerpt {
+        let mut sources = Sources::default();
+        let file = sources.add(Source::new("a", text));
+        let spans: Vec<Span> = spans.iter().map(|&(s, e)| Span::new(file, s, e)).collect();
+        Excerpt::around(&spans, &sources, 72)
+    }
+
+    fn marked(excerpt: &Excerpt, mark: usize) -> &str {
+        let (start, end, _) = excerpt.marks[mark];
+        let run = excerpt.runs.iter().rev().find(|run| run.base <= start).expect("a run");
+        &run.text[start - run.base..end - run.base]
+    }
+
+    #[test]
+    fn only_the_lines_around_the_places_are_copied() {
+        let text: String = (0..1000).map(|i| format!("line{i:04}\n")).collect();
+        let cut = excerpt(&text, &[(9 * 500, 9 * 500 + 8), (9 * 10, 9 * 10 + 4)]);
+        assert_eq!(cut.runs[0].text, "line0009\nline0010\nline0011\n");
+        assert_eq!((cut.runs[1].first_line, cut.runs[1].text.lines().count()), (500, 3));
+        assert_eq!((marked(&cut, 0), marked(&cut, 1)), ("line0500", "line"));
+    }
+
+    #[test]
+    fn a_huge_line_is_cut_around_its_labels() {
+        let text = format!("{}WRONG{}ALSO{}", "é".repeat(1 << 20), "é".repeat(999), "x".repeat(99));
+        let at = 2 << 20;
+        let cut = excerpt(&text, &[(at, at + 5), (at + 5 + 1998, at + 9 + 1998)]);
+        assert!(cut.runs[0].text.len() < 400, "{}", cut.runs[0].text);
+        assert_eq!((marked(&cut, 0), marked(&cut, 1)), ("WRONG", "ALSO"));
+        assert_eq!(cut.marks[0].2, Position { line: 1, column: (1 << 20) + 1 });
+        assert!(cut.runs[0].text.starts_with("…éé") && cut.runs[0].text.ends_with("xx…\n"));
+    }
+
+    #[test]
+    fn a_label_over_a_huge_line_is_cut_to_the_room() {
+        let text = "y".repeat(1 << 20);
+        let cut = excerpt(&text, &[(0, 1 << 20)]);
+        assert!(cut.runs[0].text.chars().count() <= 74);
+        assert!(marked(&cut, 0).chars().all(|c| c == 'y') && marked(&cut, 0).len() > 20);
+    }
+
+    #[test]
+    fn a_label_over_many_lines_is_cut_to_its_first() {
+        let text = "union {\n".to_owned() + &"a\n".repeat(100) + "}";
+        let cut = excerpt(&text, &[(6, text.len())]);
+        assert_eq!(marked(&cut, 0), "{");
+        assert_eq!(cut.runs[0].text, "union {\na\n");
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_made_visible_and_labels_still_fit() {
+        let text = "a\u{1b}[31m \u{202e}b pigmnt\n";
+        let at = text.find("pigmnt").expect("there");
+        let cut = excerpt(text, &[(at, at + 6)]);
+        assert_eq!(cut.runs[0].text, "a␛[31m ‹U+202E›b pigmnt\n");
+        assert_eq!(marked(&cut, 0), "pigmnt");
+        assert_eq!(visible("a\n\tb\u{7}\n"), "a\n\tb␇");
+    }
+
+    #[test]
+    fn an_empty_file_and_a_files_end_have_places() {
+        assert_eq!(excerpt("", &[(0, 0)]).runs[0].text, "\n");
+        let end = excerpt("a {\n", &[(4, 4)]);
+        assert_eq!(end.runs[0].text, "a {\n\n");
+        assert_eq!((end.marks[0].0, end.marks[0].1), (4, 4));
+    }
+}

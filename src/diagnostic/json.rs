@@ -1,0 +1,149 @@
+//! A message as one line of JSON.
+//!
+//! **Invariant:** lines and columns count from 1, columns in characters, ends are exclusive; the
+//! line holds no line break whatever the message holds.
+
+use serde::Serialize;
+
+use super::{Diagnostic, Severity};
+use crate::source::{Position, Sources, Span};
+
+#[derive(Serialize)]
+struct Message<'a> {
+    code: &'static str,
+    severity: &'static str,
+    message: &'a str,
+    labels: Vec<Label<'a>>,
+    trace: Vec<Step<'a>>,
+    help: &'a [String],
+    fixes: Vec<Fix<'a>>,
+}
+
+#[derive(Serialize)]
+struct Label<'a> {
+    #[serde(flatten)]
+    place: Place<'a>,
+    text: &'a str,
+    primary: bool,
+}
+
+#[derive(Serialize)]
+struct Step<'a> {
+    file: &'a str,
+    line: usize,
+    column: usize,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Fix<'a> {
+    #[serde(flatten)]
+    place: Place<'a>,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    file: &'a str,
+    line: usize,
+    column: usize,
+    end_line: usize,
+    end_column: usize,
+}
+
+impl<'a> Place<'a> {
+    fn of(span: Span, sources: &'a Sources) -> Self {
+        let source = sources.get(span.file);
+        let Position { line, column } = source.position(span.start as usize);
+        let end = source.position(span.end as usize);
+        Self { file: &source.name, line, column, end_line: end.line, end_column: end.column }
+    }
+}
+
+/// The word for a severity, in JSON and in short messages.
+pub fn severity_name(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Note => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    }
+}
+
+/// One JSON object, without a line break at its end.
+pub fn line(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let message = Message {
+        code: diagnostic.code.name(),
+        severity: severity_name(diagnostic.severity),
+        message: &diagnostic.message,
+        labels: diagnostic
+            .labels
+            .iter()
+            .map(|label| Label {
+                place: Place::of(label.span, sources),
+                text: &label.text,
+                primary: label.primary,
+            })
+            .collect(),
+        trace: diagnostic
+            .trace
+            .iter()
+            .map(|step| {
+                let Place { file, line, column, .. } = Place::of(step.span, sources);
+                Step { file, line, column, text: &step.text }
+            })
+            .collect(),
+        help: &diagnostic.help,
+        fixes: diagnostic
+            .fixes
+            .iter()
+            .map(|fix| Fix { place: Place::of(fix.span, sources), text: &fix.text })
+            .collect(),
+    };
+    // Strings, numbers and lists of them: nothing here can fail to serialise.
+    serde_json::to_string(&message).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::{Code, TraceStep};
+    use crate::source::Source;
+
+    #[test]
+    fn a_message_is_one_line_with_every_key_in_order() {
+        let mut sources = Sources::default();
+        let file = sources.add(Source::new("a.scene", "é\tpigmnt { }\n\u{1}\n"));
+        let word = Span::new(file, 3, 9);
+        let mut diagnostic = Diagnostic::new(Code::UnknownWord, "unknown word `pigmnt`")
+            .at(word, "not known\nhere")
+            .also(Span::new(file, 10, 13), "in this block")
+            .help("did you mean `pigment`?")
+            .fix(word, "pigment");
+        diagnostic
+            .trace
+            .push(TraceStep { span: word, text: "in this call of macro `Lamp`".into() });
+        assert_eq!(
+            line(&diagnostic, &sources),
+            concat!(
+                r#"{"code":"unknown-word","severity":"error","message":"unknown word `pigmnt`","#,
+                r#""labels":[{"file":"a.scene","line":1,"column":3,"end_line":1,"end_column":9,"#,
+                r#""text":"not known\nhere","primary":true},"#,
+                r#"{"file":"a.scene","line":1,"column":10,"end_line":1,"end_column":13,"#,
+                r#""text":"in this block","primary":false}],"#,
+                r#""trace":[{"file":"a.scene","line":1,"column":3,"#,
+                r#""text":"in this call of macro `Lamp`"}],"#,
+                r#""help":["did you mean `pigment`?"],"#,
+                r#""fixes":[{"file":"a.scene","line":1,"column":3,"end_line":1,"end_column":9,"#,
+                r#""text":"pigment"}]}"#
+            )
+        );
+    }
+
+    #[test]
+    fn control_characters_are_escaped() {
+        let text =
+            line(&Diagnostic::new(Code::AuthorError, "a\u{1b}[31m\nb\u{7f}"), &Sources::default());
+        assert!(!text.chars().any(|c| c < ' '), "{text}");
+        assert!(text.contains(r"a\u001b[31m\nb"), "{text}");
+    }
+}

@@ -1,0 +1,255 @@
+//! A message as a person reads it; the only file that names miette.
+//!
+//! **In:** a [`Diagnostic`] and the texts it points into. **Out:** text. **Invariant:** costs no more
+//! than the lines it shows, however long the file or its lines are; nothing the author wrote can
+//! move the cursor.
+
+use std::fmt;
+
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceSpan};
+
+use super::excerpt::{Excerpt, visible};
+use super::json::severity_name;
+use super::{Diagnostic, Severity};
+use crate::source::{FileId, Position, Sources, Span};
+
+/// How messages are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Style {
+    /// Columns of the terminal.
+    pub width: usize,
+    pub color: bool,
+}
+
+impl Style {
+    /// 80 columns, no colour: for files and snapshots.
+    pub const PLAIN: Self = Self { width: 80, color: false };
+}
+
+/// Steps of a trace that are shown; of a longer one, the innermost and the outermost.
+const TRACE_SHOWN: usize = 3;
+
+/// The message with the lines it is about, drawn; ends in a line break.
+pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String {
+    let theme = match style.color {
+        true => GraphicalTheme::unicode(),
+        false => GraphicalTheme::unicode_nocolor(),
+    };
+    let width = style.width.max(40);
+    let view = View::new(diagnostic, sources, width - 10);
+    let mut text = String::new();
+    // Writing to a string fails only where a label lies outside of its text, and `Excerpt`
+    // places every one; a bare sentence is still better than none.
+    let drawn = GraphicalReportHandler::new_themed(theme)
+        .with_width(width)
+        .with_context_lines(1)
+        .with_links(false)
+        .render_report(&mut text, &view);
+    if drawn.is_err() {
+        text = short(diagnostic, sources) + "\n";
+    }
+    text.lines().flat_map(|line| [line.trim_end(), "\n"]).collect()
+}
+
+/// `file:line:column: error[code]: message`, one line, no line break at its end.
+pub fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let at = diagnostic.primary().map(|label| label.span).unwrap_or(Span::new(FileId(0), 0, 0));
+    let place = sources.iter().nth(at.file.0 as usize).map_or(String::new(), |(_, source)| {
+        let Position { line, column } = source.position(at.start as usize);
+        format!("{}:{line}:{column}: ", visible(&source.name))
+    });
+    let (severity, code) = (severity_name(diagnostic.severity), diagnostic.code.name());
+    let message = visible(&diagnostic.message).replace('\n', "␊");
+    format!("{place}{severity}[{code}]: {message}")
+}
+
+/// `2 errors, 1 warning`; nothing when there is neither.
+pub fn summary<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Option<String> {
+    let (mut errors, mut warnings) = (0, 0);
+    for diagnostic in diagnostics {
+        match diagnostic.severity {
+            Severity::Error => errors += 1,
+            Severity::Warning => warnings += 1,
+            Severity::Note => {}
+        }
+    }
+    let count = |n: usize, what: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {what}")),
+        n => Some(format!("{n} {what}s")),
+    };
+    let parts: Vec<String> =
+        [count(errors, "error"), count(warnings, "warning")].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// A diagnostic as miette wants it.
+#[derive(Debug)]
+struct View {
+    code: String,
+    message: String,
+    severity: Severity,
+    labels: Vec<LabeledSpan>,
+    help: Option<String>,
+    text: Text,
+}
+
+impl View {
+    fn new(diagnostic: &Diagnostic, sources: &Sources, room: usize) -> Self {
+        let mut spans: Vec<(Span, String, bool)> = diagnostic
+            .labels
+            .iter()
+            .map(|label| (label.span, visible(&label.text), label.primary))
+            .collect();
+        spans.extend(trace_labels(diagnostic).map(|(span, text)| (span, text, false)));
+        let places: Vec<Span> = spans.iter().map(|(span, ..)| *span).collect();
+        let excerpt = Excerpt::around(&places, sources, room);
+        let labels = spans
+            .into_iter()
+            .zip(&excerpt.marks)
+            .map(|((_, text, primary), &(start, end, _))| {
+                let text = (!text.is_empty()).then_some(text);
+                match primary {
+                    true => LabeledSpan::new_primary_with_span(text, (start, end - start)),
+                    false => LabeledSpan::new_with_span(text, (start, end - start)),
+                }
+            })
+            .collect();
+        let names = sources.iter().map(|(_, source)| visible(&source.name)).collect::<Vec<_>>();
+        // A message about the scene as a whole still says which scene.
+        let code = match (diagnostic.labels.is_empty(), names.first()) {
+            (true, Some(name)) => format!("{} in {name}", diagnostic.code.name()),
+            _ => diagnostic.code.name().to_owned(),
+        };
+        Self {
+            code,
+            message: visible(&diagnostic.message),
+            severity: diagnostic.severity,
+            labels,
+            help: help(diagnostic, sources),
+            text: Text { excerpt, names },
+        }
+    }
+}
+
+/// The calls that led here as labels: the innermost ones and the outermost; calls from one place
+/// once.
+fn trace_labels(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)> {
+    let mut steps: Vec<(Span, String, usize)> = Vec::new();
+    let told = |span: Span| diagnostic.labels.iter().any(|label| label.span == span);
+    for step in diagnostic.trace.iter().filter(|step| !told(step.span)) {
+        match steps.iter_mut().find(|(span, ..)| *span == step.span) {
+            Some((.., times)) => *times += 1,
+            None => steps.push((step.span, visible(&step.text), 1)),
+        }
+    }
+    let last = steps.len().saturating_sub(1);
+    let between = steps.len().saturating_sub(TRACE_SHOWN);
+    let shown = move |&(i, _): &(usize, _)| i + 1 < TRACE_SHOWN || i == last;
+    steps.into_iter().enumerate().filter(shown).map(move |(i, (span, mut text, times))| {
+        if times > 1 {
+            text += &format!(", {times} times");
+        }
+        if i == last && between > 0 {
+            text += &format!(" (and {between} more calls between)");
+        }
+        (span, text)
+    })
+}
+
+/// The help, and each fix that no help already spells out.
+fn help(diagnostic: &Diagnostic, sources: &Sources) -> Option<String> {
+    let mut lines: Vec<String> = diagnostic.help.iter().map(|text| visible(text)).collect();
+    for fix in &diagnostic.fixes {
+        let (old, new) = (sources.text(fix.span), visible(&fix.text));
+        let said = |line: &String| !new.is_empty() && line.contains(&format!("`{new}`"));
+        if lines.iter().any(said) {
+            continue;
+        }
+        lines.push(match (old.is_empty(), new.is_empty()) {
+            (true, _) => format!("insert `{new}`"),
+            (false, true) if old.len() > 60 => "remove it".to_owned(),
+            (false, true) => format!("remove `{}`", visible(old)),
+            (false, false) if old.len() > 60 => format!("replace it with `{new}`"),
+            (false, false) => format!("replace `{}` with `{new}`", visible(old)),
+        });
+    }
+    (!lines.is_empty()).then(|| lines.join("\n"))
+}
+
+impl fmt::Display for View {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for View {}
+
+impl miette::Diagnostic for View {
+    fn code(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        Some(Box::new(&self.code))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Note => miette::Severity::Advice,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Error => miette::Severity::Error,
+        })
+    }
+
+    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(&self.text)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(self.labels.iter().cloned()))
+    }
+}
+
+/// The excerpt as miette reads it: a span lies in one run, and each run knows its file.
+#[derive(Debug)]
+struct Text {
+    excerpt: Excerpt,
+    names: Vec<String>,
+}
+
+impl miette::SourceCode for Text {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, MietteError> {
+        let (start, end) = (span.offset(), span.offset() + span.len());
+        let run = self.excerpt.runs.iter().rev().find(|run| run.base <= start);
+        let run = run.filter(|run| end <= run.base + run.text.len());
+        let run = run.ok_or(MietteError::OutOfBounds)?;
+        let lines: Vec<usize> =
+            std::iter::once(0).chain(run.text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        let line_of = |at: usize| lines.partition_point(|&l| l <= at - run.base) - 1;
+        let first = line_of(start).saturating_sub(before);
+        let last = (line_of(end) + 1 + after).min(lines.len() - 1);
+        // With no context miette asks where the span is, else for the lines to draw.
+        let mark = self.excerpt.marks.iter().find(|mark| mark.0 == start);
+        let column = match (before, mark) {
+            (0, Some((.., position))) => position.column - 1,
+            _ => 0,
+        };
+        Ok(Box::new(miette::MietteSpanContents::new_named(
+            self.names[run.file.0 as usize].clone(),
+            &run.text.as_bytes()[lines[first]..lines[last]],
+            (run.base + lines[first], lines[last] - lines[first]).into(),
+            run.first_line - 1 + first,
+            column,
+            last - first,
+        )))
+    }
+}
+
+#[cfg(test)]
+mod tests;

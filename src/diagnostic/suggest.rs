@@ -1,0 +1,236 @@
+//! Did you mean: the nearest known word, and ours for another tool's.
+//!
+//! **Invariant:** a suggestion is made only when it is likely right, and does not depend on the order
+//! of the candidates.
+
+/// The candidate that `word` was most likely meant to be.
+///
+/// The same letters in another case come first; then the least optimal-string-alignment distance
+/// (insertion, deletion, substitution and transposition of neighbours count one each), up to a
+/// bound that grows with the word: 1 for three letters, 2 from six, 3 from ten. Shorter and very
+/// long words are only matched case-blind.
+pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = word.to_lowercase();
+    let letters = lower.chars().count();
+    let bound = match letters {
+        0..3 => 0,
+        3..6 => 1,
+        6..10 => 2,
+        10..=64 => 3,
+        _ => 0,
+    };
+    candidates
+        .into_iter()
+        .filter(|candidate| *candidate != word)
+        .filter_map(|candidate| {
+            let other = candidate.to_lowercase();
+            let distance = match other == lower {
+                true => 0,
+                false if other.chars().count().abs_diff(letters) > bound => return None,
+                false => strsim::osa_distance(&lower, &other),
+            };
+            // Of two equally near, the one with the same first letter, then the alphabet's first.
+            let first = lower.chars().next() != other.chars().next();
+            (distance <= bound).then_some((distance, first, candidate))
+        })
+        .min()
+        .map(|(_, _, candidate)| candidate)
+}
+
+/// Our word for `word` as other tools, or people, call the same thing.
+pub fn foreign(word: &str) -> Option<&'static str> {
+    let lower = word.to_lowercase();
+    FOREIGN.iter().find(|(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
+}
+
+/// Other tools' words, in lower case, and ours.
+const FOREIGN: &[(&str, &str)] = &[
+    // shapes
+    ("ball", "sphere"),
+    ("orb", "sphere"),
+    ("globe", "sphere"),
+    ("cube", "box"),
+    ("cuboid", "box"),
+    ("block", "box"),
+    ("ground", "plane"),
+    ("group", "union"),
+    ("add", "union"),
+    ("subtract", "difference"),
+    ("subtraction", "difference"),
+    ("minus", "difference"),
+    ("intersect", "intersection"),
+    ("tube", "cylinder"),
+    ("capsule", "sphere_sweep"),
+    ("donut", "torus"),
+    ("doughnut", "torus"),
+    ("ring", "torus"),
+    ("metaball", "blob"),
+    ("metaballs", "blob"),
+    ("heightmap", "height_field"),
+    ("heightfield", "height_field"),
+    ("terrain", "height_field"),
+    ("revolve", "lathe"),
+    ("rotate_extrude", "lathe"),
+    ("extrude", "prism"),
+    ("linear_extrude", "prism"),
+    // lights
+    ("light", "light_source"),
+    ("lamp", "light_source"),
+    ("pointlight", "light_source"),
+    ("point_light", "light_source"),
+    ("spot", "spotlight"),
+    ("spot_light", "spotlight"),
+    ("arealight", "area_light"),
+    ("sun", "light_source"),
+    ("directional", "parallel"),
+    ("directionallight", "parallel"),
+    ("target", "point_at"),
+    // cameras
+    ("fov", "angle"),
+    ("field_of_view", "angle"),
+    ("position", "location"),
+    ("eye", "location"),
+    ("pos", "location"),
+    ("look_from", "location"),
+    ("lookfrom", "location"),
+    ("lookat", "look_at"),
+    ("look_to", "look_at"),
+    ("vup", "sky"),
+    ("ortho", "orthographic"),
+    // surfaces
+    ("diffuse_color", "pigment"),
+    ("albedo", "pigment"),
+    ("paint", "pigment"),
+    ("surface", "finish"),
+    ("shader", "finish"),
+    ("bsdf", "finish"),
+    ("lambert", "diffuse"),
+    ("specularity", "specular"),
+    ("gloss", "specular"),
+    ("glossiness", "specular"),
+    ("shininess", "phong_size"),
+    ("phong_exp", "phong_size"),
+    ("emissive", "emission"),
+    ("emit", "emission"),
+    ("glow", "emission"),
+    ("mirror", "reflection"),
+    ("reflect", "reflection"),
+    ("reflectivity", "reflection"),
+    ("reflective", "reflection"),
+    ("opacity", "transmit"),
+    ("alpha", "transmit"),
+    ("transparency", "transmit"),
+    ("transparent", "transmit"),
+    ("refraction", "ior"),
+    ("refractive_index", "ior"),
+    ("index_of_refraction", "ior"),
+    ("bump", "bumps"),
+    ("checkerboard", "checker"),
+    ("chessboard", "checker"),
+    ("ramp", "color_map"),
+    ("color_ramp", "color_map"),
+    ("colorramp", "color_map"),
+    ("palette", "color_map"),
+    // the sky
+    ("skybox", "sky_sphere"),
+    ("skydome", "sky_sphere"),
+    ("sky_dome", "sky_sphere"),
+    ("environment", "sky_sphere"),
+    ("envmap", "sky_sphere"),
+    ("background_color", "background"),
+    // transforms
+    ("move", "translate"),
+    ("translation", "translate"),
+    ("rotation", "rotate"),
+    ("rot", "rotate"),
+    ("turn", "rotate"),
+    ("resize", "scale"),
+    ("scaling", "scale"),
+    ("scl", "scale"),
+    // directives and functions
+    ("define", "declare"),
+    ("let", "declare"),
+    ("var", "declare"),
+    ("set", "declare"),
+    ("import", "include"),
+    ("load", "include"),
+    ("def", "macro"),
+    ("elif", "elseif"),
+    ("elsif", "elseif"),
+    ("endif", "end"),
+    ("print", "debug"),
+    ("echo", "debug"),
+    ("loop", "while"),
+    ("repeat", "for"),
+    ("arccos", "acos"),
+    ("arcsin", "asin"),
+    ("arctan", "atan2"),
+    ("atan", "atan2"),
+    ("cross", "vcross"),
+    ("dot", "vdot"),
+    ("length", "vlength"),
+    ("norm", "vlength"),
+    ("normalize", "vnormalize"),
+    ("round", "int"),
+    ("random", "rand"),
+    ("fmod", "mod"),
+    ("power", "pow"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WORDS: &[&str] =
+        &["sphere", "box", "pigment", "finish", "color_map", "translate", "rotate", "red", "rgb"];
+
+    fn near(word: &str) -> Option<&'static str> {
+        closest(word, WORDS.iter().copied())
+    }
+
+    #[test]
+    fn a_word_in_the_wrong_case_is_known_however_short() {
+        assert_eq!(near("BOX"), Some("box"));
+        assert_eq!(closest("X", ["x", "y"]), Some("x"));
+    }
+
+    #[test]
+    fn a_slip_of_the_keyboard_is_known() {
+        assert_eq!(near("pigmnet"), Some("pigment"));
+        assert_eq!(near("shpere"), Some("sphere"));
+        assert_eq!(near("colour_map"), Some("color_map"));
+        assert_eq!(near("colormap"), Some("color_map"));
+        assert_eq!(near("bxo"), Some("box"));
+    }
+
+    #[test]
+    fn a_word_that_resembles_nothing_gets_no_hint() {
+        assert_eq!(near("wood"), None);
+        assert_eq!(near("xy"), None);
+        assert_eq!(near("bax1"), None);
+        assert_eq!(near(""), None);
+        assert_eq!(near(&"pigment".repeat(1000)), None);
+    }
+
+    #[test]
+    fn the_order_of_candidates_does_not_matter() {
+        assert_eq!(closest("cat", ["bat", "car"]), Some("car"));
+        assert_eq!(closest("cat", ["car", "bat"]), Some("car"));
+        assert_eq!(closest("cat", ["cap", "can"]), Some("can"));
+    }
+
+    #[test]
+    fn other_tools_words_are_known_in_any_case() {
+        assert_eq!(foreign("Cube"), Some("box"));
+        assert_eq!(foreign("shininess"), Some("phong_size"));
+        assert_eq!(foreign("sphere"), None);
+    }
+
+    #[test]
+    fn each_foreign_word_stands_once() {
+        for (at, (word, ours)) in FOREIGN.iter().enumerate() {
+            assert_ne!(word, ours);
+            assert_eq!(FOREIGN.iter().position(|(other, _)| other == word), Some(at), "{word}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! `camera`: its words in written order.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{Camera, CameraItem, CameraItemKind, CameraKind};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Components, Value};
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    pub(super) fn camera(&mut self, token: &Token) -> Outcome<Value> {
+        let site = token.here.site(token.span);
+        let mut camera = Camera { kind: CameraKind::Perspective, items: Vec::new(), site };
+        let outer = self.poison.take();
+        let outcome = self.block(token, Word::Camera, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                failed |= evaluator.camera_item(&token, &mut camera) == Err(Reported);
+            }
+            if failed { Err(Reported) } else { Ok(()) }
+        });
+        let poison = std::mem::replace(&mut self.poison, outer);
+        if let Some(poison) = poison {
+            self.set_poison(poison);
+            return Ok(Value::Poison(poison));
+        }
+        outcome?;
+        Ok(Value::Camera(Arc::new(camera)))
+    }
+
+    fn camera_item(&mut self, token: &Token, camera: &mut Camera) -> Outcome<()> {
+        let site = token.here.site(token.span);
+        if let Some(transform) = self.transform_from(token) {
+            camera.items.push(CameraItem { kind: CameraItemKind::Transform(transform?), site });
+            return Ok(());
+        }
+        let word = match token.kind {
+            TokenKind::Word(word) => word,
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::Camera(declared)) => {
+                    *camera = Camera { site: camera.site, ..declared.as_ref().clone() };
+                    return Ok(());
+                }
+                _ => {
+                    self.unexpected(token, Place::CAMERA);
+                    return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
+                }
+            },
+            TokenKind::Comma | TokenKind::Semicolon => return Ok(()),
+            _ => {
+                self.unexpected(token, Place::CAMERA);
+                return Err(Reported);
+            }
+        };
+        let kind = match word {
+            Word::Perspective => {
+                camera.kind = CameraKind::Perspective;
+                return Ok(());
+            }
+            Word::Orthographic => {
+                camera.kind = CameraKind::Orthographic;
+                return Ok(());
+            }
+            Word::Location => CameraItemKind::Location(self.vector_after(token, "a point")?.value),
+            Word::LookAt => CameraItemKind::LookAt(self.vector_after(token, "a point")?.value),
+            Word::Sky => CameraItemKind::Sky(self.direction_after(token, "the sky's direction")?.value),
+            Word::Up => CameraItemKind::Up(self.direction_after(token, "the picture's height")?.value),
+            Word::Right => CameraItemKind::Right(self.direction_after(token, "the picture's width")?.value),
+            Word::Direction => CameraItemKind::Direction(self.direction_after(token, "the lens's axis")?.value),
+            Word::Angle => self.angle(token, camera.kind)?,
+            Word::Shift => self.shift(token)?,
+            _ => {
+                self.unexpected(token, Place::CAMERA);
+                return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
+            }
+        };
+        camera.items.push(CameraItem { kind, site });
+        Ok(())
+    }
+
+    fn angle(&mut self, token: &Token, kind: CameraKind) -> Outcome<CameraItemKind> {
+        let given = self.number_after(token, "degrees")?;
+        if given.value <= 0.0 {
+            return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
+        }
+        if given.value >= 180.0 && kind == CameraKind::Perspective {
+            return Err(self.out_of_range(&given, Word::Angle, "less than 180 for a perspective camera"));
+        }
+        self.lint_degrees(&given.here, given.span, &[given.value]);
+        Ok(CameraItemKind::Angle(given.value))
+    }
+
+    /// `shift <x, y>`.
+    fn shift(&mut self, token: &Token) -> Outcome<CameraItemKind> {
+        let given = self.given(token, "a vector of two numbers")?;
+        match given.value.numbers().as_ref().map(Components::as_slice) {
+            Some(&[x, y]) => Ok(CameraItemKind::Shift { x, y }),
+            Some(other) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongArity,
+                    format!("`shift` takes two numbers, and is given {}", other.len()),
+                )
+                .at(given.span, "expected `<x, y>`")
+                .help(Word::Shift.sentence().to_owned());
+                Err(self.report(&given.here, diagnostic))
+            }
+            None => Err(self.wrong_type(&given.here, given.span, "a vector of two numbers", &given.value)),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! `finish`: POV-Ray's words, or the seed's three; never both.
+
+use crate::color::Rgb;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{ClassicFinish, Finish, FinishId, Reflection};
+use crate::source::Span;
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+/// What was written in one block: the last number of each of the seed's words, and the first word of
+/// POV-Ray's.
+#[derive(Default)]
+struct Written {
+    kd: Option<f64>,
+    ks: Option<f64>,
+    phong_exponent: Option<f64>,
+    seed: Option<(Word, Span)>,
+    classic: Option<(Word, Span)>,
+}
+
+impl Evaluator<'_> {
+    /// `finish { [Name] … }`, starting from the default texture's finish.
+    pub(super) fn finish(&mut self, token: &Token) -> Outcome<FinishId> {
+        let start = self.scene.textures[self.default_texture.index()].finish;
+        self.finish_from(token, start)
+    }
+
+    pub(super) fn finish_from(&mut self, token: &Token, start: FinishId) -> Outcome<FinishId> {
+        let mut finish = self.scene.finishes[start.index()].clone();
+        let opener = token.clone();
+        let finish = self.block(token, Word::Finish, |evaluator| {
+            let mut written = Written::default();
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                if evaluator.finish_item(&token, &mut finish, &mut written) == Err(Reported) {
+                    failed = true;
+                    evaluator.skip_values();
+                }
+            }
+            evaluator.whole_finish(&opener, &mut finish, &written)?;
+            if failed { Err(Reported) } else { Ok(finish) }
+        })?;
+        self.scene.finishes.push(finish);
+        Ok(FinishId(self.scene.finishes.len() as u32 - 1))
+    }
+
+    /// The seed's words come together, and with none of POV-Ray's.
+    fn whole_finish(&mut self, opener: &Token, finish: &mut Finish, written: &Written) -> Outcome<()> {
+        let Some((seed, seed_span)) = written.seed else { return Ok(()) };
+        if let Some((classic, classic_span)) = written.classic {
+            let diagnostic = Diagnostic::new(
+                Code::MixedFinish,
+                format!("a finish mixes `{}` with `{}`", seed.name(), classic.name()),
+            )
+            .at(classic_span, "a word of POV-Ray's finish")
+            .also(seed_span, "a word of the seed's")
+            .help("`kd`, `ks` and `phong_exponent` stand alone; else use `diffuse`, `specular`, `reflection` and their kin");
+            return Err(self.report(&opener.here, diagnostic));
+        }
+        let (old_kd, old_ks, old_exponent) = match finish {
+            Finish::Seed { kd, ks, phong_exponent } => (Some(*kd), Some(*ks), Some(*phong_exponent)),
+            Finish::Classic(_) => (None, None, None),
+        };
+        let kd = written.kd.or(old_kd);
+        let ks = written.ks.or(old_ks);
+        let exponent = written.phong_exponent.or(old_exponent);
+        if let (Some(kd), Some(ks), Some(phong_exponent)) = (kd, ks, exponent) {
+            *finish = Finish::Seed { kd, ks, phong_exponent };
+            return Ok(());
+        }
+        let missing: Vec<&str> = [("`kd`", kd), ("`ks`", ks), ("`phong_exponent`", exponent)]
+            .iter()
+            .filter(|(_, value)| value.is_none())
+            .map(|(name, _)| *name)
+            .collect();
+        let diagnostic = Diagnostic::new(Code::IncompleteFinish, format!("this finish lacks {}", missing.join(" and ")))
+            .at(seed_span, "the seed's three words come together")
+            .also(opener.span, "in this finish");
+        Err(self.report(&opener.here, diagnostic))
+    }
+
+    fn finish_item(&mut self, token: &Token, finish: &mut Finish, written: &mut Written) -> Outcome<()> {
+        let word = match token.kind {
+            TokenKind::Word(word) => word,
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::Finish(id)) => {
+                    *finish = self.scene.finishes[id.index()].clone();
+                    return Ok(());
+                }
+                Some(Value::Poison(poison)) => {
+                    self.set_poison(poison);
+                    return Ok(());
+                }
+                _ => {
+                    self.unexpected(token, Place::FINISH);
+                    return Err(Reported);
+                }
+            },
+            _ => {
+                self.unexpected(token, Place::FINISH);
+                return Ok(());
+            }
+        };
+        match word {
+            Word::Kd | Word::Ks | Word::PhongExponent => {
+                written.seed.get_or_insert((word, token.span));
+                let number = Some(self.at_least_zero(token, word)?);
+                match word {
+                    Word::Kd => written.kd = number,
+                    Word::Ks => written.ks = number,
+                    _ => written.phong_exponent = number,
+                }
+                return Ok(());
+            }
+            _ => {}
+        }
+        let mut classic = match finish {
+            Finish::Classic(classic) => classic.clone(),
+            // POV-Ray's words replace a seed's finish that came by default or by name.
+            Finish::Seed { .. } => ClassicFinish::default(),
+        };
+        let known = self.classic_item(token, word, &mut classic)?;
+        if known {
+            written.classic.get_or_insert((word, token.span));
+            if written.seed.is_none() {
+                *finish = Finish::Classic(classic);
+            }
+        }
+        Ok(())
+    }
+
+    /// `Ok(false)` when the word is none of the built ones.
+    fn classic_item(&mut self, token: &Token, word: Word, finish: &mut ClassicFinish) -> Outcome<bool> {
+        match word {
+            Word::Ambient => finish.ambient = self.intensity_after(token)?,
+            Word::Emission => finish.emission = self.intensity_after(token)?,
+            Word::Diffuse => finish.diffuse = self.number_after(token, "a number")?.value,
+            Word::Brilliance => finish.brilliance = self.at_least_zero(token, word)?,
+            Word::Phong => finish.phong = self.number_after(token, "a number")?.value,
+            Word::PhongSize => finish.phong_size = self.at_least_zero(token, word)?,
+            Word::Specular => finish.specular = self.number_after(token, "a number")?.value,
+            Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
+            Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
+            Word::Reflection => finish.reflection = Some(self.reflection(token)?),
+            _ => {
+                let poisoned = self.poison.is_some();
+                self.unexpected(token, Place::FINISH);
+                return if poisoned || self.poison.is_some() { Ok(false) } else { Err(Reported) };
+            }
+        }
+        Ok(true)
+    }
+
+    /// A colour of light, or a number for white light.
+    fn intensity_after(&mut self, token: &Token) -> Outcome<Rgb> {
+        Ok(self.color_after(token, "a number or a colour")?.value.rgb)
+    }
+
+    /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`.
+    fn reflection(&mut self, token: &Token) -> Outcome<Reflection> {
+        let plain = |color: Rgb| Reflection { minimum: color, maximum: color, falloff: 1.0, exponent: 1.0, metallic: 0.0 };
+        if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
+            return Ok(plain(self.intensity_after(token)?));
+        }
+        let opener = token.clone();
+        self.block(token, Word::Reflection, |evaluator| {
+            let mut reflection = plain(evaluator.intensity_after(&opener)?);
+            evaluator.skip_commas();
+            if evaluator.at_color() {
+                reflection.maximum = evaluator.intensity_after(&opener)?;
+            }
+            while let Some(token) = evaluator.next() {
+                match token.kind {
+                    TokenKind::Word(Word::Falloff) => {
+                        reflection.falloff = evaluator.at_least_zero(&token, Word::Falloff)?;
+                    }
+                    TokenKind::Word(Word::Exponent) => {
+                        reflection.exponent = evaluator.more_than_zero(&token, Word::Exponent)?;
+                    }
+                    TokenKind::Word(Word::Metallic) => {
+                        reflection.metallic = evaluator.optional_number(&token, 1.0)?;
+                    }
+                    _ => evaluator.unexpected(&token, Place::REFLECTION),
+                }
+            }
+            Ok(reflection)
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! `light_source`: a point, parallel rays, or the seed's direction.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::scene::{Dialect, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId, ObjectKind};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    pub(super) fn light_source(&mut self, token: &Token) -> Outcome<ObjectId> {
+        let site = token.here.site(token.span);
+        let opener = token.clone();
+        let (kind, modifiers) = self.block(token, Word::LightSource, |evaluator| {
+            let mut modifiers = Vec::new();
+            if let Some(declared) = evaluator.declared_light() {
+                evaluator.next();
+                let outcome = evaluator.light_modifiers(&mut modifiers, None);
+                return outcome.map(|()| (ObjectKind::Use(declared), modifiers));
+            }
+            let mut light = evaluator.light_parts(&opener);
+            let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok());
+            let light = light?;
+            outcome?;
+            Ok((ObjectKind::LightSource(light), modifiers))
+        })?;
+        self.add_object(Object { kind, modifiers, site })
+    }
+
+    fn declared_light(&mut self) -> Option<ObjectId> {
+        let token = self.peek()?.clone();
+        let TokenKind::Expression(id) = token.kind else { return None };
+        match self.named(&token, id)? {
+            Value::Object(object) => Some(object),
+            _ => None,
+        }
+    }
+
+    /// The place and the colour; or, in a `.scene`, `direction` and the colour.
+    fn light_parts(&mut self, opener: &Token) -> Outcome<LightSource> {
+        let ours = self.options.dialect == Dialect::Scene;
+        let kind = match self.peek().map(|token| &token.kind) {
+            Some(TokenKind::Word(Word::Direction)) if ours => {
+                self.seed_direction()
+            }
+            _ => self
+                .vector_after(opener, "the light's place, a vector,")
+                .map(|given| LightKind::Point { location: given.value }),
+        };
+        let color = self.color_after(opener, "the light's colour");
+        Ok(LightSource { kind: kind?, color: color?.value.rgb, shadowless: false })
+    }
+
+    fn seed_direction(&mut self) -> Outcome<LightKind> {
+        let Some(token) = self.next() else { return Err(Reported) };
+        let to_light = self.direction_after(&token, "the direction to the light, a vector,")?.value;
+        Ok(LightKind::Direction { to_light })
+    }
+
+    fn light_modifiers(&mut self, modifiers: &mut Vec<Modifier>, mut light: Option<&mut LightSource>) -> Outcome<()> {
+        let mut failed = false;
+        let (mut parallel, mut point_at) = (false, Vector::ZERO);
+        while let Some(token) = self.next() {
+            let outcome = match token.kind {
+                TokenKind::Word(Word::Parallel) => {
+                    parallel = true;
+                    Ok(())
+                }
+                TokenKind::Word(Word::PointAt) => {
+                    self.vector_after(&token, "a point").map(|given| point_at = given.value)
+                }
+                TokenKind::Word(Word::Shadowless) => {
+                    if let Some(light) = &mut light {
+                        light.shadowless = true;
+                    }
+                    Ok(())
+                }
+                _ => match self.transform_from(&token) {
+                    Some(transform) => transform.map(|id| {
+                        modifiers.push(Modifier {
+                            kind: ModifierKind::Transform(id),
+                            site: token.here.site(token.span),
+                        });
+                    }),
+                    None => {
+                        self.unexpected(&token, Place::LIGHT);
+                        let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                        if harmless || self.poison.is_some() { Ok(()) } else { Err(Reported) }
+                    }
+                },
+            };
+            failed |= outcome.is_err();
+            if let (true, Some(light)) = (parallel, &mut light)
+                && let LightKind::Point { location } | LightKind::Parallel { location, .. } = light.kind
+            {
+                if location == point_at && self.peek().is_none() {
+                    let diagnostic = Diagnostic::new(Code::ZeroVector, "this parallel light points at its own place")
+                        .at(token.span, "expected a `point_at` other than the light's place");
+                    self.report(&token.here, diagnostic);
+                    failed = true;
+                }
+                light.kind = LightKind::Parallel { location, point_at };
+            }
+        }
+        if failed { Err(Reported) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,183 @@
+//! Blocks: what a word and its braces mean; one file a family.
+//!
+//! **Invariant:** a mistake inside a block costs that block's object and no other; the items after it are
+//! read as if nothing had happened.
+
+mod camera;
+mod color;
+mod finish;
+mod light;
+mod object;
+mod part;
+mod pigment;
+mod place;
+mod settings;
+mod texture;
+mod transform;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{ObjectId, Root};
+use crate::source::Span;
+use crate::vocabulary::{Family, Word};
+
+use super::stream::{Token, TokenKind};
+use super::value::{Poison, Value};
+use super::{Evaluator, Here, Outcome, Reported};
+pub(in crate::evaluate) use place::Place;
+
+impl Evaluator<'_> {
+    /// The items of the scene itself.
+    pub(super) fn scene_items(&mut self) {
+        while let Some(token) = self.next() {
+            self.poison = None;
+            // Reported where it happened; each item is a fault boundary.
+            let _: Outcome<()> = self.scene_item(&token);
+        }
+    }
+
+    fn scene_item(&mut self, token: &Token) -> Outcome<()> {
+        match token.kind {
+            TokenKind::Word(Word::Camera) => {
+                if let Value::Camera(camera) = self.camera(token)? {
+                    self.scene.cameras.push(camera.as_ref().clone());
+                    return Ok(());
+                }
+                self.needs_poison()
+            }
+            TokenKind::Word(Word::Background) => self.background(token),
+            TokenKind::Word(Word::SkySphere) => {
+                self.sky_sphere(token)?;
+                self.needs_poison()
+            }
+            TokenKind::Word(Word::GlobalSettings) => {
+                self.global_settings(token)?;
+                self.needs_poison()
+            }
+            TokenKind::Word(word) if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
+                match self.object(token, word)? {
+                    Value::Object(object) => self.place(object),
+                    Value::Poison(poison) => return Err(self.not_supported(poison, None)),
+                    _ => {}
+                }
+                Ok(())
+            }
+            TokenKind::Word(word) => {
+                self.unexpected(token, Place::SCENE);
+                let _ = word;
+                self.needs_poison()
+            }
+            _ => {
+                self.unexpected(token, Place::SCENE);
+                self.needs_poison()
+            }
+        }
+    }
+
+    /// Poison that stands in the scene itself has reached it.
+    fn needs_poison(&mut self) -> Outcome<()> {
+        match self.poison.take() {
+            Some(poison) => Err(self.not_supported(poison, None)),
+            None => Ok(()),
+        }
+    }
+
+    fn place(&mut self, object: ObjectId) {
+        self.scene.roots.push(Root { object, default_texture: self.default_texture });
+    }
+
+    /// The next value, whatever its kind: a right-hand side, an argument.
+    pub(super) fn value_or(&mut self, here: &Here, after: Span) -> Outcome<Value> {
+        let Some(token) = self.next() else {
+            return Err(self.expected("a value", None, (here, after.after())));
+        };
+        self.value_of(&token)
+    }
+
+    pub(super) fn value_of(&mut self, token: &Token) -> Outcome<Value> {
+        let outer = self.poison.take();
+        let value = match &token.kind {
+            TokenKind::Expression(id) => self.expression(&token.here, *id),
+            TokenKind::Literal(value) => Ok(value.clone()),
+            TokenKind::Word(word) => self.word_block(token, *word),
+            TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
+                Err(self.expected("a value", Some(token), (&token.here, token.span)))
+            }
+        };
+        let inner = self.poison.take();
+        self.poison = outer;
+        match (value, inner) {
+            (Ok(_), Some(poison)) => Ok(Value::Poison(poison)),
+            (value, _) => value,
+        }
+    }
+
+    /// A value that a word opens: `sphere { … }`, `rgb <…>`, `texture { … }`.
+    fn word_block(&mut self, token: &Token, word: Word) -> Outcome<Value> {
+        match word {
+            Word::Texture => self.texture(token).map(Value::Texture),
+            Word::Pigment => self.pigment(token).map(Value::Pigment),
+            Word::Finish => self.finish(token).map(Value::Finish),
+            Word::ColorMap => self.color_map(token),
+            Word::TransformWord => self.transform_block(token).map(Value::Transform),
+            Word::Camera => self.camera(token),
+            _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
+            _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
+                self.object(token, word)
+            }
+            _ if !word.is_built() || word == Word::SkySphere || word == Word::Background => {
+                let poison = Poison { word, site: token.here.site(token.span) };
+                self.skip_arguments(word);
+                Ok(Value::Poison(poison))
+            }
+            _ => {
+                let name = word.name();
+                let diagnostic =
+                    Diagnostic::new(Code::ExpectedExpression, format!("expected a value, found `{name}`"))
+                        .at(token.span, "this word does not begin a value");
+                let reported = self.report(&token.here, diagnostic);
+                self.skip_arguments(word);
+                Err(reported)
+            }
+        }
+    }
+
+    /// Enters the block after `token`.
+    fn block<T>(
+        &mut self,
+        token: &Token,
+        word: Word,
+        consumer: impl FnOnce(&mut Self) -> Outcome<T>,
+    ) -> Outcome<T> {
+        match self.peek() {
+            Some(Token { kind: TokenKind::Block(_), .. }) => {}
+            next => {
+                let (span, found) = match next {
+                    Some(next) => (next.span, true),
+                    None => (token.span.after(), false),
+                };
+                let name = word.name();
+                let found = if found { "something else" } else { "nothing" };
+                let diagnostic =
+                    Diagnostic::new(Code::MissingPart, format!("expected `{{` after `{name}`, found {found}"))
+                        .at(token.span, "its block is missing")
+                        .help(word.sentence().to_owned());
+                let _ = span;
+                return Err(self.report(&token.here, diagnostic));
+            }
+        }
+        match self.next() {
+            Some(Token { kind: TokenKind::Block(items), here, .. }) => {
+                self.openers.push(token.span);
+                let outcome = self.inside(&here, items, consumer);
+                self.openers.pop();
+                outcome
+            }
+            _ => Err(Reported),
+        }
+    }
+}
+
+/// Words that open an object and are no shapes.
+fn is_object_word(word: Word) -> bool {
+    matches!(word, Word::Object | Word::LightSource | Word::LightGroup)
+}

@@ -1,0 +1,257 @@
+//! Shapes, unions and uses of objects, with their modifiers in written order.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, TextureId};
+use crate::vocabulary::{Family, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Poison, Value};
+use super::super::{Evaluator, Outcome, Reported};
+use super::{Place, is_object_word};
+
+impl Evaluator<'_> {
+    /// The object that `token` opens: an object, or poison.
+    pub(super) fn object(&mut self, token: &Token, word: Word) -> Outcome<Value> {
+        let outer = self.poison.take();
+        let built = match word {
+            Word::Sphere => self.shape(token, word, Self::sphere),
+            Word::Plane => self.shape(token, word, Self::plane),
+            Word::Box => self.shape(token, word, Self::box_),
+            Word::Union => self.shape(token, word, Self::union),
+            Word::Object => self.shape(token, word, Self::object_use),
+            Word::LightSource => self.light_source(token),
+            _ => {
+                self.set_poison(Poison { word, site: token.here.site(token.span) });
+                self.skip_arguments(word);
+                Err(Reported)
+            }
+        };
+        match (std::mem::replace(&mut self.poison, outer), built) {
+            (Some(poison), _) => Ok(Value::Poison(poison)),
+            (None, built) => built.map(Value::Object),
+        }
+    }
+
+    pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {
+        let limit = self.options.limits.objects;
+        if self.scene.objects.len() as u64 >= limit {
+            self.halted = true;
+            let expansion = object.site.expansion;
+            let diagnostic = Diagnostic::new(Code::ObjectLimit, format!("the scene has more than {limit} objects"))
+                .at(object.site.span, "this object is one too many")
+                .help("raise the limit with `--limit objects=N`");
+            return Err(self.report_in(expansion, diagnostic));
+        }
+        self.scene.objects.push(object);
+        Ok(ObjectId(self.scene.objects.len() as u32 - 1))
+    }
+
+    /// A block that is `parts` first and modifiers after; or a declared object of the same kind.
+    fn shape(
+        &mut self,
+        token: &Token,
+        word: Word,
+        parts: fn(&mut Self, &Token) -> Outcome<ObjectKind>,
+    ) -> Outcome<ObjectId> {
+        let site = token.here.site(token.span);
+        let (kind, modifiers, failed) = self.block(token, word, |evaluator| {
+            let kind = match evaluator.declared_object(word) {
+                Some(kind) => kind,
+                None => parts(evaluator, token),
+            };
+            let mut modifiers = Vec::new();
+            let failed = evaluator.modifiers(word, &mut modifiers);
+            Ok((kind, modifiers, failed))
+        })?;
+        let kind = kind?;
+        if failed == Err(Reported) {
+            return Err(Reported);
+        }
+        self.add_object(Object { kind, modifiers, site })
+    }
+
+    /// `sphere { Ball … }`: a declared object where the parts would stand.
+    fn declared_object(&mut self, word: Word) -> Option<Outcome<ObjectKind>> {
+        let token = self.peek()?.clone();
+        let TokenKind::Expression(id) = token.kind else { return None };
+        match self.named(&token, id)? {
+            Value::Object(object) => {
+                self.next();
+                if let Some(next) = self.peek().cloned()
+                    && word == Word::Union
+                    && matches!(next.kind, TokenKind::Word(w) if matches!(w.family(), Family::Shape | Family::Csg))
+                {
+                    let text = self.sources.text(token.span).to_owned();
+                    let diagnostic = Diagnostic::new(Code::WrongType, format!("`{text}` stands in a `union` without `object`"))
+                        .at(token.span, "a declared object")
+                        .help(format!("write `object {{ {text} }}`"))
+                        .fix(token.span, format!("object {{ {text} }}"));
+                    return Some(Err(self.report(&token.here, diagnostic)));
+                }
+                Some(Ok(ObjectKind::Use(object)))
+            }
+            Value::Poison(poison) if word == Word::Object || self.is_lone(&token) => {
+                self.next();
+                self.set_poison(poison);
+                Some(Err(Reported))
+            }
+            Value::Broken => {
+                self.next();
+                Some(Err(Reported))
+            }
+            _ => None,
+        }
+    }
+
+    fn is_lone(&self, token: &Token) -> bool {
+        matches!(token.kind, TokenKind::Expression(_))
+    }
+
+    fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        let centre = self.vector_after(token, "the centre, a vector,");
+        let radius = self.number_after(token, "the radius, a number,");
+        let (centre, radius) = (centre?, radius?);
+        if radius.value == 0.0 {
+            let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
+                .at(radius.span, "expected a number more than 0");
+            return Err(self.report(&radius.here, diagnostic));
+        }
+        if radius.value < 0.0 {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
+        Ok(ObjectKind::Sphere { centre: centre.value, radius: radius.value })
+    }
+
+    fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        let normal = self.direction_after(token, "the normal, a vector,");
+        let distance = self.number_after(token, "the distance, a number,");
+        let (normal, distance) = (normal?, distance?);
+        Ok(ObjectKind::Plane { normal: normal.value, distance: distance.value })
+    }
+
+    fn box_(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        let first = self.vector_after(token, "a corner, a vector,");
+        let second = self.vector_after(token, "the opposite corner, a vector,");
+        let (first, second) = (first?, second?);
+        let size: Vector = (second.value - first.value).abs();
+        let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
+        if flat >= 2 {
+            let diagnostic = Diagnostic::new(Code::ZeroSize, "a box whose corners differ along less than two axes is nothing")
+                .at(second.span, "expected the opposite corner")
+                .also(first.span, "the first corner");
+            return Err(self.report(&second.here, diagnostic));
+        }
+        Ok(ObjectKind::Box { corners: [first.value, second.value] })
+    }
+
+    /// `object { Name … }` or `object { sphere { … } … }`.
+    fn object_use(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        self.skip_commas();
+        let Some(next) = self.next() else {
+            return Err(self.expected("a declared object", None, (&token.here, token.span)));
+        };
+        let value = match next.kind {
+            TokenKind::Word(word) if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
+                self.object(&next, word)?
+            }
+            TokenKind::Expression(id) => self.expression(&next.here, id)?,
+            _ => return Err(self.expected("a declared object", Some(&next), (&token.here, token.span))),
+        };
+        match value {
+            Value::Object(object) => Ok(ObjectKind::Use(object)),
+            Value::Poison(poison) => {
+                self.set_poison(poison);
+                Err(Reported)
+            }
+            other => Err(self.wrong_type(&next.here, next.span, "an object", &other)),
+        }
+    }
+
+    fn union(&mut self, _: &Token) -> Outcome<ObjectKind> {
+        let mut children = Vec::new();
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
+            let word = *word;
+            if !(matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)) {
+                break;
+            }
+            let Some(token) = self.next() else { break };
+            match self.object(&token, word) {
+                Ok(Value::Object(child)) => children.push(child),
+                Ok(Value::Poison(poison)) => self.set_poison(poison),
+                // Reported; the others still make a union.
+                Ok(_) | Err(Reported) => {}
+            }
+        }
+        Ok(ObjectKind::Union(children))
+    }
+
+    /// Everything after the parts.
+    pub(super) fn modifiers(&mut self, word: Word, modifiers: &mut Vec<Modifier>) -> Outcome<()> {
+        let place = match word {
+            Word::Union => Place::csg(word),
+            _ => Place::shape(word),
+        };
+        let mut failed = false;
+        let mut textured = false;
+        while let Some(token) = self.next() {
+            let before = self.poison;
+            match self.modifier(&token, modifiers, &mut textured) {
+                Some(Ok(kind)) => {
+                    if let Some(kind) = kind {
+                        modifiers.push(Modifier { kind, site: token.here.site(token.span) });
+                    }
+                }
+                Some(Err(Reported)) => failed = true,
+                None => {
+                    self.unexpected(&token, place);
+                    let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                    failed |= !harmless && before.is_none() && self.poison.is_none();
+                }
+            }
+        }
+        if failed { Err(Reported) } else { Ok(()) }
+    }
+
+    /// One modifier; `None` when the token is none, `Some(Ok(None))` when it changes nothing.
+    fn modifier(
+        &mut self,
+        token: &Token,
+        modifiers: &mut Vec<Modifier>,
+        textured: &mut bool,
+    ) -> Option<Outcome<Option<ModifierKind>>> {
+        if let Some(transform) = self.transform_from(token) {
+            return Some(transform.map(|id| Some(ModifierKind::Transform(id))));
+        }
+        let TokenKind::Word(word) = token.kind else { return None };
+        let site = token.here.site(token.span);
+        let start_texture = |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
+            // A pigment or finish alone changes a copy of the default texture.
+            if !*textured {
+                let kind = ModifierKind::Texture(evaluator.default_texture);
+                modifiers.push(Modifier { kind, site });
+                *textured = true;
+            }
+        };
+        let kind = match word {
+            Word::Texture => self.texture(token).map(|texture: TextureId| {
+                *textured = true;
+                Some(ModifierKind::Texture(texture))
+            }),
+            Word::Pigment => {
+                start_texture(self, modifiers, textured);
+                self.pigment(token).map(|pigment| Some(ModifierKind::Pigment(pigment)))
+            }
+            Word::Finish => {
+                start_texture(self, modifiers, textured);
+                self.finish(token).map(|finish| Some(ModifierKind::Finish(finish)))
+            }
+            Word::NoShadow => self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow)),
+            Word::Inverse => self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse)),
+            _ => return None,
+        };
+        Some(kind)
+    }
+}

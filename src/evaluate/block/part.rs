@@ -1,0 +1,180 @@
+//! The parts of a block: values after words, of the kind the place needs.
+
+use crate::color::Color;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::source::{Site, Span};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Here, Outcome, Reported};
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+pub(super) struct Given<T> {
+    pub value: T,
+    pub span: Span,
+    pub here: Here,
+}
+
+impl<T> Given<T> {
+    pub fn site(&self) -> Site {
+        self.here.site(self.span)
+    }
+
+    fn with<U>(self, value: U) -> Given<U> {
+        Given { value, span: self.span, here: self.here }
+    }
+}
+
+impl Evaluator<'_> {
+    /// The value after `after` (a word of the block, or what opened it).
+    pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
+        self.skip_commas();
+        let is_value = matches!(
+            self.peek().map(|token| &token.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        if !is_value {
+            let name = self.describe(after);
+            let diagnostic = match self.peek().cloned() {
+                Some(found) => {
+                    let found_text = self.describe(&found);
+                    Diagnostic::new(
+                        Code::MissingPart,
+                        format!("expected {wanted} after {name}, found {found_text}"),
+                    )
+                    .at(found.span_head(), format!("expected {wanted}"))
+                    .also(after.span, "for this")
+                }
+                None => Diagnostic::new(Code::MissingPart, format!("expected {wanted} after {name}"))
+                    .at(after.span, format!("{wanted} is missing after this")),
+            };
+            let diagnostic = match after.kind {
+                TokenKind::Word(word) => diagnostic.help(word.sentence().to_owned()),
+                _ => diagnostic,
+            };
+            return Err(self.report(&after.here, diagnostic));
+        }
+        let Some(token) = self.next() else { return Err(Reported) };
+        let value = match &token.kind {
+            TokenKind::Expression(id) => self.expression(&token.here, *id)?,
+            TokenKind::Literal(value) => value.clone(),
+            _ => return Err(Reported),
+        };
+        if let Value::Poison(poison) = value {
+            self.set_poison(poison);
+            return Err(Reported);
+        }
+        Ok(Given { value, span: token.span, here: token.here })
+    }
+
+    pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
+        let given = self.given(after, wanted)?;
+        let number = self.as_number(&given.here, given.span, &given.value, wanted)?;
+        Ok(given.with(number))
+    }
+
+    pub(in crate::evaluate) fn as_number(&mut self, here: &Here, span: Span, value: &Value, wanted: &str) -> Outcome<f64> {
+        match value.as_number() {
+            Some(number) => Ok(number),
+            None => Err(self.wrong_type(here, span, wanted, value)),
+        }
+    }
+
+    pub(super) fn vector_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        let given = self.given(after, wanted)?;
+        match given.value.as_vector3() {
+            Some(vector) => Ok(given.with(vector)),
+            None => Err(self.wrong_vector(&given, wanted)),
+        }
+    }
+
+    /// A vector of three is wanted, and this is none.
+    fn wrong_vector(&mut self, given: &Given<Value>, wanted: &str) -> Reported {
+        match &given.value {
+            Value::Vector(components) => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongArity,
+                    format!("expected {wanted} of three components, found {}", components.len()),
+                )
+                .at(given.span, "too many components");
+                self.report(&given.here, diagnostic)
+            }
+            other => self.wrong_type(&given.here, given.span, wanted, other),
+        }
+    }
+
+    /// A direction: any vector but zero.
+    pub(super) fn direction_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        let given = self.vector_after(after, wanted)?;
+        if given.value == Vector::ZERO {
+            let diagnostic = Diagnostic::new(Code::ZeroVector, format!("{wanted} is the zero vector, and points nowhere"))
+                .at(given.span, "expected a vector other than <0, 0, 0>");
+            return Err(self.report(&given.here, diagnostic));
+        }
+        Ok(given)
+    }
+
+    /// A number that may be left out.
+    pub(super) fn optional_number(&mut self, after: &Token, otherwise: f64) -> Outcome<f64> {
+        match self.peek().map(|token| &token.kind) {
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
+                Ok(self.number_after(after, "a number")?.value)
+            }
+            _ => Ok(otherwise),
+        }
+    }
+
+    /// A truth value that may be left out: then true.
+    pub(super) fn optional_flag(&mut self, after: &Token) -> Outcome<bool> {
+        Ok(self.optional_number(after, 1.0)? != 0.0)
+    }
+
+    /// A colour, with or without `color` and its kin.
+    pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
+        self.skip_commas();
+        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == crate::vocabulary::Family::Color
+            && let Some(token) = self.next()
+        {
+            let color = self.color_from(&token)?;
+            return Ok(Given { value: color, span: token.span, here: token.here });
+        }
+        let given = self.given(after, wanted)?;
+        match given.value.as_color() {
+            Some(color) => {
+                let color = self.color_components(color)?;
+                Ok(given.with(color))
+            }
+            None => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
+        }
+    }
+
+    /// Reports a number outside of what its place allows.
+    pub(super) fn out_of_range(&mut self, given: &Given<f64>, word: Word, wanted: &str) -> Reported {
+        let diagnostic = Diagnostic::new(
+            Code::OutOfRange,
+            format!("`{}` is {}, and must be {wanted}", word.name(), given.value),
+        )
+        .at(given.span, format!("expected {wanted}"));
+        self.report(&given.here, diagnostic)
+    }
+
+    pub(super) fn at_least_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {
+        let given = self.number_after(after, "a number")?;
+        if given.value < 0.0 {
+            return Err(self.out_of_range(&given, word, "0 or more"));
+        }
+        Ok(given.value)
+    }
+
+    pub(super) fn more_than_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {
+        let given = self.number_after(after, "a number")?;
+        if given.value <= 0.0 {
+            return Err(self.out_of_range(&given, word, "more than 0"));
+        }
+        Ok(given.value)
+    }
+}

@@ -1,0 +1,227 @@
+//! `pigment` and `color_map`.
+
+use std::sync::Arc;
+
+use crate::color::{Color, Rgb};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::pattern::Pattern;
+use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
+use crate::vocabulary::{Family, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// `pigment { [Name] … }`, starting from the default texture's pigment.
+    pub(super) fn pigment(&mut self, token: &Token) -> Outcome<PigmentId> {
+        let start = self.scene.textures[self.default_texture.index()].pigment;
+        self.pigment_from(token, start)
+    }
+
+    pub(super) fn pigment_from(&mut self, token: &Token, start: PigmentId) -> Outcome<PigmentId> {
+        let mut pigment = self.scene.pigments[start.index()].clone();
+        pigment.site = token.here.site(token.span);
+        let pigment = self.block(token, Word::Pigment, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                if evaluator.pigment_item(&token, &mut pigment) == Err(Reported) {
+                    failed = true;
+                    evaluator.skip_values();
+                }
+            }
+            if failed { Err(Reported) } else { Ok(pigment) }
+        })?;
+        Ok(self.add_pigment(pigment))
+    }
+
+    fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
+        self.scene.pigments.push(pigment);
+        PigmentId(self.scene.pigments.len() as u32 - 1)
+    }
+
+    fn pigment_item(&mut self, token: &Token, pigment: &mut Pigment) -> Outcome<()> {
+        if let Some(transform) = self.transform_from(token) {
+            pigment.transforms.push(transform?);
+            return Ok(());
+        }
+        match &token.kind {
+            TokenKind::Word(Word::Checker) => {
+                let (first, second) = self.color_pair(token)?;
+                let map = ColorMap(vec![(0.0, first), (1.0, second)]);
+                pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
+            }
+            TokenKind::Word(Word::Gradient) => {
+                let direction = self.direction_after(token, "a direction")?.value;
+                let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
+                pigment.kind = PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
+            }
+            TokenKind::Word(Word::ColorMap) => {
+                let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
+                match &mut pigment.kind {
+                    PigmentKind::Patterned { map, .. } => *map = given.as_ref().clone(),
+                    PigmentKind::Color(_) => {
+                        let diagnostic = Diagnostic::new(Code::MissingPart, "a `color_map` needs a pattern before it")
+                            .at(token.span, "colours over the values of which pattern?")
+                            .help("write the pattern first: `gradient y color_map { … }`");
+                        return Err(self.report(&token.here, diagnostic));
+                    }
+                }
+            }
+            TokenKind::Word(word) if word.family() == Family::Color => {
+                pigment.kind = PigmentKind::Color(self.color_from(token)?);
+            }
+            TokenKind::Expression(id) => {
+                let id = *id;
+                let value = match self.named(token, id) {
+                    Some(value) => value,
+                    None if matches!(
+                        token.here.unit.expression(id).kind,
+                        crate::syntax::ast::ExpressionKind::Name(_)
+                    ) =>
+                    {
+                        self.unexpected(token, Place::PIGMENT);
+                        return Err(Reported);
+                    }
+                    None => self.expression(&token.here, id)?,
+                };
+                match value {
+                    Value::Pigment(id) => {
+                        let site = pigment.site;
+                        *pigment = self.scene.pigments[id.index()].clone();
+                        pigment.site = site;
+                    }
+                    Value::Color(_) | Value::Vector(_) => {
+                        let color = value.as_color().unwrap_or_default();
+                        pigment.kind = PigmentKind::Color(self.color_components(color)?);
+                    }
+                    _ => {
+                        self.unexpected(token, Place::PIGMENT);
+                        return Err(Reported);
+                    }
+                }
+            }
+            _ => {
+                let poisoned = self.poison.is_some();
+                self.unexpected(token, Place::PIGMENT);
+                if !poisoned && self.poison.is_none() && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon) {
+                    return Err(Reported);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The two colours of `checker`; blue and green where they are missing.
+    fn color_pair(&mut self, token: &Token) -> Outcome<(Color, Color)> {
+        let mut colors = [
+            Color::opaque(Rgb::new(0.0, 0.0, 1.0)),
+            Color::opaque(Rgb::new(0.0, 1.0, 0.0)),
+        ];
+        for color in &mut colors {
+            self.skip_commas();
+            if self.at_color() {
+                *color = self.color_after(token, "a colour")?.value;
+            } else if let Some(Token { kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)), .. }) = self.peek() {
+                let word = *word;
+                let Some(next) = self.next() else { break };
+                if word == Word::Pigment {
+                    let id = self.pigment(&next)?;
+                    if let PigmentKind::Color(plain) = self.scene.pigments[id.index()].kind {
+                        *color = plain;
+                        continue;
+                    }
+                } else {
+                    self.skip_arguments(word);
+                }
+                self.set_poison(super::super::value::Poison { word, site: next.here.site(next.span) });
+            }
+        }
+        Ok((colors[0], colors[1]))
+    }
+
+    /// `color_map { [value color] … }` or `color_map { Name }`.
+    pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
+        let mut entries: Vec<(f64, Color)> = Vec::new();
+        let opener = token.clone();
+        self.block(token, Word::ColorMap, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                match &token.kind {
+                    TokenKind::Entry(items) => {
+                        let here = token.here.clone();
+                        let read = evaluator.inside(&here, *items, |evaluator| evaluator.map_entry(&token));
+                        match read {
+                            Ok(read) => entries.extend(read),
+                            Err(Reported) => failed = true,
+                        }
+                    }
+                    TokenKind::Expression(id) => match evaluator.named(&token, *id) {
+                        Some(Value::ColorMap(map)) => entries.extend(map.0.iter().copied()),
+                        Some(Value::Poison(poison)) => evaluator.set_poison(poison),
+                        _ => {
+                            evaluator.unexpected(&token, Place::COLOR_MAP);
+                            failed = true;
+                        }
+                    },
+                    _ => evaluator.unexpected(&token, Place::COLOR_MAP),
+                }
+            }
+            if failed {
+                return Err(Reported);
+            }
+            if entries.is_empty() {
+                if evaluator.poison.is_some() {
+                    return Err(Reported);
+                }
+                let diagnostic = Diagnostic::new(Code::MissingPart, "this `color_map` is empty")
+                    .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
+                return Err(evaluator.report(&opener.here, diagnostic));
+            }
+            // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
+            entries.sort_by(|a, b| a.0.total_cmp(&b.0));
+            Ok(Value::ColorMap(Arc::new(ColorMap(entries))))
+        })
+    }
+
+    /// `[value color]`, or the old `[from, to color a color b]`.
+    fn map_entry(&mut self, token: &Token) -> Outcome<Vec<(f64, Color)>> {
+        let from = self.number_after(token, "a number and a colour")?.value;
+        self.skip_commas();
+        let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
+        if starts_color {
+            let color = self.color_after(token, "a colour")?.value;
+            self.end_of_entry(token)?;
+            return Ok(vec![(from, color)]);
+        }
+        let second = self.given(token, "a colour")?;
+        let entries = match second.value {
+            Value::Number(to) => {
+                let first = self.color_after(token, "a colour")?.value;
+                let last = self.color_after(token, "a second colour")?.value;
+                self.lint_legacy(&token.here, token.span, "an entry with two values is an old form", "write two entries, one for each value");
+                vec![(from, first), (to, last)]
+            }
+            value => match value.as_color() {
+                Some(color) => vec![(from, self.color_components(color)?)],
+                None => return Err(self.wrong_type(&second.here, second.span, "a colour", &value)),
+            },
+        };
+        self.end_of_entry(token)?;
+        Ok(entries)
+    }
+
+    fn end_of_entry(&mut self, entry: &Token) -> Outcome<()> {
+        self.skip_commas();
+        match self.next() {
+            None => Ok(()),
+            Some(extra) => {
+                let diagnostic = Diagnostic::new(Code::ExtraPart, "an entry of a `color_map` is one number and one colour")
+                    .at(extra.span_head(), "this is more")
+                    .also(entry.span_head(), "in this entry");
+                Err(self.report(&extra.here, diagnostic))
+            }
+        }
+    }
+}

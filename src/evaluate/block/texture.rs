@@ -1,0 +1,98 @@
+//! `texture` and `#default`.
+
+use crate::scene::{Texture, TextureId};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Poison, Value};
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// `texture { [Name] … }`, starting from the default texture.
+    pub(super) fn texture(&mut self, token: &Token) -> Outcome<TextureId> {
+        let mut texture = self.scene.textures[self.default_texture.index()].clone();
+        let texture = self.block(token, Word::Texture, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                failed |= evaluator.texture_item(&token, &mut texture) == Err(Reported);
+            }
+            if failed { Err(Reported) } else { Ok(texture) }
+        })?;
+        // Several in a row are layers, which are not built yet.
+        while let Some(next) = self.take_word(Word::Texture) {
+            let poison = Poison { word: Word::Texture, site: next.here.site(next.span) };
+            self.skip_arguments(Word::Texture);
+            self.set_poison(poison);
+        }
+        Ok(self.add_texture(texture))
+    }
+
+    pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
+        self.scene.textures.push(texture);
+        TextureId(self.scene.textures.len() as u32 - 1)
+    }
+
+    fn texture_item(&mut self, token: &Token, texture: &mut Texture) -> Outcome<()> {
+        if let Some(transform) = self.transform_from(token) {
+            texture.transforms.push(transform?);
+            return Ok(());
+        }
+        match token.kind {
+            TokenKind::Word(Word::Pigment) => texture.pigment = self.pigment_from(token, texture.pigment)?,
+            TokenKind::Word(Word::Finish) => texture.finish = self.finish_from(token, texture.finish)?,
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
+                Some(Value::Poison(poison)) => self.set_poison(poison),
+                _ => {
+                    self.unexpected(token, Place::TEXTURE);
+                    return Err(Reported);
+                }
+            },
+            _ => {
+                let poisoned = self.poison.is_some();
+                self.unexpected(token, Place::TEXTURE);
+                let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                if !harmless && !poisoned && self.poison.is_none() {
+                    return Err(Reported);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The items of `#default { … }`: they change what objects take that have no texture.
+    pub(in crate::evaluate) fn default_items(&mut self) {
+        let outer = self.poison.take();
+        while let Some(token) = self.next() {
+            let changed = match token.kind {
+                TokenKind::Word(Word::Texture) => self.texture(&token),
+                TokenKind::Word(Word::Pigment) => {
+                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
+                    self.pigment(&token).map(|pigment| {
+                        texture.pigment = pigment;
+                        self.add_texture(texture)
+                    })
+                }
+                TokenKind::Word(Word::Finish) => {
+                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
+                    self.finish(&token).map(|finish| {
+                        texture.finish = finish;
+                        self.add_texture(texture)
+                    })
+                }
+                _ => {
+                    self.unexpected(&token, Place::DEFAULT);
+                    continue;
+                }
+            };
+            if let Ok(texture) = changed {
+                self.default_texture = texture;
+            }
+        }
+        let poison = std::mem::replace(&mut self.poison, outer);
+        if let Some(poison) = poison {
+            let Reported = self.not_supported(poison, None);
+        }
+    }
+}

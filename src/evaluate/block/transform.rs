@@ -1,0 +1,150 @@
+//! `translate`, `rotate`, `scale`, `matrix` and `transform`.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::math::transform::Step;
+use crate::scene::TransformId;
+use crate::syntax::ast::Argument;
+use crate::syntax::ast::ExpressionKind;
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// The transform that starts with `token`; `None` when the word starts none.
+    pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
+        let TokenKind::Word(word) = token.kind else { return None };
+        let outcome = match word {
+            Word::Translate | Word::Rotate | Word::Scale | Word::Matrix => {
+                self.step(token, word).map(|step| self.add_transform(vec![step]))
+            }
+            Word::TransformWord => self.transform_block(token),
+            _ => return None,
+        };
+        Some(outcome)
+    }
+
+    fn add_transform(&mut self, steps: Vec<Step>) -> TransformId {
+        self.scene.transforms.push(steps);
+        TransformId(self.scene.transforms.len() as u32 - 1)
+    }
+
+    fn step(&mut self, token: &Token, word: Word) -> Outcome<Step> {
+        match word {
+            Word::Translate => Ok(Step::Translate(self.vector_after(token, "a vector")?.value)),
+            Word::Rotate => {
+                let given = self.vector_after(token, "a vector of degrees")?;
+                self.lint_degrees(&given.here, given.span, &given.value.to_array());
+                Ok(Step::Rotate(given.value))
+            }
+            Word::Matrix => self.matrix(token),
+            _ => {
+                let given = self.vector_after(token, "a vector of factors")?;
+                let factors = given.value;
+                if factors.to_array().contains(&0.0) {
+                    let uniform = factors == Vector::ZERO;
+                    let mut diagnostic = Diagnostic::new(Code::ZeroScale, "a scale of zero flattens everything to nothing")
+                        .at(given.span, "expected factors other than zero");
+                    if !uniform {
+                        diagnostic = diagnostic.help("a direction that is to stay as it is takes the factor 1");
+                    }
+                    return Err(self.report(&given.here, diagnostic));
+                }
+                Ok(Step::Scale(factors))
+            }
+        }
+    }
+
+    /// `matrix <…12 numbers…>`: more numbers than a vector holds.
+    fn matrix(&mut self, token: &Token) -> Outcome<Step> {
+        let next = match self.next() {
+            Some(next) => next,
+            None => return Err(self.expected("twelve numbers in angle brackets", None, (&token.here, token.span))),
+        };
+        let components = match next.kind {
+            TokenKind::Expression(id) => match next.here.unit.expression(id).kind {
+                ExpressionKind::Vector(components) => Some(components),
+                _ => None,
+            },
+            _ => None,
+        };
+        let Some(components) = components else {
+            return Err(self.expected("twelve numbers in angle brackets", Some(&next), (&token.here, token.span)));
+        };
+        let unit = next.here.unit.clone();
+        let mut numbers = Vec::with_capacity(12);
+        for argument in unit.ast.arguments(components) {
+            if let Argument::Expression(id) = *argument {
+                numbers.push(self.number(&next.here, id)?);
+            }
+        }
+        let Ok(numbers) = <[f64; 12]>::try_from(numbers.as_slice()) else {
+            let diagnostic = Diagnostic::new(Code::WrongArity, format!("a matrix has 12 numbers, this one has {}", numbers.len()))
+                .at(next.span, "expected four rows of three numbers")
+                .help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing");
+            return Err(self.report(&next.here, diagnostic));
+        };
+        let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+        let rows = [row(0), row(1), row(2), row(3)];
+        if rows[0].cross(rows[1]).dot(rows[2]) == 0.0 {
+            let diagnostic = Diagnostic::new(Code::ZeroScale, "this matrix flattens everything to nothing")
+                .at(next.span, "its determinant is zero");
+            return Err(self.report(&next.here, diagnostic));
+        }
+        Ok(Step::Matrix(rows))
+    }
+
+    /// `transform { … }` or `transform Name`.
+    pub(super) fn transform_block(&mut self, token: &Token) -> Outcome<TransformId> {
+        if let Some(Token { kind: TokenKind::Expression(_), .. }) = self.peek() {
+            let given = self.given(token, "a transform")?;
+            return match given.value {
+                Value::Transform(id) => Ok(id),
+                other => Err(self.wrong_type(&given.here, given.span, "a transform", &other)),
+            };
+        }
+        self.block(token, Word::TransformWord, |evaluator| {
+            let mut steps = Vec::new();
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                match evaluator.transform_from(&token) {
+                    Some(Ok(id)) => steps.extend(evaluator.scene.transforms[id.index()].iter().cloned()),
+                    Some(Err(Reported)) => failed = true,
+                    None => match token.kind {
+                        TokenKind::Word(Word::Inverse) => {
+                            steps = vec![Step::InverseOf(std::mem::take(&mut steps))];
+                        }
+                        TokenKind::Expression(id) => match evaluator.named(&token, id) {
+                            Some(Value::Transform(id)) => {
+                                steps.extend(evaluator.scene.transforms[id.index()].iter().cloned());
+                            }
+                            _ => {
+                                evaluator.unexpected(&token, Place::TRANSFORM);
+                                failed = true;
+                            }
+                        },
+                        _ => evaluator.unexpected(&token, Place::TRANSFORM),
+                    },
+                }
+            }
+            if failed { Err(Reported) } else { Ok(evaluator.add_transform(steps)) }
+        })
+    }
+
+    /// The value of a token that is a lone declared name, or a call; nothing is reported.
+    pub(super) fn named(&mut self, token: &Token, id: crate::syntax::ast::ExpressionId) -> Option<Value> {
+        match token.here.unit.expression(id).kind {
+            ExpressionKind::Name(name) => {
+                let symbol = token.here.symbol(name);
+                match self.scopes.read(symbol) {
+                    Some(Value::Macro(_)) | None => None,
+                    Some(value) => Some(value.clone()),
+                }
+            }
+            _ => None,
+        }
+    }
+}

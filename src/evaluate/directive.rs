@@ -1,0 +1,425 @@
+//! Directives: run where they stand, between two items of whoever is reading.
+
+use std::rc::Rc;
+
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::source::{Expansion, ExpansionKind, FileError, Source, Span, decode};
+use crate::syntax::ast::{
+    Argument, Arguments, Body, Callee, DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target,
+    Test,
+};
+use crate::syntax::{self, ParseOptions};
+
+use super::scope::{MacroId, Slot};
+use super::stream::{Token, TokenKind};
+use super::value::{Poison, Value};
+use super::{Evaluator, Here, Macro, MacroBody, Outcome, Reported, Unit};
+
+/// What a parameter is bound to.
+enum Bound {
+    Variable(Slot),
+    Value(Value),
+}
+
+impl Evaluator<'_> {
+    pub(super) fn directive(&mut self, here: &Here, id: DirectiveId) -> Outcome<()> {
+        let unit = here.unit.clone();
+        let directive = unit.ast.directive(id);
+        match &directive.kind {
+            DirectiveKind::Declare { local, target } => self.declare(here, *local, target),
+            DirectiveKind::Undef(target) => {
+                let symbol = here.symbol(target.name);
+                self.scopes.mark_used(symbol);
+                self.scopes.undefine(symbol);
+                Ok(())
+            }
+            DirectiveKind::If { test, then, otherwise } => {
+                let taken = match test {
+                    Test::Condition(condition) => self.condition(here, *condition)?,
+                    Test::Defined(target) => self.is_defined(here, target),
+                    Test::NotDefined(target) => !self.is_defined(here, target),
+                };
+                self.push_branch(here, if taken { *then } else { *otherwise });
+                Ok(())
+            }
+            DirectiveKind::While { condition, body } => {
+                self.push_while(here, *condition, *body, id);
+                Ok(())
+            }
+            DirectiveKind::For { name, from, to, step, body, name_span } => {
+                let from = self.number(here, *from);
+                let to = self.number(here, *to);
+                let (step_value, step_span) = match step {
+                    Some(step) => (self.number(here, *step), unit.expression(*step).span),
+                    None => (Ok(1.0), directive.head),
+                };
+                let (from, to, step) = (from?, to?, step_value?);
+                if step == 0.0 {
+                    let diagnostic = Diagnostic::new(Code::OutOfRange, "the step of a `#for` is zero, so it never ends")
+                        .at(step_span, "expected a number other than zero");
+                    return Err(self.report(here, diagnostic));
+                }
+                let symbol = here.symbol(*name);
+                self.scopes.note_declaration(symbol, here.site(*name_span), false);
+                self.push_for(here, symbol, [from, to, step], *body, id);
+                Ok(())
+            }
+            DirectiveKind::Switch { value, cases } => {
+                let value = self.number(here, *value)?;
+                if let Some(chosen) = self.chosen_case(here, value, cases)? {
+                    self.push_switch(here, Items::default());
+                    for case in cases[chosen..].iter().rev() {
+                        self.push_branch(here, case.body);
+                    }
+                }
+                Ok(())
+            }
+            DirectiveKind::Break => {
+                if self.break_out() {
+                    return Ok(());
+                }
+                let diagnostic = Diagnostic::new(Code::StrayDirective, "`#break` stands outside of any loop or `#switch`")
+                    .at(directive.head, "nothing to break out of");
+                Err(self.report(here, diagnostic))
+            }
+            DirectiveKind::Macro { name, name_span, parameters, body } => {
+                let symbol = here.symbol(*name);
+                let id = MacroId(self.macros.len() as u32);
+                self.macros.push(Rc::new(Macro {
+                    name: symbol,
+                    parameters: parameters.iter().map(|parameter| here.symbol(parameter.name)).collect(),
+                    body: match body {
+                        Body::Items(items) => MacroBody::Items(*items),
+                        Body::Raw(_) => MacroBody::Raw,
+                    },
+                    unit: here.unit.clone(),
+                    defined: *name_span,
+                }));
+                let in_main = self.in_main();
+                self.scopes.note_declaration(symbol, here.site(*name_span), in_main);
+                self.scopes.assign(symbol, Value::Macro(id));
+                Ok(())
+            }
+            DirectiveKind::Include(file) => self.include(here, *file, directive.head),
+            DirectiveKind::Default(items) => self.inside(here, *items, |evaluator| {
+                evaluator.default_items();
+                Ok(())
+            }),
+            DirectiveKind::Version(version) => {
+                self.version = self.number(here, *version)?;
+                Ok(())
+            }
+            DirectiveKind::Debug(text) => self.say(here, Code::AuthorDebug, *text, directive.head),
+            DirectiveKind::Warning(text) => self.say(here, Code::AuthorWarning, *text, directive.head),
+            DirectiveKind::Error(text) => {
+                let said = self.say(here, Code::AuthorError, *text, directive.head);
+                self.halted = true;
+                said
+            }
+            DirectiveKind::Fopen { mode, .. } => {
+                Err(self.not_supported(Poison { word: *mode, site: here.site(directive.head) }, None))
+            }
+            DirectiveKind::Fclose(_) | DirectiveKind::Read { .. } | DirectiveKind::Write { .. } => {
+                // `#fopen` has said it.
+                Ok(())
+            }
+            DirectiveKind::Ignored(text) => self.expression(here, *text).map(drop),
+            DirectiveKind::Malformed => Err(Reported),
+        }
+    }
+
+    fn say(&mut self, here: &Here, code: Code, text: ExpressionId, head: Span) -> Outcome<()> {
+        let text = match self.expression(here, text)? {
+            Value::String(text) => text,
+            Value::Poison(_) => return Ok(()),
+            other => {
+                let span = here.unit.expression(text).span;
+                return Err(self.wrong_type(here, span, "a string", &other));
+            }
+        };
+        let label = match code.severity() {
+            Severity::Error => "the scene stops itself here",
+            Severity::Warning | Severity::Note => "said here",
+        };
+        let diagnostic = Diagnostic::new(code, text.trim_end_matches('\n')).at(head, label);
+        self.report(here, diagnostic);
+        Ok(())
+    }
+
+    fn is_defined(&mut self, here: &Here, target: &Target) -> bool {
+        let symbol = here.symbol(target.name);
+        self.scopes.mark_used(symbol);
+        match self.scopes.read(symbol) {
+            // Whether an element of something not built is set cannot be known.
+            Some(Value::Broken) | None => false,
+            Some(_) => true,
+        }
+    }
+
+    /// `#declare Name = …`: the value is what the next items leave.
+    fn declare(&mut self, here: &Here, local: bool, target: &Target) -> Outcome<()> {
+        let symbol = here.symbol(target.name);
+        let outer_poison = self.poison.take();
+        let outer_hold = self.hold.take();
+        let value = match self.next() {
+            Some(first) => {
+                self.hold = Some(self.frames.len());
+                self.value_of(&first)
+            }
+            None => Err(self.expected("a value", None, (here, target.span.after()))),
+        };
+        if matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
+            self.next();
+        }
+        self.hold = outer_hold;
+        self.poison = outer_poison;
+        let in_main = self.in_main();
+        self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
+        if !target.indices.is_empty() {
+            for &index in &target.indices {
+                let _: Outcome<Value> = self.expression(here, index);
+            }
+            // Arrays are not built yet: the name holds poison already, and keeps it.
+            return match self.scopes.read(symbol) {
+                Some(Value::Poison(_) | Value::Broken) => Ok(()),
+                Some(other) => {
+                    let other = other.clone();
+                    Err(self.wrong_type(here, target.span, "an array before `[`", &other))
+                }
+                None => Err(self.undeclared(here, symbol, target.span)),
+            };
+        }
+        let value = value.unwrap_or(Value::Broken);
+        if local {
+            self.scopes.assign_local(symbol, value);
+        } else {
+            self.scopes.assign(symbol, value);
+        }
+        Ok(())
+    }
+
+    fn include(&mut self, here: &Here, file: ExpressionId, head: Span) -> Outcome<()> {
+        let span = here.unit.expression(file).span;
+        let name = match here.unit.expression(file).kind {
+            // Paths keep their backslashes.
+            ExpressionKind::String => self.raw_string(span),
+            _ => self.string(here, file)?,
+        };
+        if self.including.len() as u32 > self.options.limits.include_depth {
+            return Err(self.include_limit(here, &name, span));
+        }
+        let from = self.sources.get(head.file).name.clone();
+        let found = match self.files.read(&name, &from) {
+            Ok(found) => found,
+            Err(error) => {
+                let diagnostic = missing_file(&name, span, error);
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        let unit = match self.parsed.get(&found.name) {
+            Some(unit) => unit.clone(),
+            None => self.read_unit(here, span, &found.name, found.bytes),
+        };
+        let expansion = self.scene.expansions.add(Expansion {
+            parent: here.expansion,
+            call: head.to(span),
+            kind: ExpansionKind::Include(name),
+        });
+        self.push_include(&unit, expansion, found.name);
+        Ok(())
+    }
+
+    fn read_unit(&mut self, here: &Here, span: Span, name: &str, bytes: Vec<u8>) -> Rc<Unit> {
+        let (text, foreign) = decode(bytes);
+        let id = self.sources.add(Source::new(name, text));
+        if foreign && self.options.dialect == crate::scene::Dialect::Scene {
+            let diagnostic = Diagnostic::new(Code::BadEncoding, format!("`{name}` is not UTF-8, and was read as Latin-1"))
+                .at(span, "included here");
+            self.report(here, diagnostic);
+        }
+        let options = ParseOptions { dialect: self.options.dialect, nesting_limit: self.options.limits.nesting as usize };
+        let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
+        let unit = self.unit(ast);
+        self.parsed.insert(name.to_owned(), unit.clone());
+        unit
+    }
+
+    fn include_limit(&mut self, here: &Here, name: &str, span: Span) -> Reported {
+        self.halted = true;
+        let innermost = self.including.last().cloned().unwrap_or_default();
+        let again = self.including.iter().filter(|file| **file == innermost).count() > 1;
+        let diagnostic = if again {
+            Diagnostic::new(Code::CircularInclude, format!("`{name}` includes itself, and never ends"))
+                .at(span, "included again here")
+                .help("guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`")
+        } else {
+            let limit = self.options.limits.include_depth;
+            Diagnostic::new(Code::IncludeLimit, format!("files include each other more than {limit} deep"))
+                .at(span, "this include is one too many")
+                .help("raise the limit with `--limit include-depth=N`")
+        };
+        self.report(here, diagnostic)
+    }
+
+    // Macros.
+
+    /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
+    /// expression is no such call.
+    pub(super) fn splices_macro(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
+        let expression = *here.unit.expression(id);
+        let ExpressionKind::Call(Callee::Name(name, _), arguments) = expression.kind else {
+            return Ok(false);
+        };
+        let Some(Value::Macro(macro_id)) = self.scopes.read(here.symbol(name)) else {
+            return Ok(false);
+        };
+        let definition = self.macros[macro_id.0 as usize].clone();
+        let MacroBody::Items(body) = definition.body else {
+            return Err(self.raw_macro(here, expression.span));
+        };
+        let expansion = self.enter_macro(here, &definition, arguments, expression.span)?;
+        self.push_macro(&definition.unit, expansion, body);
+        Ok(true)
+    }
+
+    /// Runs a macro called inside an expression: it leaves one value.
+    pub(super) fn macro_value(&mut self, here: &Here, id: MacroId, arguments: Arguments, span: Span) -> Outcome<Value> {
+        let definition = self.macros[id.0 as usize].clone();
+        let MacroBody::Items(body) = definition.body else {
+            return Err(self.raw_macro(here, span));
+        };
+        let expansion = self.enter_macro(here, &definition, arguments, span)?;
+        self.macro_depth += 1;
+        let inner = Here { unit: definition.unit.clone(), expansion };
+        let value = self.inside(&inner, body, |evaluator| evaluator.only_value(here, span));
+        self.macro_depth -= 1;
+        self.scopes.close();
+        value
+    }
+
+    fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
+        let diagnostic = Diagnostic::new(Code::NotSupportedYet, "a macro whose brackets do not balance is not supported yet")
+            .at(span, "this call opens or closes a bracket of its surroundings");
+        self.report(here, diagnostic)
+    }
+
+    /// Evaluates the arguments, then opens the macro's table with its parameters bound.
+    fn enter_macro(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<crate::source::ExpansionId> {
+        let unit = here.unit.clone();
+        let list = unit.ast.arguments(arguments);
+        let name = self.scopes.name(definition.name).to_owned();
+        if list.len() != definition.parameters.len() {
+            let (wanted, found) = (definition.parameters.len(), list.len());
+            let diagnostic = Diagnostic::new(
+                Code::WrongArity,
+                format!("macro `{name}` takes {}, and is given {found}", super::report::count(&(wanted..=wanted), "argument")),
+            )
+            .at(span, format!("expected {}", super::report::count(&(wanted..=wanted), "argument")))
+            .also(definition.defined, "defined here");
+            return Err(self.report(here, diagnostic));
+        }
+        if self.macro_depth >= self.options.limits.macro_depth {
+            self.halted = true;
+            let limit = self.options.limits.macro_depth;
+            let diagnostic = Diagnostic::new(Code::MacroLimit, format!("macros call each other more than {limit} deep"))
+                .at(span, format!("this call of `{name}` is one too many"))
+                .also(definition.defined, "defined here")
+                .help("a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit");
+            return Err(self.report(here, diagnostic));
+        }
+        let mut bound = Vec::with_capacity(list.len());
+        for argument in list {
+            bound.push(self.bound(here, argument, span));
+        }
+        let expansion = self.scene.expansions.add(Expansion {
+            parent: here.expansion,
+            call: span,
+            kind: ExpansionKind::Macro(name),
+        });
+        self.scopes.open();
+        for (&parameter, bound) in definition.parameters.iter().zip(bound) {
+            match bound {
+                Bound::Variable(slot) => self.scopes.bind(parameter, slot),
+                Bound::Value(value) => self.scopes.bind_value(parameter, value),
+            }
+        }
+        Ok(expansion)
+    }
+
+    /// A lone name is passed by reference, all else by value.
+    fn bound(&mut self, here: &Here, argument: &Argument, span: Span) -> Bound {
+        match *argument {
+            Argument::Expression(id) => {
+                if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
+                    let symbol = here.symbol(name);
+                    self.scopes.mark_used(symbol);
+                    if let Some(slot) = self.scopes.slot(symbol) {
+                        return Bound::Variable(slot);
+                    }
+                }
+                Bound::Value(self.expression(here, id).unwrap_or(Value::Broken))
+            }
+            Argument::Items(items) => {
+                let value = self.inside(here, items, |evaluator| evaluator.only_value(here, span));
+                Bound::Value(value.unwrap_or(Value::Broken))
+            }
+        }
+    }
+
+    /// Runs what is left of a block for its directives and calls only.
+    pub(super) fn run_items(&mut self) {
+        while let Some(Token { kind, here, .. }) = self.next() {
+            match kind {
+                TokenKind::Expression(id) => drop(self.expression(&here, id)),
+                TokenKind::Block(items) | TokenKind::Entry(items) => self.inside(&here, items, Self::run_items),
+                TokenKind::Word(crate::vocabulary::Word::Function) => self.skip_function(),
+                TokenKind::Word(_) | TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+            }
+        }
+    }
+
+    /// Passes over the parameters and the body of a `function`: its names are its own.
+    pub(super) fn skip_function(&mut self) {
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Expression(_) | TokenKind::Comma | TokenKind::Literal(_) => drop(self.next()),
+                TokenKind::Block(_) => {
+                    self.next();
+                    return;
+                }
+                TokenKind::Word(_) | TokenKind::Entry(_) | TokenKind::Semicolon => return,
+            }
+        }
+    }
+}
+
+fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
+    match error {
+        FileError::NotFound { searched, similar } => {
+            let mut diagnostic = Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
+                .at(span, "no file of this name");
+            if let Some(similar) = similar.first() {
+                let file = format!("\"{similar}\"");
+                diagnostic = diagnostic.help(format!("did you mean `{similar}`?")).fix(span, file);
+            }
+            if !searched.is_empty() {
+                diagnostic = diagnostic.help(format!("searched in {}", searched.join(", ")));
+            }
+            diagnostic.help("`-I FOLDER` adds a folder to search")
+        }
+        FileError::Forbidden => {
+            Diagnostic::new(Code::ForbiddenFile, format!("`{name}` lies outside the folders that may be read"))
+                .at(span, "outside the scene's folder and the `-I` folders")
+                .help("`-I FOLDER` allows reading below a folder")
+        }
+        FileError::Unreadable(reason) => {
+            Diagnostic::new(Code::UnreadableFile, format!("`{name}` cannot be read: {reason}")).at(span, "this file")
+        }
+    }
+}

@@ -1,0 +1,490 @@
+//! Expressions to values.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::source::Span;
+use crate::syntax::ast::{
+    Argument, Arguments, BinaryOperator, Callee, Component, ExpressionId, ExpressionKind,
+};
+use crate::vocabulary::Word;
+
+use super::stream::TokenKind;
+use super::value::{self, Components, OperationError, Poison, Value};
+use super::{Evaluator, Here, Outcome, Reported, builtin};
+
+impl Evaluator<'_> {
+    /// The value of an expression; poison if something in it is not built yet.
+    pub(super) fn expression(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let expression = *here.unit.expression(id);
+        match expression.kind {
+            ExpressionKind::Number(number) => {
+                if number.is_finite() {
+                    Ok(Value::Number(number))
+                } else {
+                    let message = "this number is too large: the largest is about 1.8e308";
+                    let diagnostic =
+                        Diagnostic::new(Code::NotANumber, message).at(expression.span, "too large");
+                    Err(self.report(here, diagnostic))
+                }
+            }
+            ExpressionKind::Name(name) => self.name_value(here, here.symbol(name), expression.span),
+            ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
+            ExpressionKind::String => self.string_value(here, expression.span),
+            ExpressionKind::Missing => Err(Reported),
+            // Sums of many terms lean to the left as deep as they are long.
+            _ => stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id)),
+        }
+    }
+
+    fn compound(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let expression = *here.unit.expression(id);
+        match expression.kind {
+            ExpressionKind::Unary(operator, operand) => {
+                let value = self.expression(here, operand)?;
+                if let Value::Poison(_) = value {
+                    return Ok(value);
+                }
+                value::unary(operator, &value).map_err(|error| {
+                    self.operation_error(here, error, "this sign", expression.span, [operand; 2], [&value; 2])
+                })
+            }
+            ExpressionKind::Binary(operator, left, right) => {
+                // Both sides are evaluated before either fails: each may report, and both draw from streams.
+                let (a, b) = (self.expression(here, left), self.expression(here, right));
+                let (a, b) = (a?, b?);
+                if let Value::Poison(_) = a {
+                    return Ok(a);
+                }
+                if let Value::Poison(_) = b {
+                    return Ok(b);
+                }
+                value::binary(operator, &a, &b).map_err(|error| {
+                    let symbol = format!("`{}`", symbol(operator));
+                    self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
+                })
+            }
+            ExpressionKind::Conditional(condition, then, otherwise) => {
+                let condition = self.expression(here, condition);
+                let truth = condition.as_ref().ok().and_then(Value::as_truth);
+                // Both arms are evaluated, as POV-Ray does, since both may draw from random streams;
+                // what the arm not taken complains of is no mistake: `B = 0 ? 0 : A / B`.
+                let then = self.arm(here, then, truth != Some(false));
+                let otherwise = self.arm(here, otherwise, truth != Some(true));
+                match (condition?, truth) {
+                    (poison @ Value::Poison(_), _) => Ok(poison),
+                    (_, Some(true)) => then,
+                    (_, Some(false)) => otherwise,
+                    (condition, None) => {
+                        Err(self.wrong_type(here, expression.span, "a number before `?`", &condition))
+                    }
+                }
+            }
+            ExpressionKind::Vector(components) => self.vector_value(here, components, expression.span),
+            ExpressionKind::Call(callee, arguments) => self.call(here, callee, arguments, expression.span),
+            ExpressionKind::Index(base, index) => {
+                let value = self.expression(here, base)?;
+                let index = self.expression(here, index)?;
+                match (value, index) {
+                    (poison @ Value::Poison(_), _) | (_, poison @ Value::Poison(_)) => Ok(poison),
+                    (value, _) => {
+                        let span = here.unit.expression(base).span;
+                        Err(self.wrong_type(here, span, "an array before `[`", &value))
+                    }
+                }
+            }
+            ExpressionKind::Component(base, component) => {
+                let value = self.expression(here, base)?;
+                self.component_value(here, &value, component, here.unit.expression(base).span)
+            }
+            ExpressionKind::Group(inner) => self.expression(here, inner),
+            ExpressionKind::GroupItems(items) => {
+                self.inside(here, items, |evaluator| evaluator.only_value(here, expression.span))
+            }
+            ExpressionKind::Number(_)
+            | ExpressionKind::String
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Word(_)
+            | ExpressionKind::Missing => self.expression(here, id),
+        }
+    }
+
+    fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {
+        let before = self.diagnostics.len();
+        let value = self.expression(here, id);
+        if !taken {
+            self.diagnostics.forget_after(before);
+        }
+        value
+    }
+
+    fn name_value(&mut self, here: &Here, symbol: super::Symbol, span: Span) -> Outcome<Value> {
+        match self.scopes.read(symbol) {
+            Some(Value::Broken) => Err(Reported),
+            Some(Value::Macro(_)) => {
+                let name = self.scopes.name(symbol).to_owned();
+                let diagnostic = Diagnostic::new(
+                    Code::WrongType,
+                    format!("`{name}` is a macro, and is called with parentheses"),
+                )
+                .at(span, "expected `(` after this")
+                .help(format!("write `{name}()`"));
+                Err(self.report(here, diagnostic))
+            }
+            Some(value) => Ok(value.clone()),
+            None => Err(self.undeclared(here, symbol, span)),
+        }
+    }
+
+    fn word_value(&mut self, here: &Here, word: Word, span: Span) -> Outcome<Value> {
+        let axis = |v| Ok(Value::vector3(v));
+        let number = |n| Ok(Value::Number(n));
+        match word {
+            Word::X => axis(Vector::X),
+            Word::Y => axis(Vector::Y),
+            Word::Z => axis(Vector::Z),
+            Word::U => Ok(self.plane_axis([1.0, 0.0])),
+            Word::V => Ok(self.plane_axis([0.0, 1.0])),
+            Word::T => Ok(Components::new(&[0.0, 0.0, 0.0, 1.0]).map_or(Value::Broken, Value::Vector)),
+            Word::Pi => number(std::f64::consts::PI),
+            Word::True | Word::On | Word::Yes => number(1.0),
+            Word::False | Word::Off | Word::No => number(0.0),
+            Word::Clock => number(self.options.clock),
+            Word::ClockOn => number(0.0),
+            Word::Version => number(self.version),
+            _ => Ok(Value::Poison(Poison { word, site: here.site(span) })),
+        }
+    }
+
+    fn plane_axis(&self, components: [f64; 2]) -> Value {
+        Components::new(&components).map_or(Value::Broken, Value::Vector)
+    }
+
+    fn string_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
+        let raw = self.raw_string(span);
+        match builtin::escape::decode_escapes(&raw) {
+            Ok(text) => Ok(Value::string(text)),
+            Err((offset, message)) => {
+                let start = span.start as usize + 1 + offset;
+                let span = Span::new(span.file, start, start + 1);
+                let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(span, "this escape");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    /// A string's text between its quotes, escapes as written.
+    pub(super) fn raw_string(&self, span: Span) -> String {
+        let text = self.sources.text(span);
+        let text = text.strip_prefix('"').unwrap_or(text);
+        text.strip_suffix('"').unwrap_or(text).to_owned()
+    }
+
+    fn vector_value(&mut self, here: &Here, components: Arguments, span: Span) -> Outcome<Value> {
+        let unit = here.unit.clone();
+        let arguments = unit.ast.arguments(components);
+        let mut numbers = Vec::with_capacity(arguments.len().min(8));
+        let mut failed = false;
+        let mut poison = None;
+        for argument in arguments {
+            let Argument::Expression(id) = *argument else {
+                failed = true;
+                continue;
+            };
+            match self.expression(here, id) {
+                Ok(Value::Number(number)) => numbers.push(number),
+                Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
+                Ok(other) => {
+                    let span = unit.expression(id).span;
+                    let diagnostic = Diagnostic::new(
+                        Code::WrongType,
+                        format!("a component of a vector is a number, this is {}", other.kind()),
+                    )
+                    .at(span, "expected a number");
+                    let diagnostic = match other {
+                        Value::Vector(_) => diagnostic.help("write its components: `V.x, V.y, V.z`"),
+                        _ => diagnostic,
+                    };
+                    self.report(here, diagnostic);
+                    failed = true;
+                }
+                Err(Reported) => failed = true,
+            }
+        }
+        if failed {
+            return Err(Reported);
+        }
+        if let Some(poison) = poison {
+            return Ok(Value::Poison(poison));
+        }
+        match (Components::new(&numbers), numbers.as_slice()) {
+            (Some(components), _) => Ok(Value::Vector(components)),
+            // `<1>` is one number in brackets; POV-Ray takes it so too.
+            (None, [number]) => Ok(Value::Number(*number)),
+            (None, []) => {
+                let diagnostic = Diagnostic::new(Code::WrongArity, "this vector has no components")
+                    .at(span, "expected two to five numbers");
+                Err(self.report(here, diagnostic))
+            }
+            (None, many) => {
+                let message = format!("a vector has two to five components, this one has {}", many.len());
+                let diagnostic =
+                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    fn call(&mut self, here: &Here, callee: Callee, arguments: Arguments, span: Span) -> Outcome<Value> {
+        match callee {
+            Callee::Word(word, word_span) => self.call_word(here, word, word_span, arguments, span),
+            Callee::Name(name, name_span) => {
+                let symbol = here.symbol(name);
+                match self.scopes.read(symbol) {
+                    None => {
+                        let reported = self.undeclared(here, symbol, name_span);
+                        self.run_arguments(here, arguments);
+                        Err(reported)
+                    }
+                    Some(Value::Macro(id)) => {
+                        let id = *id;
+                        self.macro_value(here, id, arguments, span)
+                    }
+                    Some(Value::Broken) => Err(Reported),
+                    Some(Value::Poison(poison)) => {
+                        let poison = *poison;
+                        self.run_arguments(here, arguments);
+                        Ok(Value::Poison(poison))
+                    }
+                    Some(other) => {
+                        let kind = other.kind();
+                        let name = self.scopes.name(symbol).to_owned();
+                        let mut diagnostic = Diagnostic::new(
+                            Code::NotCallable,
+                            format!("`{name}` is {kind}, and cannot be called"),
+                        )
+                        .at(name_span, "expected the name of a macro or a function");
+                        if let Some(declared) = self.scopes.declared(symbol) {
+                            diagnostic = diagnostic.also(declared.site.span, "declared here");
+                        }
+                        Err(self.report(here, diagnostic))
+                    }
+                }
+            }
+        }
+    }
+
+    /// Evaluates arguments for what they do (draw from a stream, set a parameter), not for their values.
+    pub(super) fn run_arguments(&mut self, here: &Here, arguments: Arguments) {
+        let unit = here.unit.clone();
+        for argument in unit.ast.arguments(arguments) {
+            match *argument {
+                Argument::Expression(id) => drop(self.expression(here, id)),
+                Argument::Items(items) => self.inside(here, items, Self::run_items),
+            }
+        }
+    }
+
+    fn call_word(&mut self, here: &Here, word: Word, word_span: Span, arguments: Arguments, span: Span) -> Outcome<Value> {
+        let unit = here.unit.clone();
+        let list = unit.ast.arguments(arguments);
+        match word {
+            Word::Defined => {
+                let [Argument::Expression(id)] = list else {
+                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
+                };
+                let ExpressionKind::Name(name) = unit.expression(*id).kind else {
+                    return Ok(Value::truth(true));
+                };
+                let symbol = here.symbol(name);
+                self.scopes.mark_used(symbol);
+                return Ok(Value::truth(self.scopes.slot(symbol).is_some()));
+            }
+            Word::FileExists => {
+                let [Argument::Expression(id)] = list else {
+                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
+                };
+                let name = self.string(here, *id)?;
+                let from = self.sources.get(word_span.file).name.clone();
+                return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
+            }
+            Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
+                return self.probe(here, word, word_span, list);
+            }
+            _ => {}
+        }
+        let Some(arity) = builtin::arity(word) else {
+            self.run_arguments(here, arguments);
+            return Ok(Value::Poison(Poison { word, site: here.site(word_span) }));
+        };
+        let mut values = Vec::with_capacity(list.len());
+        let mut failed = false;
+        for argument in list {
+            let value = match *argument {
+                Argument::Expression(id) => self.expression(here, id),
+                Argument::Items(items) => {
+                    self.inside(here, items, |evaluator| evaluator.only_value(here, span))
+                }
+            };
+            match value {
+                Ok(value) => values.push(value),
+                Err(Reported) => failed = true,
+            }
+        }
+        if !arity.contains(&list.len()) {
+            return Err(self.wrong_arity(here, word, word_span, arity, list.len()));
+        }
+        if failed {
+            return Err(Reported);
+        }
+        if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
+            return Ok(poison.clone());
+        }
+        builtin::call(word, &values, &mut self.streams).map_err(|error| {
+            let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
+                match *argument {
+                    Argument::Expression(id) => unit.expression(id).span,
+                    Argument::Items(_) => span,
+                }
+            });
+            let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, "expected another value");
+            diagnostic.help.extend(error.help);
+            self.report(here, diagnostic)
+        })
+    }
+
+    fn component_value(&mut self, here: &Here, value: &Value, component: Component, base: Span) -> Outcome<Value> {
+        if let Value::Poison(_) = value {
+            return Ok(value.clone());
+        }
+        let (index, span) = match component {
+            Component::Word(Word::X | Word::U | Word::Red, span) => (Some(0), span),
+            Component::Word(Word::Y | Word::V | Word::Green, span) => (Some(1), span),
+            Component::Word(Word::Z | Word::Blue, span) => (Some(2), span),
+            Component::Word(Word::T | Word::Filter, span) => (Some(3), span),
+            Component::Word(Word::Transmit, span) => (Some(4), span),
+            Component::Word(Word::Gray, span) => {
+                let Some(color) = value.as_color() else {
+                    return Err(self.wrong_type(here, base, "a colour before `.gray`", value));
+                };
+                let gray = 0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue;
+                let _ = span;
+                return Ok(Value::Number(gray));
+            }
+            Component::Word(_, span) | Component::Name(_, span) => (None, span),
+        };
+        let numbers = match value {
+            Value::Vector(_) | Value::Color(_) => value.numbers(),
+            _ => None,
+        };
+        let Some(numbers) = numbers else {
+            return Err(self.wrong_type(here, base, "a vector or a colour before the dot", value));
+        };
+        match index.and_then(|index| numbers.as_slice().get(index)) {
+            Some(number) => Ok(Value::Number(*number)),
+            None => {
+                let text = self.sources.text(span).to_owned();
+                let diagnostic = Diagnostic::new(
+                    Code::WrongArity,
+                    format!("`.{text}` is no component of {} with {} components", value.kind(), numbers.len()),
+                )
+                .at(span, "no such component")
+                .help("vectors have `.x .y .z .t`, or `.u .v`; colours have `.red .green .blue .filter .transmit .gray`");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    fn operation_error(
+        &mut self,
+        here: &Here,
+        error: OperationError,
+        what: &str,
+        span: Span,
+        operands: [ExpressionId; 2],
+        values: [&Value; 2],
+    ) -> Reported {
+        let spans = operands.map(|id| here.unit.expression(id).span);
+        let diagnostic = match error {
+            OperationError::NotNumeric(index) => {
+                let kind = values[index].kind();
+                let diagnostic = Diagnostic::new(
+                    Code::WrongType,
+                    format!("{what} works on numbers, vectors and colours, not on {kind}"),
+                )
+                .at(spans[index], format!("this is {kind}"));
+                if matches!(values[index], Value::String(_)) && what == "`+`" {
+                    diagnostic.help("strings are joined by `concat(a, b)`")
+                } else {
+                    diagnostic
+                }
+            }
+            OperationError::DivisionByZero => {
+                let label = match here.unit.expression(operands[1]).kind {
+                    ExpressionKind::Number(_) => "this is zero".to_owned(),
+                    _ => "this is zero here".to_owned(),
+                };
+                Diagnostic::new(Code::DivisionByZero, "division by zero").at(spans[1], label)
+            }
+            OperationError::NotFinite => {
+                Diagnostic::new(Code::NotANumber, "this calculation has no finite result")
+                    .at(span, "the result is larger than any number (about 1.8e308)")
+            }
+        };
+        self.report(here, diagnostic)
+    }
+
+    // What a place needs.
+
+    pub(super) fn number(&mut self, here: &Here, id: ExpressionId) -> Outcome<f64> {
+        let value = self.expression(here, id)?;
+        self.as_number(here, here.unit.expression(id).span, &value, "a number")
+    }
+
+    pub(super) fn string(&mut self, here: &Here, id: ExpressionId) -> Outcome<String> {
+        match self.expression(here, id)? {
+            Value::String(text) => Ok(text.to_string()),
+            other => Err(self.wrong_type(here, here.unit.expression(id).span, "a string", &other)),
+        }
+    }
+
+    /// A condition must have a value at once: poison is an error here.
+    pub(super) fn condition(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
+        let value = self.expression(here, id)?;
+        let span = here.unit.expression(id).span;
+        match value.as_truth() {
+            Some(truth) => Ok(truth),
+            None => Err(self.wrong_type(here, span, "a number as condition", &value)),
+        }
+    }
+
+    /// The one value that the current items leave.
+    pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
+        let value = self.value_or(here, span)?;
+        while matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
+            self.next();
+        }
+        if let Some(extra) = self.next() {
+            let diagnostic = Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
+                .at(extra.span, "this is more than one value");
+            return Err(self.report(&extra.here, diagnostic));
+        }
+        Ok(value)
+    }
+}
+
+fn symbol(operator: BinaryOperator) -> &'static str {
+    match operator {
+        BinaryOperator::Add => "+",
+        BinaryOperator::Subtract => "-",
+        BinaryOperator::Multiply => "*",
+        BinaryOperator::Divide => "/",
+        BinaryOperator::Less => "<",
+        BinaryOperator::LessOrEqual => "<=",
+        BinaryOperator::Equal => "=",
+        BinaryOperator::NotEqual => "!=",
+        BinaryOperator::GreaterOrEqual => ">=",
+        BinaryOperator::Greater => ">",
+        BinaryOperator::And => "&",
+        BinaryOperator::Or => "|",
+    }
+}

@@ -1,0 +1,94 @@
+//! Lints: what a right scene might contain, and probably does not.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+use super::value::Value;
+use super::{Evaluator, Here};
+
+/// Angles that people write in radians: fractions of π with at least two digits after the point.
+const RADIANS: [f64; 8] = [
+    std::f64::consts::FRAC_PI_6,
+    std::f64::consts::FRAC_PI_4,
+    std::f64::consts::FRAC_PI_3,
+    std::f64::consts::FRAC_PI_2,
+    std::f64::consts::PI * 2.0 / 3.0,
+    std::f64::consts::PI * 3.0 / 4.0,
+    std::f64::consts::PI,
+    std::f64::consts::TAU,
+];
+
+impl Evaluator<'_> {
+    /// Names that were declared in the main file and never used.
+    pub(super) fn lint_declarations(&mut self) {
+        let mut unused: Vec<Diagnostic> = Vec::new();
+        for (name, declared, value) in self.scopes.declarations() {
+            if declared.used || !declared.global_in_main || name.starts_with('_') {
+                continue;
+            }
+            let site = declared.site;
+            let diagnostic = match value {
+                Some(Value::Broken) | None => continue,
+                Some(Value::Object(_)) => {
+                    Diagnostic::new(Code::NeverPlaced, format!("`{name}` is declared and never placed in the scene"))
+                        .at(site.span, "this object is not seen")
+                        .help(format!("place it with `object {{ {name} }}`"))
+                }
+                Some(_) => Diagnostic::new(Code::UnusedDeclaration, format!("`{name}` is declared and never used"))
+                    .at(site.span, "declared here"),
+            };
+            unused.push(diagnostic);
+        }
+        unused.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span));
+        for diagnostic in unused {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Degrees are wanted; these look like radians.
+    pub(super) fn lint_degrees(&mut self, here: &Here, span: Span, degrees: &[f64]) {
+        let text = self.sources.text(span);
+        let mentions_pi = text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "pi")
+            && !text.contains("degrees")
+            && !text.contains("180");
+        let is_radians = |value: f64| RADIANS.iter().any(|angle| (value.abs() - angle).abs() < 0.0011);
+        let literal = text.chars().all(|c| !c.is_alphabetic() || "xyz".contains(c));
+        let largest = degrees.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        if largest == 0.0 || largest > 6.5 {
+            return;
+        }
+        let looks = degrees.iter().any(|value| is_radians(*value));
+        if mentions_pi || (literal && looks) {
+            let diagnostic = Diagnostic::new(Code::SuspiciousUnit, "this angle looks like radians, and is taken as degrees")
+                .at(span, format!("{largest:.4} degrees"))
+                .help("write degrees, or `degrees(…)` around it");
+            self.report(here, diagnostic);
+        }
+    }
+
+    /// A colour is 0 to 1; this one looks like 0 to 255.
+    pub(super) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: [f64; 3]) {
+        let whole = rgb.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
+        let largest = rgb.iter().fold(0.0f64, |most, c| most.max(*c));
+        // Lights may be brighter than 1; a grey of whole numbers may be meant so.
+        let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+        if whole && largest >= 16.0 && (!gray || largest == 255.0) {
+            let [red, green, blue] = rgb;
+            let diagnostic = Diagnostic::new(Code::ColorRange, "this colour looks as if written as 0 to 255; colours are 0 to 1")
+                .at(span, "far brighter than white")
+                .help(format!("write `<{red}, {green}, {blue}>/255`"));
+            self.report(here, diagnostic);
+        }
+    }
+
+    pub(super) fn lint_negative_radius(&mut self, here: &Here, span: Span, radius: f64) {
+        let diagnostic = Diagnostic::new(Code::NegativeSize, format!("the radius is {radius}; {} is used", -radius))
+            .at(span, "a negative size");
+        self.report(here, diagnostic);
+    }
+
+    pub(super) fn lint_legacy(&mut self, here: &Here, span: Span, message: &str, help: &str) {
+        let diagnostic = Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
+        self.report(here, diagnostic);
+    }
+}

@@ -1,0 +1,274 @@
+//! Ast to Scene: runs the language.
+//!
+//! **In:** the main file's Ast, and `Files` for what it includes. **Out:** a Scene without macro, loop,
+//! include or name; always one, also from a broken input. **Invariant:** evaluation *pulls* items:
+//! whoever needs the next item asks [`stream`] for it, and directives, macro calls and includes
+//! run in place, wherever they stand.
+
+mod block;
+mod builtin;
+mod directive;
+mod expression;
+mod lint;
+mod probe;
+mod report;
+mod scope;
+mod stream;
+pub mod value;
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::diagnostic::Diagnostics;
+use crate::scene::{
+    ClassicFinish, Dialect, Finish, FinishId, Pigment, PigmentId, PigmentKind, Scene, Texture,
+    TextureId,
+};
+use crate::color::Color;
+use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
+use crate::syntax::ast::{Ast, Expression, ExpressionId, Items};
+
+use crate::vocabulary::PREDECLARED;
+
+use builtin::RandomStreams;
+use scope::{Scopes, Symbol};
+use stream::{Frame, Token};
+use value::{Poison, Value};
+
+/// What the caller sets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvaluateOptions {
+    pub dialect: Dialect,
+    /// `image_width` and `image_height`.
+    pub width: u32,
+    pub height: u32,
+    /// `-D name=value`, in order.
+    pub declares: Vec<(String, f64)>,
+    pub clock: f64,
+    pub frame_number: f64,
+    pub limits: Limits,
+}
+
+impl Default for EvaluateOptions {
+    fn default() -> Self {
+        Self {
+            dialect: Dialect::Scene,
+            width: 640,
+            height: 480,
+            declares: Vec::new(),
+            clock: 0.0,
+            frame_number: 0.0,
+            limits: Limits::default(),
+        }
+    }
+}
+
+/// What stops a scene that would never end, or not in this machine's memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Turns of one loop.
+    pub loop_turns: u64,
+    /// Macro calls inside each other.
+    pub macro_depth: u32,
+    /// Includes inside each other.
+    pub include_depth: u32,
+    /// Brackets and directives inside each other, in one file.
+    pub nesting: u32,
+    /// Objects of the scene, declared ones included.
+    pub objects: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            loop_turns: 5_000_000,
+            macro_depth: 1_000,
+            include_depth: 64,
+            nesting: 1_000,
+            objects: 5_000_000,
+        }
+    }
+}
+
+/// Runs `main`; whatever is wrong goes to `diagnostics`.
+pub fn evaluate(
+    main: &Ast,
+    sources: &mut Sources,
+    files: &dyn Files,
+    options: &EvaluateOptions,
+    diagnostics: &mut Diagnostics,
+) -> Scene {
+    let mut evaluator = Evaluator::new(sources, files, options, diagnostics);
+    evaluator.run(main);
+    evaluator.scene
+}
+
+/// It was reported; the nearest statement or object goes on without the value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Reported;
+
+type Outcome<T> = Result<T, Reported>;
+
+/// A parsed file, its names interned.
+#[derive(Debug)]
+struct Unit {
+    ast: Ast,
+    symbols: Vec<Symbol>,
+}
+
+impl Unit {
+    fn expression(&self, id: ExpressionId) -> &Expression {
+        self.ast.expression(id)
+    }
+}
+
+/// Where something is written: its file, and the expansion that runs it.
+#[derive(Debug, Clone)]
+struct Here {
+    unit: Rc<Unit>,
+    expansion: ExpansionId,
+}
+
+impl Here {
+    fn site(&self, span: Span) -> Site {
+        Site { span, expansion: self.expansion }
+    }
+
+    fn symbol(&self, name: crate::syntax::ast::NameId) -> Symbol {
+        self.unit.symbols[name.0 as usize]
+    }
+}
+
+/// A macro as it was defined.
+#[derive(Debug)]
+struct Macro {
+    name: Symbol,
+    parameters: Vec<Symbol>,
+    body: MacroBody,
+    unit: Rc<Unit>,
+    /// Its name, where it is defined.
+    defined: Span,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum MacroBody {
+    Items(Items),
+    /// Its brackets do not balance.
+    Raw,
+}
+
+struct Evaluator<'a> {
+    sources: &'a mut Sources,
+    files: &'a dyn Files,
+    options: &'a EvaluateOptions,
+    diagnostics: &'a mut Diagnostics,
+    scene: Scene,
+    scopes: Scopes,
+    macros: Vec<Rc<Macro>>,
+    streams: RandomStreams,
+    frames: Vec<Frame>,
+    peeked: Option<Token>,
+    /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
+    /// past its end runs nothing there, since that may already ask for the value.
+    hold: Option<usize>,
+    /// Files already read and parsed, by the name they were found under.
+    parsed: HashMap<String, Rc<Unit>>,
+    /// The names of the files that include each other now.
+    including: Vec<String>,
+    default_texture: TextureId,
+    version: f64,
+    /// The first word inside the object being read that is not built yet.
+    poison: Option<Poison>,
+    /// Set by `#error` and by limits: nothing further is evaluated.
+    halted: bool,
+    macro_depth: u32,
+    /// The words that opened the blocks being read, outermost first.
+    openers: Vec<Span>,
+    /// What `trace` and its kin have looked at.
+    probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
+}
+
+impl<'a> Evaluator<'a> {
+    fn new(
+        sources: &'a mut Sources,
+        files: &'a dyn Files,
+        options: &'a EvaluateOptions,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        let nowhere =
+            Site { span: Span::new(FileId(0), 0, 0), expansion: ExpansionId::MAIN };
+        let scene = Scene {
+            dialect: options.dialect,
+            pigments: vec![Pigment {
+                kind: PigmentKind::Color(Color::BLACK),
+                transforms: Vec::new(),
+                site: nowhere,
+            }],
+            finishes: vec![Finish::Classic(ClassicFinish::default())],
+            textures: vec![Texture {
+                pigment: PigmentId(0),
+                finish: FinishId(0),
+                transforms: Vec::new(),
+            }],
+            ..Scene::default()
+        };
+        let mut scopes = Scopes::default();
+        let predeclared = |name: &str| match name {
+            "image_width" => Value::Number(f64::from(options.width)),
+            "image_height" => Value::Number(f64::from(options.height)),
+            "frame_number" | "initial_frame" | "final_frame" => Value::Number(options.frame_number),
+            "initial_clock" | "final_clock" => Value::Number(options.clock),
+            "input_file_name" => {
+                Value::string(sources.iter().next().map_or("", |(_, source)| source.name.as_str()))
+            }
+            _ => Value::Number(0.0),
+        };
+        for (name, _) in PREDECLARED {
+            let symbol = scopes.intern(name);
+            scopes.assign(symbol, predeclared(name));
+        }
+        for (name, value) in &options.declares {
+            let symbol = scopes.intern(name);
+            scopes.assign(symbol, Value::Number(*value));
+        }
+        Self {
+            sources,
+            files,
+            options,
+            diagnostics,
+            scene,
+            scopes,
+            macros: Vec::new(),
+            streams: RandomStreams::default(),
+            frames: Vec::new(),
+            peeked: None,
+            hold: None,
+            parsed: HashMap::new(),
+            including: Vec::new(),
+            default_texture: TextureId(0),
+            version: 3.7,
+            poison: None,
+            halted: false,
+            macro_depth: 0,
+            openers: Vec::new(),
+            probes: HashMap::new(),
+        }
+    }
+
+    fn run(&mut self, main: &Ast) {
+        let unit = self.unit(main.clone());
+        let main_name = self.sources.get(main.file).name.clone();
+        self.including.push(main_name);
+        let root = unit.ast.root;
+        let here = Here { unit, expansion: ExpansionId::MAIN };
+        self.inside(&here, root, Self::scene_items);
+        if !self.halted {
+            self.lint_declarations();
+        }
+    }
+
+    fn unit(&mut self, ast: Ast) -> Rc<Unit> {
+        let symbols = ast.names.iter().map(|name| self.scopes.intern(name)).collect();
+        Rc::new(Unit { ast, symbols })
+    }
+}

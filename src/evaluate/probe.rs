@@ -1,0 +1,193 @@
+//! `trace`, `inside`, `min_extent` and `max_extent`: what a declared object looks like where it stands.
+//!
+//! **In:** an object of the Scene. **Out:** a vector or a truth value. **Invariant:** the object is lowered
+//! alone, once, and asked by the same queries as the tracer's.
+
+use std::rc::Rc;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::geometry::{self, Geometry};
+use crate::lower;
+use crate::math::{UnitVector, Vector};
+use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId};
+use crate::shape::Ray;
+use crate::source::Span;
+use crate::syntax::ast::{Argument, ExpressionKind};
+use crate::vocabulary::Word;
+use crate::world::World;
+
+use super::value::Value;
+use super::{Evaluator, Here, Outcome};
+
+/// How far POV-Ray lets an unbounded object extend.
+const UNBOUNDED: f64 = 1e10;
+
+/// An object by itself.
+#[derive(Debug)]
+pub(super) struct Probe {
+    world: World,
+    geometry: Geometry,
+}
+
+impl Evaluator<'_> {
+    pub(super) fn probe(&mut self, here: &Here, word: Word, span: Span, list: &[Argument]) -> Outcome<Value> {
+        let arity = match word {
+            Word::Trace => 3..=4,
+            Word::Inside => 2..=2,
+            _ => 1..=1,
+        };
+        if !arity.contains(&list.len()) {
+            return Err(self.wrong_arity(here, word, span, arity, list.len()));
+        }
+        let unit = here.unit.clone();
+        let mut values = Vec::with_capacity(list.len());
+        let mut spans = Vec::with_capacity(list.len());
+        // The fourth argument of `trace` is where the normal goes: only its name matters.
+        for argument in list.iter().take(3) {
+            let (value, at) = match *argument {
+                Argument::Expression(id) => (self.expression(here, id), unit.expression(id).span),
+                Argument::Items(items) => {
+                    (self.inside(here, items, |evaluator| evaluator.only_value(here, span)), span)
+                }
+            };
+            values.push(value?);
+            spans.push(at);
+        }
+        if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
+            return Ok(poison.clone());
+        }
+        let Value::Object(object) = values[0] else {
+            return Err(self.wrong_type(here, spans[0], "an object", &values[0]));
+        };
+        let mut vectors = [Vector::ZERO; 2];
+        for (vector, (value, at)) in vectors.iter_mut().zip(values.iter().zip(&spans).skip(1)) {
+            *vector = match value.as_vector3() {
+                Some(vector) => vector,
+                None => return Err(self.wrong_type(here, *at, "a vector", value)),
+            };
+        }
+        let probe = self.probed(object);
+        Ok(match word {
+            Word::MinExtent => Value::vector3(probe.extent().0),
+            Word::MaxExtent => Value::vector3(probe.extent().1),
+            Word::Inside => Value::truth(probe.contains(vectors[0])),
+            _ => {
+                let Some(direction) = UnitVector::from_direction(vectors[1]) else {
+                    let diagnostic = Diagnostic::new(Code::ZeroVector, "the direction of this `trace` is the zero vector")
+                        .at(spans[2], "expected a vector other than <0, 0, 0>");
+                    return Err(self.report(here, diagnostic));
+                };
+                let (point, normal) = probe.trace(vectors[0], direction).unwrap_or_default();
+                if let Some(argument) = list.get(3) {
+                    self.set_normal(here, argument, span, normal)?;
+                }
+                Value::vector3(point)
+            }
+        })
+    }
+
+    fn set_normal(&mut self, here: &Here, argument: &Argument, span: Span, normal: Vector) -> Outcome<()> {
+        if let Argument::Expression(id) = *argument
+            && let ExpressionKind::Name(name) = here.unit.expression(id).kind
+        {
+            let symbol = here.symbol(name);
+            if self.scopes.slot(symbol).is_none() {
+                let at = here.unit.expression(id).span;
+                return Err(self.undeclared(here, symbol, at));
+            }
+            self.scopes.mark_used(symbol);
+            self.scopes.overwrite(symbol, Value::vector3(normal));
+            return Ok(());
+        }
+        let diagnostic = Diagnostic::new(Code::WrongType, "the fourth argument of `trace` receives the normal, and must be a name")
+            .at(span, "expected a declared name as fourth argument");
+        Err(self.report(here, diagnostic))
+    }
+
+    fn probed(&mut self, object: ObjectId) -> Rc<Probe> {
+        if let Some(probe) = self.probes.get(&object) {
+            return probe.clone();
+        }
+        let alone = alone(&self.scene, object);
+        // What is wrong with the object is said when it is placed.
+        let (world, _) = lower::lower(alone, &mut Diagnostics::new(false));
+        let geometry = Geometry::build(&world);
+        let probe = Rc::new(Probe { world, geometry });
+        self.probes.insert(object, probe.clone());
+        probe
+    }
+}
+
+impl Probe {
+    fn extent(&self) -> (Vector, Vector) {
+        let (mut low, mut high) = (Vector::INFINITY, Vector::NEG_INFINITY);
+        for object in 0..self.world.objects.len() as u32 {
+            let (from, to) = geometry::bounds(&self.world, object)
+                .map_or((Vector::splat(-UNBOUNDED), Vector::splat(UNBOUNDED)), |b| (b.low, b.high));
+            (low, high) = (low.min(from), high.max(to));
+        }
+        if self.world.objects.is_empty() { (Vector::ZERO, Vector::ZERO) } else { (low, high) }
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        (0..self.world.objects.len() as u32).any(|object| geometry::contains(&self.world, object, point))
+    }
+
+    /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward.
+    fn trace(&self, origin: Vector, direction: UnitVector) -> Option<(Vector, Vector)> {
+        let ray = Ray { origin, direction: direction.get() };
+        let hit = self.geometry.nearest(&ray)?;
+        let surface = geometry::surface(&self.world, &ray, &hit);
+        Some((surface.point, surface.normal))
+    }
+}
+
+/// The object and what it is made of, and nothing of textures or lights.
+fn alone(scene: &Scene, object: ObjectId) -> Scene {
+    let mut small = Scene {
+        dialect: scene.dialect,
+        textures: scene.textures[..1].to_vec(),
+        pigments: scene.pigments[..1].to_vec(),
+        finishes: scene.finishes[..1].to_vec(),
+        transforms: scene.transforms.clone(),
+        ..Scene::default()
+    };
+    // Children stand before their parents in the arena: in ascending order each finds its own.
+    let mut wanted = std::collections::BTreeSet::from([object]);
+    let mut open = vec![object];
+    while let Some(id) = open.pop() {
+        for child in children(&scene.objects[id.index()].kind) {
+            if wanted.insert(child) {
+                open.push(child);
+            }
+        }
+    }
+    let renamed: std::collections::BTreeMap<ObjectId, ObjectId> =
+        wanted.iter().enumerate().map(|(new, &old)| (old, ObjectId(new as u32))).collect();
+    for id in wanted {
+        let mut copy = scene.objects[id.index()].clone();
+        copy.modifiers.retain(|modifier| {
+            matches!(modifier.kind, ModifierKind::Transform(_) | ModifierKind::Inverse)
+        });
+        match &mut copy.kind {
+            ObjectKind::Union(children) => {
+                children.iter_mut().for_each(|child| *child = renamed[child]);
+            }
+            ObjectKind::Use(child) => *child = renamed[child],
+            ObjectKind::Sphere { .. } | ObjectKind::Plane { .. } | ObjectKind::Box { .. } | ObjectKind::LightSource(_) => {}
+        }
+        small.objects.push(copy);
+    }
+    small.roots.push(Root { object: renamed[&object], default_texture: TextureId(0) });
+    small
+}
+
+fn children(kind: &ObjectKind) -> Vec<ObjectId> {
+    match kind {
+        ObjectKind::Union(children) => children.clone(),
+        ObjectKind::Use(child) => vec![*child],
+        ObjectKind::Sphere { .. } | ObjectKind::Plane { .. } | ObjectKind::Box { .. } | ObjectKind::LightSource(_) => {
+            Vec::new()
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! What the evaluator says about mistakes that many places can make.
+
+use std::ops::RangeInclusive;
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::{ExpansionId, Span};
+use crate::syntax::ast::DirectiveId;
+use crate::vocabulary::Word;
+
+use super::stream::{Token, TokenKind};
+use super::value::{Poison, Value};
+use super::{Evaluator, Here, Outcome, Reported, Symbol};
+
+impl Evaluator<'_> {
+    pub(super) fn report(&mut self, here: &Here, diagnostic: Diagnostic) -> Reported {
+        self.report_in(here.expansion, diagnostic)
+    }
+
+    pub(super) fn report_in(&mut self, expansion: ExpansionId, mut diagnostic: Diagnostic) -> Reported {
+        if let Some(span) = diagnostic.primary().map(|label| label.span) {
+            let site = crate::source::Site { span, expansion };
+            diagnostic = diagnostic.traced(site, &self.scene.expansions);
+        }
+        self.diagnostics.push(diagnostic);
+        Reported
+    }
+
+    pub(super) fn wrong_type(&mut self, here: &Here, span: Span, wanted: &str, found: &Value) -> Reported {
+        let diagnostic = match found {
+            Value::Broken => return Reported,
+            Value::Poison(poison) => return self.not_supported(*poison, Some(span)),
+            found => Diagnostic::new(Code::WrongType, format!("expected {wanted}, found {}", found.kind()))
+                .at(span, format!("this is {}", found.kind())),
+        };
+        let name = self.scopes.symbol(self.sources.text(span)).and_then(|symbol| self.scopes.declared(symbol));
+        let diagnostic = match name {
+            Some(declared) if declared.site.span != span => {
+                let site = declared.site;
+                diagnostic.also(site.span, "declared here")
+            }
+            _ => diagnostic,
+        };
+        self.report(here, diagnostic)
+    }
+
+    /// Poison has reached a place that needs its value.
+    pub(super) fn not_supported(&mut self, poison: Poison, used: Option<Span>) -> Reported {
+        let mut diagnostic = Diagnostic::new(
+            Code::NotSupportedYet,
+            format!("`{}` is not supported yet", poison.word.name()),
+        )
+        .at(poison.site.span, "the language has it, this version does not build it");
+        if let Some(used) = used.filter(|used| *used != poison.site.span) {
+            diagnostic = diagnostic.also(used, "needed here");
+        }
+        self.report_in(poison.site.expansion, diagnostic)
+    }
+
+    /// A name that was never declared: said once for each name.
+    pub(super) fn undeclared(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
+        let name = self.scopes.name(symbol).to_owned();
+        let mut diagnostic = Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
+        let names = self.scopes.visible();
+        if let Some(close) = suggest::closest(&name, names) {
+            let close = close.to_owned();
+            diagnostic = diagnostic
+                .at(span, "not declared up to here")
+                .help(format!("did you mean `{close}`?"))
+                .fix(span, close.clone());
+            if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s)) {
+                let declared = declared.site.span;
+                diagnostic = diagnostic.also(declared, format!("`{close}` is declared here"));
+            }
+        } else if let Some(word) = word_like(&name) {
+            diagnostic = diagnostic
+                .at(span, "not declared, and not a word of the language")
+                .help(format!("did you mean `{word}`?"))
+                .fix(span, word);
+        } else {
+            diagnostic = diagnostic.at(span, "not declared up to here");
+            if let Some(include) = standard_include(&name)
+                && !self.parsed.keys().any(|file| file.ends_with(include))
+            {
+                diagnostic = diagnostic.help(format!("`{name}` comes with `#include \"{include}\"`"));
+            }
+        }
+        let reported = self.report(here, diagnostic);
+        // Known from now on, so that it is said once.
+        self.scopes.assign(symbol, Value::Broken);
+        reported
+    }
+
+    pub(super) fn wrong_arity(
+        &mut self,
+        here: &Here,
+        word: Word,
+        span: Span,
+        arity: RangeInclusive<usize>,
+        found: usize,
+    ) -> Reported {
+        let diagnostic = Diagnostic::new(
+            Code::WrongArity,
+            format!("`{}` takes {}, and is given {found}", word.name(), count(&arity, "argument")),
+        )
+        .at(span, format!("expected {}", count(&arity, "argument")));
+        self.report(here, diagnostic)
+    }
+
+    pub(super) fn loop_limit(&mut self, here: &Here, directive: DirectiveId) -> Outcome<()> {
+        let head = here.unit.ast.directive(directive).head;
+        let diagnostic = Diagnostic::new(
+            Code::LoopLimit,
+            format!("this loop does not end: it has turned {} times", self.options.limits.loop_turns),
+        )
+        .at(head, "its condition stays true")
+        .help("change in its body what its condition asks, or raise the limit with `--limit loop-turns=N`");
+        self.halted = true;
+        Err(self.report(here, diagnostic))
+    }
+
+    /// Something stands where a value should.
+    pub(super) fn expected(&mut self, wanted: &str, found: Option<&Token>, otherwise: (&Here, Span)) -> Reported {
+        match found {
+            Some(token) => {
+                let text = self.describe(token);
+                let diagnostic =
+                    Diagnostic::new(Code::ExpectedExpression, format!("expected {wanted}, found {text}"))
+                        .at(token.span, format!("expected {wanted}"));
+                self.report(&token.here.clone(), diagnostic)
+            }
+            None => {
+                let (here, span) = otherwise;
+                let diagnostic = Diagnostic::new(Code::MissingPart, format!("expected {wanted}, found nothing"))
+                    .at(span, format!("{wanted} is missing here"));
+                self.report(here, diagnostic)
+            }
+        }
+    }
+
+    /// A token in words: its text when that is short.
+    pub(super) fn describe(&self, token: &Token) -> String {
+        match &token.kind {
+            TokenKind::Block(_) => "a block".to_owned(),
+            TokenKind::Entry(_) => "an entry in brackets".to_owned(),
+            TokenKind::Comma => "a comma".to_owned(),
+            TokenKind::Semicolon => "a semicolon".to_owned(),
+            TokenKind::Literal(value) => value.kind().to_owned(),
+            TokenKind::Word(word) => format!("`{}`", word.name()),
+            TokenKind::Expression(_) => {
+                let text = self.sources.text(token.span);
+                if text.chars().count() > 24 || text.contains(['\n', '\r']) {
+                    "an expression".to_owned()
+                } else {
+                    format!("`{text}`")
+                }
+            }
+        }
+    }
+}
+
+/// "one argument", "2 or 3 arguments", "at least 2 arguments".
+pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
+    let plural = |n: usize| if n == 1 { "" } else { "s" };
+    match (*range.start(), *range.end()) {
+        (0, 0) => format!("no {what}s"),
+        (low, usize::MAX) => format!("at least {low} {what}{}", plural(low)),
+        (1, 1) => format!("one {what}"),
+        (low, high) if low == high => format!("{low} {what}s"),
+        (low, high) if low + 1 == high => format!("{low} or {high} {what}s"),
+        (low, high) => format!("{low} to {high} {what}s"),
+    }
+}
+
+/// The word of the language that an author who wrote `name` most likely meant.
+pub(super) fn word_like(name: &str) -> Option<&'static str> {
+    suggest::closest(name, Word::ALL.iter().map(|word| word.name())).or_else(|| suggest::foreign(name))
+}
+
+/// Where a well-known name is declared.
+fn standard_include(name: &str) -> Option<&'static str> {
+    const COLORS: &[&str] = &[
+        "Red", "Green", "Blue", "Yellow", "Cyan", "Magenta", "Clear", "White", "Black", "Gray", "Orange",
+        "Brown", "Pink", "Gold", "Silver", "SkyBlue", "Violet", "Maroon", "Navy", "Turquoise",
+    ];
+    if COLORS.contains(&name) || name.starts_with("Gray") {
+        Some("colors.inc")
+    } else if name.starts_with("T_Stone") {
+        Some("stones.inc")
+    } else if name.starts_with("T_Wood") {
+        Some("woods.inc")
+    } else if name.starts_with("F_Glass") || name.starts_with("T_Glass") || name.starts_with("I_Glass") {
+        Some("glass.inc")
+    } else if name.starts_with("T_Chrome") || name.starts_with("T_Brass") || name.starts_with("T_Silver") {
+        Some("metals.inc")
+    } else {
+        None
+    }
+}

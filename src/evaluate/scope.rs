@@ -1,0 +1,285 @@
+//! Which value a name has, here and now.
+//!
+//! A table for the main file, one for each include being read and one for each macro being run; the
+//! newest that has the name wins (dynamic scoping, as POV-Ray has it). **Invariant:** a table that is
+//! still open keeps its slots, so a by-reference parameter always refers to its caller's variable.
+
+use std::collections::HashMap;
+
+use crate::source::Site;
+
+use super::value::Value;
+
+/// An interned name, the same for every file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Symbol(u32);
+
+/// Names one declared macro.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct MacroId(pub u32);
+
+/// Where a value is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Slot(u32);
+
+/// What is known of a declared name: for messages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Declared {
+    pub site: Site,
+    pub used: bool,
+    /// Declared in the main file itself, not in an include or a macro.
+    pub global_in_main: bool,
+}
+
+#[derive(Debug, Default)]
+struct SymbolState {
+    /// Newest last: the depth of the table, and the slot.
+    bindings: Vec<(u32, Slot)>,
+    declared: Option<Declared>,
+}
+
+/// All tables of one evaluation.
+#[derive(Debug)]
+pub struct Scopes {
+    names: Vec<String>,
+    by_name: HashMap<String, Symbol>,
+    states: Vec<SymbolState>,
+    slots: Vec<Value>,
+    /// Slots whose table has closed.
+    free: Vec<Slot>,
+    /// The bindings of each open table, and whether the slot is its own; the first is the main file's.
+    tables: Vec<Vec<(Symbol, bool)>>,
+}
+
+impl Default for Scopes {
+    fn default() -> Self {
+        Self {
+            names: Vec::new(),
+            by_name: HashMap::new(),
+            states: Vec::new(),
+            slots: Vec::new(),
+            free: Vec::new(),
+            tables: vec![Vec::new()],
+        }
+    }
+}
+
+impl Scopes {
+    pub fn intern(&mut self, name: &str) -> Symbol {
+        if let Some(&symbol) = self.by_name.get(name) {
+            return symbol;
+        }
+        let symbol = Symbol(self.names.len() as u32);
+        self.names.push(name.to_owned());
+        self.by_name.insert(name.to_owned(), symbol);
+        self.states.push(SymbolState::default());
+        symbol
+    }
+
+    pub fn name(&self, symbol: Symbol) -> &str {
+        &self.names[symbol.0 as usize]
+    }
+
+    /// The symbol of a name, if it was ever seen.
+    pub fn symbol(&self, name: &str) -> Option<Symbol> {
+        self.by_name.get(name).copied()
+    }
+
+    pub fn slot(&self, symbol: Symbol) -> Option<Slot> {
+        self.states[symbol.0 as usize].bindings.last().map(|&(_, slot)| slot)
+    }
+
+    /// The value of a name; reading it counts as a use.
+    pub fn read(&mut self, symbol: Symbol) -> Option<&Value> {
+        let state = &mut self.states[symbol.0 as usize];
+        if let Some(declared) = &mut state.declared {
+            declared.used = true;
+        }
+        let &(_, slot) = state.bindings.last()?;
+        Some(&self.slots[slot.0 as usize])
+    }
+
+    pub fn open(&mut self) {
+        self.tables.push(Vec::new());
+    }
+
+    /// Closes the newest table; its names are forgotten.
+    pub fn close(&mut self) {
+        for (symbol, own) in self.tables.pop().unwrap_or_default() {
+            if let Some((_, slot)) = self.states[symbol.0 as usize].bindings.pop()
+                && own
+            {
+                self.free.push(slot);
+            }
+        }
+    }
+
+    pub fn depth(&self) -> usize {
+        self.tables.len()
+    }
+
+    /// `#local`: in the newest table, unless that has the name already.
+    pub fn assign_local(&mut self, symbol: Symbol, value: Value) {
+        let depth = self.tables.len() as u32 - 1;
+        match self.states[symbol.0 as usize].bindings.last() {
+            Some(&(at, slot)) if at == depth => self.slots[slot.0 as usize] = value,
+            _ => self.bind_value(symbol, value),
+        }
+    }
+
+    /// `#declare`: where the newest table has the name, there (so a parameter passes the value out);
+    /// else in the main file's table.
+    pub fn assign(&mut self, symbol: Symbol, value: Value) {
+        let depth = self.tables.len() as u32 - 1;
+        let bindings = &self.states[symbol.0 as usize].bindings;
+        let slot = match (bindings.last(), bindings.first()) {
+            (Some(&(at, slot)), _) if at == depth => Some(slot),
+            (_, Some(&(0, slot))) => Some(slot),
+            _ => None,
+        };
+        match slot {
+            Some(slot) => self.slots[slot.0 as usize] = value,
+            None => {
+                let slot = self.new_slot(value);
+                self.states[symbol.0 as usize].bindings.insert(0, (0, slot));
+                self.tables[0].push((symbol, true));
+            }
+        }
+    }
+
+    /// Replaces the value of the newest binding, if there is one.
+    pub fn overwrite(&mut self, symbol: Symbol, value: Value) {
+        if let Some(slot) = self.slot(symbol) {
+            self.slots[slot.0 as usize] = value;
+        }
+    }
+
+    /// Binds a parameter to a value of its own.
+    pub fn bind_value(&mut self, symbol: Symbol, value: Value) {
+        let slot = self.new_slot(value);
+        self.bind_slot(symbol, slot, true);
+    }
+
+    /// Binds a parameter to the caller's variable.
+    pub fn bind(&mut self, symbol: Symbol, slot: Slot) {
+        self.bind_slot(symbol, slot, false);
+    }
+
+    fn bind_slot(&mut self, symbol: Symbol, slot: Slot, own: bool) {
+        let depth = self.tables.len() as u32 - 1;
+        self.states[symbol.0 as usize].bindings.push((depth, slot));
+        if let Some(table) = self.tables.last_mut() {
+            table.push((symbol, own));
+        }
+    }
+
+    /// `#undef`: forgets the newest binding. `false` when there is none.
+    pub fn undefine(&mut self, symbol: Symbol) -> bool {
+        let Some((depth, _)) = self.states[symbol.0 as usize].bindings.pop() else {
+            return false;
+        };
+        let table = &mut self.tables[depth as usize];
+        if let Some(at) = table.iter().rposition(|&(other, _)| other == symbol) {
+            table.remove(at);
+        }
+        true
+    }
+
+    /// Remembers where a name was first declared, for messages and lints.
+    pub fn note_declaration(&mut self, symbol: Symbol, site: Site, global_in_main: bool) {
+        let state = &mut self.states[symbol.0 as usize];
+        state.declared.get_or_insert(Declared { site, used: false, global_in_main });
+    }
+
+    pub fn declared(&self, symbol: Symbol) -> Option<&Declared> {
+        self.states[symbol.0 as usize].declared.as_ref()
+    }
+
+    pub fn mark_used(&mut self, symbol: Symbol) {
+        if let Some(declared) = &mut self.states[symbol.0 as usize].declared {
+            declared.used = true;
+        }
+    }
+
+    /// The names that have a value now, in the order they were first seen.
+    pub fn visible(&self) -> impl Iterator<Item = &str> {
+        let bound = self.states.iter().map(|state| !state.bindings.is_empty());
+        self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())
+    }
+
+    /// Every name that was declared and is still bound, with its value.
+    pub fn declarations(&self) -> impl Iterator<Item = (&str, &Declared, Option<&Value>)> {
+        self.names.iter().zip(&self.states).filter_map(|(name, state)| {
+            let value = state.bindings.last().map(|&(_, slot)| &self.slots[slot.0 as usize]);
+            Some((name.as_str(), state.declared.as_ref()?, value))
+        })
+    }
+
+    fn new_slot(&mut self, value: Value) -> Slot {
+        if let Some(slot) = self.free.pop() {
+            self.slots[slot.0 as usize] = value;
+            return slot;
+        }
+        self.slots.push(value);
+        Slot(self.slots.len() as u32 - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(scopes: &mut Scopes, symbol: Symbol) -> Option<f64> {
+        scopes.read(symbol).and_then(Value::as_number)
+    }
+
+    #[test]
+    fn a_local_hides_the_global_until_its_table_closes() {
+        let mut scopes = Scopes::default();
+        let a = scopes.intern("a");
+        scopes.assign(a, Value::Number(1.0));
+        scopes.open();
+        assert_eq!(number(&mut scopes, a), Some(1.0));
+        scopes.assign_local(a, Value::Number(2.0));
+        scopes.assign(a, Value::Number(3.0));
+        assert_eq!(number(&mut scopes, a), Some(3.0));
+        scopes.close();
+        assert_eq!(number(&mut scopes, a), Some(1.0));
+    }
+
+    #[test]
+    fn declare_in_a_macro_makes_a_global() {
+        let mut scopes = Scopes::default();
+        let a = scopes.intern("a");
+        scopes.open();
+        scopes.assign(a, Value::Number(1.0));
+        scopes.close();
+        assert_eq!(number(&mut scopes, a), Some(1.0));
+    }
+
+    #[test]
+    fn a_reference_passes_the_value_out() {
+        let mut scopes = Scopes::default();
+        let (a, p) = (scopes.intern("a"), scopes.intern("p"));
+        scopes.assign(a, Value::Number(1.0));
+        let slot = scopes.slot(a).expect("declared");
+        scopes.open();
+        scopes.bind(p, slot);
+        scopes.assign(p, Value::Number(9.0));
+        scopes.close();
+        assert_eq!(number(&mut scopes, a), Some(9.0));
+        assert_eq!(number(&mut scopes, p), None);
+    }
+
+    #[test]
+    fn an_undefined_name_is_gone() {
+        let mut scopes = Scopes::default();
+        let a = scopes.intern("a");
+        scopes.assign(a, Value::Number(1.0));
+        assert!(scopes.undefine(a));
+        assert!(!scopes.undefine(a));
+        assert_eq!(number(&mut scopes, a), None);
+        scopes.assign(a, Value::Number(2.0));
+        assert_eq!(number(&mut scopes, a), Some(2.0));
+    }
+}

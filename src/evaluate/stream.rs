@@ -1,0 +1,341 @@
+//! The next item, with directives, macro calls and includes run on the way to it.
+//!
+//! **Invariant:** a consumer sees only the items of its own block: [`Evaluator::inside`] sets a barrier,
+//! and whatever a consumer leaves behind there is dropped when it returns. Loops and macros are
+//! frames on a list, not calls.
+
+use std::rc::Rc;
+
+use crate::source::{ExpansionId, Span};
+use crate::syntax::ast::{CaseKind, DirectiveId, ExpressionId, ExpressionKind, ItemKind, Items};
+use crate::vocabulary::Word;
+
+use super::scope::Symbol;
+use super::value::{Components, Value};
+use super::{Evaluator, Here, Outcome, Reported, Unit};
+
+/// Items being walked.
+#[derive(Debug)]
+pub(super) struct Frame {
+    here: Here,
+    at: u32,
+    end: u32,
+    /// Elements already taken of the number run at `at`.
+    taken: u32,
+    kind: FrameKind,
+}
+
+#[derive(Debug)]
+enum FrameKind {
+    /// The items of a block: its consumer sees no further.
+    Barrier,
+    /// A branch of a condition.
+    Branch,
+    /// A case of a switch: `#break` ends it.
+    Switch,
+    While { condition: ExpressionId, body: Items, turns: u64, directive: DirectiveId },
+    For { symbol: Symbol, value: f64, to: f64, step: f64, body: Items, turns: u64, directive: DirectiveId },
+    /// A macro's body: `#break` does not reach out of it.
+    Macro,
+    /// An included file.
+    Include,
+}
+
+/// What a consumer gets.
+#[derive(Debug, Clone)]
+pub(super) struct Token {
+    pub kind: TokenKind,
+    pub span: Span,
+    pub here: Here,
+}
+
+impl Token {
+    /// Where it starts: a block's own brace, or the whole of anything shorter.
+    pub fn span_head(&self) -> Span {
+        match self.kind {
+            TokenKind::Block(_) | TokenKind::Entry(_) => Span { end: self.span.start + 1, ..self.span },
+            _ => self.span,
+        }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum TokenKind {
+    Word(Word),
+    Expression(ExpressionId),
+    Block(Items),
+    Entry(Items),
+    Comma,
+    Semicolon,
+    /// An element of a number run.
+    Literal(Value),
+}
+
+impl Evaluator<'_> {
+    /// Runs `consumer` on some items, and on nothing but these.
+    pub(super) fn inside<T>(
+        &mut self,
+        here: &Here,
+        items: Items,
+        consumer: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let peeked = self.peeked.take();
+        let depth = self.frames.len();
+        self.push(here, items, FrameKind::Barrier);
+        // Blocks in blocks in macros can go deeper than a thread's stack.
+        let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
+        while self.frames.len() > depth {
+            self.pop_frame();
+        }
+        self.peeked = peeked;
+        result
+    }
+
+    fn push(&mut self, here: &Here, items: Items, kind: FrameKind) {
+        self.frames.push(Frame { here: here.clone(), at: items.start, end: items.end, taken: 0, kind });
+    }
+
+    pub(super) fn push_branch(&mut self, here: &Here, items: Items) {
+        if !items.is_empty() {
+            self.push(here, items, FrameKind::Branch);
+        }
+    }
+
+    pub(super) fn push_switch(&mut self, here: &Here, items: Items) {
+        self.push(here, items, FrameKind::Switch);
+    }
+
+    /// A loop starts at its (empty) end, where its condition is asked.
+    pub(super) fn push_while(&mut self, here: &Here, condition: ExpressionId, body: Items, directive: DirectiveId) {
+        let empty = Items { start: body.end, end: body.end };
+        self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive });
+    }
+
+    pub(super) fn push_for(&mut self, here: &Here, symbol: Symbol, [from, to, step]: [f64; 3], body: Items, directive: DirectiveId) {
+        let empty = Items { start: body.end, end: body.end };
+        self.push(here, empty, FrameKind::For { symbol, value: from, to, step, body, turns: 0, directive });
+    }
+
+    /// The caller has opened the macro's table and bound its parameters.
+    pub(super) fn push_macro(&mut self, unit: &Rc<Unit>, expansion: ExpansionId, body: Items) {
+        self.macro_depth += 1;
+        self.push(&Here { unit: unit.clone(), expansion }, body, FrameKind::Macro);
+    }
+
+    pub(super) fn push_include(&mut self, unit: &Rc<Unit>, expansion: ExpansionId, name: String) {
+        self.scopes.open();
+        self.including.push(name);
+        let root = unit.ast.root;
+        self.push(&Here { unit: unit.clone(), expansion }, root, FrameKind::Include);
+    }
+
+    fn pop_frame(&mut self) {
+        match self.frames.pop().map(|frame| frame.kind) {
+            Some(FrameKind::Macro) => {
+                self.macro_depth -= 1;
+                self.scopes.close();
+            }
+            Some(FrameKind::Include) => {
+                self.including.pop();
+                self.scopes.close();
+            }
+            Some(
+                FrameKind::Barrier
+                | FrameKind::Branch
+                | FrameKind::Switch
+                | FrameKind::While { .. }
+                | FrameKind::For { .. },
+            )
+            | None => {}
+        }
+    }
+
+    /// `#break`: leaves the innermost loop or switch. `false` when there is none in this block,
+    /// macro or file.
+    pub(super) fn break_out(&mut self) -> bool {
+        let reach = self.frames.iter().rposition(|frame| !matches!(frame.kind, FrameKind::Branch));
+        let Some(at) = reach else { return false };
+        match self.frames[at].kind {
+            FrameKind::While { .. } | FrameKind::For { .. } | FrameKind::Switch => {
+                self.frames.truncate(at);
+                true
+            }
+            FrameKind::Barrier | FrameKind::Branch | FrameKind::Macro | FrameKind::Include => false,
+        }
+    }
+
+    /// Whether the next statement stands in the main file itself, outside of macros.
+    pub(super) fn in_main(&self) -> bool {
+        self.scopes.depth() == 1
+    }
+
+    /// The next item, not taken.
+    pub(super) fn peek(&mut self) -> Option<&Token> {
+        if self.peeked.is_none() {
+            self.peeked = self.pull();
+        }
+        self.peeked.as_ref()
+    }
+
+    /// Takes the next item; `None` at the end of the block.
+    pub(super) fn next(&mut self) -> Option<Token> {
+        match self.peeked.take() {
+            Some(token) => Some(token),
+            None => self.pull(),
+        }
+    }
+
+    /// Takes the next item if it is this word.
+    pub(super) fn take_word(&mut self, word: Word) -> Option<Token> {
+        match self.peek() {
+            Some(token) if token.kind == TokenKind::Word(word) => self.next(),
+            _ => None,
+        }
+    }
+
+    /// Takes commas: they may stand between parts, and may be left out.
+    pub(super) fn skip_commas(&mut self) {
+        while matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
+            self.next();
+        }
+    }
+
+    fn pull(&mut self) -> Option<Token> {
+        loop {
+            if self.halted {
+                return None;
+            }
+            // A directive may have looked at what comes after its value.
+            if let Some(token) = self.peeked.take() {
+                return Some(token);
+            }
+            let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
+            let frame = self.frames.last_mut()?;
+            let waits = frame.at == frame.end
+                || matches!(frame.here.unit.ast.items[frame.at as usize].kind, ItemKind::Directive(_));
+            if held && waits {
+                return None;
+            }
+            if frame.at == frame.end {
+                match frame.kind {
+                    FrameKind::Barrier => return None,
+                    FrameKind::While { .. } | FrameKind::For { .. } => self.turn(),
+                    FrameKind::Branch | FrameKind::Switch | FrameKind::Macro | FrameKind::Include => {
+                        self.pop_frame();
+                    }
+                }
+                continue;
+            }
+            let item = frame.here.unit.ast.items[frame.at as usize];
+            let here = frame.here.clone();
+            let token = |kind| Some(Token { kind, span: item.span, here: here.clone() });
+            if let ItemKind::Numbers { start, count, width } = item.kind {
+                let first = (start + frame.taken * width) as usize;
+                frame.taken += 1;
+                if frame.taken == count {
+                    frame.taken = 0;
+                    frame.at += 1;
+                }
+                let numbers = &here.unit.ast.numbers[first..first + width as usize];
+                let value = match numbers {
+                    [number] => Value::Number(*number),
+                    _ => Components::new(numbers).map_or(Value::Broken, Value::Vector),
+                };
+                return token(TokenKind::Literal(value));
+            }
+            frame.at += 1;
+            match item.kind {
+                ItemKind::Word(word) => return token(TokenKind::Word(word)),
+                ItemKind::Block(items) => return token(TokenKind::Block(items)),
+                ItemKind::Entry(items) => return token(TokenKind::Entry(items)),
+                ItemKind::Comma => return token(TokenKind::Comma),
+                ItemKind::Semicolon => return token(TokenKind::Semicolon),
+                ItemKind::Numbers { .. } => {}
+                ItemKind::Expression(id) => match here.unit.expression(id).kind {
+                    ExpressionKind::Missing => {}
+                    ExpressionKind::Call(..) | ExpressionKind::Name(_)
+                        if self.splices_macro(&here, id).unwrap_or(true) => {}
+                    _ => return token(TokenKind::Expression(id)),
+                },
+                ItemKind::Directive(id) => {
+                    // Reported where it happened; the statement is the fault boundary.
+                    let _: Outcome<()> = self.directive(&here, id);
+                }
+            }
+        }
+    }
+
+    /// One more turn of the innermost loop, or its end.
+    fn turn(&mut self) {
+        let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
+        let limit = self.options.limits.loop_turns;
+        match kind {
+            FrameKind::While { condition, body, turns, directive } => {
+                *turns += 1;
+                let (here, condition, body, turns, directive) =
+                    (here.clone(), *condition, *body, *turns, *directive);
+                let goes_on = turns <= limit || self.loop_limit(&here, directive).is_ok();
+                if goes_on && self.condition(&here, condition) == Ok(true) {
+                    if let Some(frame) = self.frames.last_mut() {
+                        (frame.at, frame.end) = (body.start, body.end);
+                    }
+                    if body.is_empty() {
+                        // Nothing can change: this would only run into the limit.
+                        let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                    }
+                } else {
+                    self.pop_frame();
+                }
+            }
+            FrameKind::For { symbol, value, to, step, body, turns, directive } => {
+                let now = *value;
+                let reached = super::value::same(now, *to)
+                    // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
+                    || (now - *to).abs() <= 1e-9 * step.abs();
+                let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
+                *turns += 1;
+                if *turns > limit {
+                    let (here, directive) = (here.clone(), *directive);
+                    let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                } else if goes_on {
+                    *value = now + *step;
+                    (*at, *end) = (body.start, body.end);
+                    let symbol = *symbol;
+                    self.scopes.assign_local(symbol, Value::Number(now));
+                } else {
+                    let symbol = *symbol;
+                    self.scopes.assign_local(symbol, Value::Number(now));
+                    self.pop_frame();
+                }
+            }
+            FrameKind::Barrier
+            | FrameKind::Branch
+            | FrameKind::Switch
+            | FrameKind::Macro
+            | FrameKind::Include => {}
+        }
+    }
+
+    /// The items of the case that `value` chooses, up to the end of the switch: cases fall through.
+    pub(super) fn chosen_case(
+        &mut self,
+        here: &Here,
+        value: f64,
+        cases: &[crate::syntax::ast::Case],
+    ) -> Outcome<Option<usize>> {
+        for (index, case) in cases.iter().enumerate() {
+            let chosen = match case.kind {
+                CaseKind::Value(id) => super::value::same(value, self.number(here, id)?),
+                CaseKind::Range(low, high) => {
+                    let (low, high) = (self.number(here, low)?, self.number(here, high)?);
+                    (low..=high).contains(&value)
+                }
+                CaseKind::Otherwise => true,
+            };
+            if chosen {
+                return Ok(Some(index));
+            }
+        }
+        Ok(None)
+    }
+}

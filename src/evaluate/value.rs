@@ -1,0 +1,298 @@
+//! What a name can hold, and how values of different size meet.
+//!
+//! **Invariant:** the language's promotion rules live here and nowhere else (manual, section 3.2.1.4,
+//! "Vector Expressions"; checked against the program): a number meets a vector by filling all of its
+//! components, a shorter vector meets a longer one by filling up with zeros.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::color::{Color, Rgb};
+use crate::math::Vector;
+use crate::scene::{ColorMap, FinishId, ObjectId, PigmentId, TextureId, TransformId};
+use crate::source::Site;
+use crate::syntax::ast::{BinaryOperator, UnaryOperator};
+use crate::vocabulary::Word;
+
+/// Two to five numbers.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Components {
+    values: [f64; 5],
+    len: u8,
+}
+
+impl Components {
+    /// Fewer than two or more than five numbers are no vector.
+    pub fn new(values: &[f64]) -> Option<Self> {
+        let mut all = [0.0; 5];
+        if !(2..=5).contains(&values.len()) {
+            return None;
+        }
+        all[..values.len()].copy_from_slice(values);
+        Some(Self { values: all, len: values.len() as u8 })
+    }
+
+    pub fn len(&self) -> usize {
+        usize::from(self.len)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    pub fn as_slice(&self) -> &[f64] {
+        &self.values[..self.len()]
+    }
+
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut result = self;
+        result.values[..self.len()].iter_mut().for_each(|c| *c = f(*c));
+        result
+    }
+}
+
+impl fmt::Debug for Components {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.as_slice()).finish()
+    }
+}
+
+/// A value of the language.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// Also a truth value: 0 is false.
+    Number(f64),
+    Vector(Components),
+    /// Five components: red, green, blue, filter, transmit.
+    Color(Color),
+    String(Arc<str>),
+    Transform(TransformId),
+    Texture(TextureId),
+    Pigment(PigmentId),
+    Finish(FinishId),
+    ColorMap(Arc<ColorMap>),
+    Object(ObjectId),
+    Camera(Arc<crate::scene::Camera>),
+    Macro(super::scope::MacroId),
+    /// Of a kind that this version does not build: fatal only where it reaches the scene.
+    Poison(Poison),
+    /// Its declaration was reported: whatever uses it says nothing more.
+    Broken,
+}
+
+/// Why a value is not there: the word that is not built yet, and where it stood.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Poison {
+    pub word: Word,
+    pub site: Site,
+}
+
+impl Value {
+    pub fn truth(value: bool) -> Self {
+        Self::Number(f64::from(u8::from(value)))
+    }
+
+    pub fn vector3(v: Vector) -> Self {
+        Self::Vector(Components { values: [v.x, v.y, v.z, 0.0, 0.0], len: 3 })
+    }
+
+    pub fn string(text: impl Into<Arc<str>>) -> Self {
+        Self::String(text.into())
+    }
+
+    /// What the kind is called in messages, with its article.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Vector(_) => "a vector",
+            Self::Color(_) => "a colour",
+            Self::String(_) => "a string",
+            Self::Transform(_) => "a transform",
+            Self::Texture(_) => "a texture",
+            Self::Pigment(_) => "a pigment",
+            Self::Finish(_) => "a finish",
+            Self::ColorMap(_) => "a color_map",
+            Self::Object(_) => "an object",
+            Self::Camera(_) => "a camera",
+            Self::Macro(_) => "a macro",
+            Self::Poison(_) => "something not built yet",
+            Self::Broken => "a faulty value",
+        }
+    }
+
+    /// The numbers of a number, vector or colour.
+    pub fn numbers(&self) -> Option<Components> {
+        match self {
+            Self::Number(n) => Some(Components { values: [*n, 0.0, 0.0, 0.0, 0.0], len: 1 }),
+            Self::Vector(v) => Some(*v),
+            Self::Color(c) => Some(Components {
+                values: [c.rgb.red, c.rgb.green, c.rgb.blue, c.filter, c.transmit],
+                len: 5,
+            }),
+            _ => None,
+        }
+    }
+
+    pub fn as_number(&self) -> Option<f64> {
+        match self {
+            Self::Number(n) => Some(*n),
+            _ => None,
+        }
+    }
+
+    /// Where a vector of three is wanted: a number fills all three, two numbers get a zero; longer
+    /// vectors and colours do not fit.
+    pub fn as_vector3(&self) -> Option<Vector> {
+        match self {
+            Self::Number(n) => Some(Vector::splat(*n)),
+            Self::Vector(v) if v.len <= 3 => Some(Vector::new(v.values[0], v.values[1], v.values[2])),
+            _ => None,
+        }
+    }
+
+    /// Where a colour is wanted: a number fills all five components, vectors fill up with zeros.
+    pub fn as_color(&self) -> Option<Color> {
+        if let Self::Color(color) = self {
+            return Some(*color);
+        }
+        let [red, green, blue, filter, transmit] = match self.numbers()? {
+            Components { values, len: 1 } => [values[0]; 5],
+            Components { values, .. } => values,
+        };
+        Some(Color { rgb: Rgb::new(red, green, blue), filter, transmit })
+    }
+
+    /// True and false as `#if` sees them: anything nearer to zero than 1e-10 is false in POV-Ray;
+    /// here a number is false only when it is zero.
+    pub fn as_truth(&self) -> Option<bool> {
+        self.as_number().map(|n| n != 0.0)
+    }
+}
+
+/// Why an operation has no result.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OperationError {
+    /// The operand (0: left or only, 1: right) is not made of numbers.
+    NotNumeric(usize),
+    DivisionByZero,
+    /// A component of the result is infinite or not a number.
+    NotFinite,
+}
+
+/// `-a`, `+a`, `!a`.
+pub fn unary(operator: UnaryOperator, operand: &Value) -> Result<Value, OperationError> {
+    let numbers = operand.numbers().ok_or(OperationError::NotNumeric(0))?;
+    let result = match operator {
+        UnaryOperator::Plus => numbers,
+        UnaryOperator::Minus => numbers.map(|c| -c),
+        UnaryOperator::Not => numbers.map(|c| f64::from(u8::from(c == 0.0))),
+    };
+    Ok(same_kind(result, matches!(operand, Value::Color(_))))
+}
+
+/// `a + b` and its kin, component by component after promotion.
+pub fn binary(operator: BinaryOperator, left: &Value, right: &Value) -> Result<Value, OperationError> {
+    if let (Value::Number(a), Value::Number(b)) = (left, right) {
+        return finite(apply(operator, *a, *b)?).map(Value::Number);
+    }
+    if let (Value::String(a), Value::String(b)) = (left, right)
+        && matches!(operator, BinaryOperator::Equal | BinaryOperator::NotEqual)
+    {
+        return Ok(Value::truth((a == b) == (operator == BinaryOperator::Equal)));
+    }
+    let a = left.numbers().ok_or(OperationError::NotNumeric(0))?;
+    let b = right.numbers().ok_or(OperationError::NotNumeric(1))?;
+    let len = a.len.max(b.len);
+    let promoted = |c: Components| if c.len == 1 { [c.values[0]; 5] } else { c.values };
+    let (a, b) = (promoted(a), promoted(b));
+    let mut values = [0.0; 5];
+    for i in 0..usize::from(len) {
+        values[i] = finite(apply(operator, a[i], b[i])?)?;
+    }
+    let color = matches!(left, Value::Color(_)) || matches!(right, Value::Color(_));
+    Ok(same_kind(Components { values, len }, color))
+}
+
+fn finite(value: f64) -> Result<f64, OperationError> {
+    if value.is_finite() { Ok(value) } else { Err(OperationError::NotFinite) }
+}
+
+fn same_kind(numbers: Components, color: bool) -> Value {
+    match numbers {
+        Components { values, len: 1 } => Value::Number(values[0]),
+        Components { values: [red, green, blue, filter, transmit], .. } if color => {
+            Value::Color(Color { rgb: Rgb::new(red, green, blue), filter, transmit })
+        }
+        _ => Value::Vector(numbers),
+    }
+}
+
+fn apply(operator: BinaryOperator, a: f64, b: f64) -> Result<f64, OperationError> {
+    let truth = |value: bool| f64::from(u8::from(value));
+    Ok(match operator {
+        BinaryOperator::Add => a + b,
+        BinaryOperator::Subtract => a - b,
+        BinaryOperator::Multiply => a * b,
+        BinaryOperator::Divide if b == 0.0 => return Err(OperationError::DivisionByZero),
+        BinaryOperator::Divide => a / b,
+        BinaryOperator::Less => truth(a < b),
+        BinaryOperator::LessOrEqual => truth(a <= b || same(a, b)),
+        BinaryOperator::Equal => truth(same(a, b)),
+        BinaryOperator::NotEqual => truth(!same(a, b)),
+        BinaryOperator::GreaterOrEqual => truth(a >= b || same(a, b)),
+        BinaryOperator::Greater => truth(a > b),
+        BinaryOperator::And => truth(a != 0.0 && b != 0.0),
+        BinaryOperator::Or => truth(a != 0.0 || b != 0.0),
+    })
+}
+
+/// Equal but for what a calculation in decimals leaves over (`0.1 + 0.2 = 0.3` is true).
+///
+/// POV-Ray allows 1e-10 in any unit; here it is 1e-10 of the larger number, so that small scenes
+/// can tell their numbers apart.
+pub fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-10 * a.abs().max(b.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vector(values: &[f64]) -> Value {
+        Value::Vector(Components::new(values).expect("two to five numbers"))
+    }
+
+    #[test]
+    fn a_number_fills_all_components_and_a_short_vector_fills_up_with_zeros() {
+        let sum = binary(BinaryOperator::Add, &Value::Number(1.0), &vector(&[1.0, 2.0, 3.0]));
+        assert_eq!(sum, Ok(vector(&[2.0, 3.0, 4.0])));
+        let product = binary(BinaryOperator::Multiply, &vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 2.0]));
+        assert_eq!(product, Ok(vector(&[1.0, 4.0, 0.0])));
+    }
+
+    #[test]
+    fn a_number_added_to_a_colour_reaches_filter_and_transmit_too() {
+        let red = Value::Color(Color::opaque(Rgb::new(1.0, 0.0, 0.0)));
+        let sum = binary(BinaryOperator::Add, &red, &Value::Number(0.5)).expect("numbers");
+        assert_eq!(sum.numbers().expect("five").as_slice(), [1.5, 0.5, 0.5, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn comparison_is_by_component_and_forgives_decimal_leftovers_only() {
+        fn equal(a: &Value, b: &Value) -> Result<Value, OperationError> {
+            binary(BinaryOperator::Equal, a, b)
+        }
+        assert_eq!(equal(&vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 5.0, 3.0])), Ok(vector(&[1.0, 0.0, 1.0])));
+        assert_eq!(equal(&Value::Number(0.1 + 0.2), &Value::Number(0.3)), Ok(Value::truth(true)));
+        assert_eq!(equal(&Value::Number(1e-12), &Value::Number(2e-12)), Ok(Value::truth(false)));
+    }
+
+    #[test]
+    fn what_has_no_finite_result_says_so() {
+        let divide = |a, b| binary(BinaryOperator::Divide, &Value::Number(a), &Value::Number(b));
+        assert_eq!(divide(1.0, 0.0), Err(OperationError::DivisionByZero));
+        assert_eq!(divide(1e300, 1e-300), Err(OperationError::NotFinite));
+        let error = binary(BinaryOperator::Add, &Value::string("a"), &Value::Number(1.0));
+        assert_eq!(error, Err(OperationError::NotNumeric(0)));
+    }
+}

@@ -1,0 +1,221 @@
+//! The camera: its words become a point and three vectors.
+//!
+//! As in POV-Ray 3.7 (measured) the order of the words does not matter and the last of a kind
+//! counts: `angle` sets the length of `direction` from that of `right`, then `look_at` turns the
+//! three vectors, then the transforms move everything, in order.
+//!
+//! **Invariant:** forward, right and up span space, or there is a message.
+//! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
+
+use super::transform::{Affine, exact};
+use super::{Fault, Lowering};
+use crate::diagnostic::Code;
+use crate::math::Vector;
+use crate::math::double::{Double, DoubleVector, sin_cos_degrees};
+use crate::scene::{self, CameraItemKind, CameraKind, Dialect, TransformId};
+use crate::source::Site;
+use crate::world::{self, Camera};
+
+/// A word's value and where it stands; defaults stand nowhere.
+#[derive(Debug, Clone, Copy)]
+struct Word {
+    vector: DoubleVector,
+    site: Option<Site>,
+}
+
+/// The camera's words, sorted out.
+struct Words {
+    location: DoubleVector,
+    direction: Word,
+    right: Word,
+    up: Word,
+    sky: DoubleVector,
+    look_at: Option<(DoubleVector, Site)>,
+    angle: Option<(f64, Site)>,
+    shift: (f64, f64),
+    transforms: Vec<(TransformId, Site)>,
+}
+
+/// Two directions closer than this, relative, are parallel: 2⁻⁸⁰, far below `f64`.
+const PARALLEL: f64 = 1.0 / (1u128 << 80) as f64;
+
+impl Lowering<'_, '_> {
+    pub(super) fn camera(&mut self) {
+        let scene = self.scene;
+        let Some(camera) = scene.cameras.last() else {
+            let (forward, right) = defaults(scene.dialect);
+            self.world.camera = Camera { forward, right, ..Camera::default() };
+            return;
+        };
+        self.origins.camera = Some(camera.site);
+        match self.spend_camera(camera) {
+            Ok(camera) => self.world.camera = camera,
+            Err((fault, site)) => self.reporter.fault(fault, site),
+        }
+    }
+
+    fn spend_camera(&mut self, camera: &scene::Camera) -> Result<Camera, (Fault, Site)> {
+        let dialect = self.scene.dialect;
+        let mut words = Words::sort(camera, dialect);
+        let mut map = Affine::IDENTITY;
+        for &(id, site) in &words.transforms {
+            map = self.transforms.get(id).map_err(|fault| (fault, site))?.after(&map);
+        }
+        words.check(camera.site)?;
+        words.widen()?;
+        if camera.kind == CameraKind::Orthographic {
+            words.fit_to_look_at(dialect);
+        }
+        words.turn(dialect)?;
+        let location = map.point(words.location);
+        let [forward, right, up] =
+            [words.direction, words.right, words.up].map(|word| map.direction(word.vector));
+        let volume = forward.dot(right.cross(up)).abs().round();
+        let uncancelled = forward.largest() * right.largest() * up.largest();
+        if volume <= PARALLEL * uncancelled {
+            let message = "`direction`, `right` and `up` of this camera lie in one plane";
+            return Err((degenerate(message, "no picture plane is left"), camera.site));
+        }
+        let shift = right * Double::from(words.shift.0) + up * Double::from(words.shift.1);
+        let (kind, location, forward) = match camera.kind {
+            CameraKind::Perspective => (world::CameraKind::Perspective, location, forward + shift),
+            CameraKind::Orthographic => {
+                (world::CameraKind::Orthographic, location + shift, forward)
+            }
+        };
+        if ![location, forward, right, up].iter().all(|v| v.is_finite()) {
+            return Err((Fault::not_finite("this camera"), camera.site));
+        }
+        let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
+        Ok(Camera { kind, location, forward, right, up })
+    }
+}
+
+impl Words {
+    fn sort(camera: &scene::Camera, dialect: Dialect) -> Self {
+        let default = |v: Vector| Word { vector: exact(v), site: None };
+        let (direction, right) = defaults(dialect);
+        let mut words = Self {
+            location: DoubleVector::ZERO,
+            direction: default(direction),
+            right: default(right),
+            up: default(Vector::Y),
+            sky: exact(Vector::Y),
+            look_at: None,
+            angle: None,
+            shift: (0.0, 0.0),
+            transforms: Vec::new(),
+        };
+        for item in &camera.items {
+            let word = |v: Vector| Word { vector: exact(v), site: Some(item.site) };
+            match item.kind {
+                CameraItemKind::Location(v) => words.location = exact(v),
+                CameraItemKind::LookAt(v) => words.look_at = Some((exact(v), item.site)),
+                CameraItemKind::Sky(v) => words.sky = exact(v),
+                CameraItemKind::Up(v) => words.up = word(v),
+                CameraItemKind::Right(v) => words.right = word(v),
+                CameraItemKind::Direction(v) => words.direction = word(v),
+                CameraItemKind::Angle(degrees) => words.angle = Some((degrees, item.site)),
+                CameraItemKind::Shift { x, y } => words.shift = (x, y),
+                CameraItemKind::Transform(id) => words.transforms.push((id, item.site)),
+            }
+        }
+        words
+    }
+
+    fn check(&self, camera: Site) -> Result<(), (Fault, Site)> {
+        for (name, word) in [("direction", self.direction), ("right", self.right), ("up", self.up)]
+        {
+            if word.vector.is_zero() {
+                let message = format!("this camera's `{name}` is the zero vector");
+                let fault = degenerate(&message, "expected a vector other than zero");
+                return Err((fault, word.site.unwrap_or(camera)));
+            }
+        }
+        if let Some((degrees, site)) = self.angle
+            && !(degrees > 0.0 && degrees < 180.0)
+        {
+            let message = format!("a camera cannot see an angle of {degrees} degrees");
+            return Err((degenerate(&message, "expected more than 0 and less than 180"), site));
+        }
+        Ok(())
+    }
+
+    /// `angle`: |direction| = ½ |right| / tan(angle / 2).
+    fn widen(&mut self) -> Result<(), (Fault, Site)> {
+        let Some((degrees, site)) = self.angle else { return Ok(()) };
+        let (sine, cosine) = sin_cos_degrees(0.5 * degrees);
+        let length = self.right.vector.length() * Double::from(0.5) * cosine / sine;
+        let (unit, _) = self
+            .direction
+            .vector
+            .normalized()
+            .ok_or_else(|| (Fault::not_finite("this camera"), site))?;
+        self.direction.vector = unit * length;
+        Ok(())
+    }
+
+    /// An orthographic camera with `angle`, or with neither `right` nor `up`, sees at `look_at` what
+    /// a perspective one would see there. `look_at` is then by default one default direction from
+    /// the origin, wherever the camera stands.
+    fn fit_to_look_at(&mut self, dialect: Dialect) {
+        let sized = self.right.site.is_some() || self.up.site.is_some();
+        if sized && self.angle.is_none() {
+            return;
+        }
+        let target = self.look_at.map_or_else(|| exact(defaults(dialect).0), |(v, _)| v);
+        let factor = (target - self.location).length() / self.direction.vector.length();
+        self.right.vector = self.right.vector * factor;
+        self.up.vector = self.up.vector * factor;
+    }
+
+    /// `look_at`: turns the three vectors, keeping their lengths and their handedness, so that `sky`
+    /// stands upright in the picture. Where the camera looks along `sky`, it keeps its `right`.
+    fn turn(&mut self, dialect: Dialect) -> Result<(), (Fault, Site)> {
+        let Some((target, site)) = self.look_at else { return Ok(()) };
+        let Some((forward, _)) = (target - self.location).normalized() else {
+            let fault = degenerate(
+                "this camera looks at the point where it stands",
+                "expected another point than `location`",
+            );
+            return Err((fault, site));
+        };
+        let [direction, right, up] = [self.direction, self.right, self.up].map(|word| word.vector);
+        let mirrored = up.cross(direction).dot(right).round() < 0.0;
+        let mut across = self.sky.cross(forward);
+        if across.largest() <= PARALLEL * self.sky.largest() {
+            across = right - forward * right.dot(forward);
+            if mirrored && dialect == Dialect::Scene {
+                across = -across;
+            }
+            if across.largest() <= PARALLEL * right.largest() {
+                let fault = degenerate(
+                    "this camera looks along both its `sky` and its `right`",
+                    "nothing says which way is up in the picture",
+                );
+                return Err((fault.help("give it another `sky`, such as `sky z`"), site));
+            }
+        }
+        let Some((across, _)) = across.normalized() else {
+            return Err((Fault::not_finite("this camera"), site));
+        };
+        self.direction.vector = forward * direction.length();
+        self.up.vector = forward.cross(across) * up.length();
+        let across = if mirrored { -across } else { across };
+        self.right.vector = across * right.length();
+        Ok(())
+    }
+}
+
+/// `direction` and `right` where the author gives none.
+fn defaults(dialect: Dialect) -> (Vector, Vector) {
+    match dialect {
+        Dialect::Scene => (-Vector::Z, Vector::X * (4.0 / 3.0)),
+        // POV-Ray 3.7's `right` was measured: 1.33, not 4/3.
+        Dialect::Pov => (Vector::Z, Vector::X * 1.33),
+    }
+}
+
+fn degenerate(message: &str, label: &str) -> Fault {
+    Fault::new(Code::DegenerateCamera, message).label(label)
+}

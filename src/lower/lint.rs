@@ -1,0 +1,56 @@
+//! What lowering has to say about the scene as a whole.
+//!
+//! **Invariant:** only what is certain; after a fault nothing about the whole is.
+
+use super::Lowering;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::world::Pigment;
+
+impl Lowering<'_, '_> {
+    pub(super) fn lint(&mut self) {
+        let cameras = &self.scene.cameras;
+        if cameras.is_empty() {
+            let message = "the scene has no camera; it is seen from <0, 0, 0>";
+            let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
+            self.reporter.diagnostics.push(Diagnostic::new(Code::NoCamera, message).help(help));
+        }
+        if let [ignored @ .., last] = cameras.as_slice() {
+            for camera in ignored {
+                let message = "the scene has more than one camera; the last one is used";
+                let diagnostic = Diagnostic::new(Code::DuplicateCamera, message)
+                    .at(camera.site.span, "this one is not used")
+                    .also(last.site.span, "this one is")
+                    .traced(camera.site, self.reporter.expansions);
+                self.reporter.diagnostics.push(diagnostic);
+            }
+        }
+        if self.reporter.faults > 0 {
+            return;
+        }
+        let world = &self.world;
+        let empty_sky = world.sky.is_none() && world.background.is_black();
+        if world.objects.is_empty() && empty_sky {
+            let message = "the scene shows nothing: no object, no background, no sky";
+            self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
+        } else if world.lights.is_empty() && empty_sky && !self.glows() {
+            let message = "nothing gives light, so the picture is black";
+            let mut diagnostic = Diagnostic::new(Code::NoLight, message)
+                .help("a light such as `light_source { <10, 20, 10> rgb 1 }`");
+            if let Some(dropped) = self.origins.dropped.first() {
+                diagnostic = diagnostic.at(dropped.site.span, "this light is black");
+            }
+            self.reporter.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Whether any surface is bright without a light.
+    fn glows(&self) -> bool {
+        self.world.materials.iter().any(|material| {
+            let bright = |color: crate::color::Rgb| !(color * material.finish.glow).is_black();
+            match &material.pigment {
+                Pigment::Color(color) => bright(color.rgb),
+                Pigment::Patterned { map, .. } => map.iter().any(|(_, color)| bright(color.rgb)),
+            }
+        })
+    }
+}

@@ -1,0 +1,235 @@
+//! The walk down the objects: modifiers become maps, unions flatten, leaves are spent.
+//!
+//! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
+//! A transform moves what precedes it: the solid, and whichever texture it already has.
+
+use super::shape::{LocalFace, Round};
+use super::texture::Surface;
+use super::transform::Affine;
+use super::{Fault, Lowering, shape};
+use crate::diagnostic::Code;
+use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, TextureId};
+use crate::shape::Shape;
+use crate::source::Site;
+use crate::world::Object;
+
+/// How many objects a walk visits before it gives up: shared unions can hold 2ⁿ in n lines.
+const OBJECT_LIMIT: usize = 1 << 22;
+
+/// What a child takes from above.
+#[derive(Debug, Clone, Copy)]
+struct Inherited {
+    world_from_here: Affine,
+    /// For whatever has no texture of its own. Its place is in the world.
+    surface: Surface,
+    casts_shadow: bool,
+    inverse: bool,
+}
+
+/// An object's modifiers come to this.
+struct Modified {
+    /// From the space the object was written in to that of its parent.
+    map: Affine,
+    /// Its place is in the parent's space.
+    surface: Option<Surface>,
+    casts_shadow: bool,
+    inverse: bool,
+}
+
+struct Frame<'s> {
+    children: std::slice::Iter<'s, ObjectId>,
+    inherited: Inherited,
+    default_texture: TextureId,
+}
+
+impl<'s> Lowering<'s, '_> {
+    pub(super) fn objects(&mut self) {
+        let scene = self.scene;
+        let mut visits = 0;
+        for Root { object, default_texture } in &scene.roots {
+            let default =
+                Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY);
+            let Some(surface) = self.surface(default) else { continue };
+            let inherited = Inherited {
+                world_from_here: Affine::IDENTITY,
+                surface,
+                casts_shadow: true,
+                inverse: false,
+            };
+            let children = std::slice::from_ref(object).iter();
+            let mut stack = vec![Frame { children, inherited, default_texture: *default_texture }];
+            while let Some(frame) = stack.last_mut() {
+                let Some(&id) = frame.children.next() else {
+                    stack.pop();
+                    continue;
+                };
+                visits += 1;
+                if visits > OBJECT_LIMIT {
+                    let fault = Fault::new(
+                        Code::ObjectLimit,
+                        format!("the scene has more than {OBJECT_LIMIT} objects"),
+                    );
+                    self.reporter
+                        .fault(fault.label("reached here"), scene.objects[id.index()].site);
+                    return;
+                }
+                let (inherited, default_texture) = (frame.inherited, frame.default_texture);
+                if let Some((children, inherited)) = self.visit(id, &inherited, default_texture) {
+                    stack.push(Frame { children: children.iter(), inherited, default_texture });
+                }
+            }
+        }
+    }
+
+    /// Spends a leaf, or returns a union's children and what they inherit.
+    fn visit(
+        &mut self,
+        id: ObjectId,
+        inherited: &Inherited,
+        default_texture: TextureId,
+    ) -> Option<(&'s [ObjectId], Inherited)> {
+        let scene = self.scene;
+        // A use goes on where the object it names left off: its texture replaces that one's.
+        let mut uses = vec![id];
+        let mut target = id;
+        while let ObjectKind::Use(next) = scene.objects[target.index()].kind {
+            target = next;
+            uses.push(next);
+        }
+        let object = &scene.objects[target.index()];
+        let modified = self.modify(&uses, default_texture)?;
+        let world_from_here = inherited.world_from_here.after(&modified.map);
+        let surface = match modified.surface {
+            Some(own) => own.within(&inherited.world_from_here),
+            None => inherited.surface.under(&modified.map),
+        };
+        let here = Inherited {
+            world_from_here,
+            surface,
+            casts_shadow: inherited.casts_shadow && modified.casts_shadow,
+            inverse: inherited.inverse != modified.inverse,
+        };
+        match &object.kind {
+            ObjectKind::Union(children) => return Some((children, here)),
+            ObjectKind::LightSource(light) => self.light(light, &world_from_here, object.site),
+            solid => {
+                let spent = self.solid(solid, &here, object.site);
+                self.reporter.made(spent, object.site);
+            }
+        }
+        None
+    }
+
+    /// The modifiers of an object and of its uses, innermost first. `None`, and a message, where a
+    /// transform cannot be spent.
+    fn modify(&mut self, uses: &[ObjectId], default_texture: TextureId) -> Option<Modified> {
+        let scene = self.scene;
+        let mut modified =
+            Modified { map: Affine::IDENTITY, surface: None, casts_shadow: true, inverse: false };
+        for modifier in uses.iter().rev().flat_map(|id| &scene.objects[id.index()].modifiers) {
+            let map = modified.map;
+            match modifier.kind {
+                ModifierKind::Transform(id) => {
+                    let step = self.transforms.get(id);
+                    let step = self.reporter.made(step, modifier.site)?;
+                    modified.map = step.after(&map);
+                    modified.surface = modified.surface.map(|surface| surface.within(&step));
+                }
+                ModifierKind::Texture(id) => {
+                    let set = Surface::set(scene, &mut self.transforms, id, map);
+                    modified.surface = Some(self.surface(set)?);
+                }
+                ModifierKind::Pigment(id) => {
+                    let mut surface = self.textured(modified.surface, default_texture, map)?;
+                    let painted = surface.repaint(scene, &mut self.transforms, id, map);
+                    self.surface(painted)?;
+                    modified.surface = Some(surface);
+                }
+                ModifierKind::Finish(id) => {
+                    let surface = self.textured(modified.surface, default_texture, map)?;
+                    modified.surface = Some(surface.polished(id));
+                }
+                ModifierKind::NoShadow => modified.casts_shadow = false,
+                ModifierKind::Inverse => modified.inverse = !modified.inverse,
+            }
+        }
+        Some(modified)
+    }
+
+    /// The object's own surface; the default texture where it has none yet.
+    fn textured(
+        &mut self,
+        own: Option<Surface>,
+        default: TextureId,
+        map: Affine,
+    ) -> Option<Surface> {
+        own.or_else(|| {
+            let set = Surface::set(self.scene, &mut self.transforms, default, map);
+            self.surface(set)
+        })
+    }
+
+    fn surface<T>(&mut self, set: Result<T, (Fault, Site)>) -> Option<T> {
+        set.map_err(|(fault, site)| self.reporter.fault(fault, site)).ok()
+    }
+
+    fn solid(&mut self, kind: &ObjectKind, here: &Inherited, site: Site) -> Result<(), Fault> {
+        let map = &here.world_from_here;
+        match *kind {
+            ObjectKind::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {
+                Round::Sphere(sphere) => {
+                    let shape = Shape::Sphere(next(&mut self.world.spheres, sphere));
+                    self.place(shape, here, here.inverse, &[], site)
+                }
+                Round::Ellipsoid(ellipsoid) => {
+                    let shape = Shape::Ellipsoid(next(&mut self.world.ellipsoids, ellipsoid));
+                    self.place(shape, here, here.inverse, &[], site)
+                }
+            },
+            ObjectKind::Plane { normal, distance } => {
+                let (plane, face) = shape::plane(normal, distance, here.inverse, map)?;
+                let shape = Shape::Plane(next(&mut self.world.planes, plane));
+                // An inverse plane is the plane with the opposite normal.
+                self.place(shape, here, false, &[face], site)
+            }
+            ObjectKind::Box { corners } => {
+                let (solid, faces) = shape::box_(corners, map)?;
+                if solid.half_widths.contains(&0.0) {
+                    let flat = Fault::new(Code::DegenerateShape, "this box is flat");
+                    self.reporter.fault(flat.label("one of its sides has no length"), site);
+                }
+                let shape = Shape::Box(next(&mut self.world.boxes, solid));
+                self.place(shape, here, here.inverse, &faces, site)
+            }
+            ObjectKind::Union(_) | ObjectKind::Use(_) | ObjectKind::LightSource(_) => Ok(()),
+        }
+    }
+
+    fn place(
+        &mut self,
+        shape: Shape,
+        here: &Inherited,
+        inverse: bool,
+        faces: &[LocalFace],
+        site: Site,
+    ) -> Result<(), Fault> {
+        let surface = &here.surface;
+        let material = self.material(surface.pigment, surface.finish, site);
+        let texture_from_world = self.texture_map(surface, material)?;
+        let faces = match faces {
+            [] => None,
+            faces => self.faces(surface, material, faces)?,
+        };
+        let casts_shadow = here.casts_shadow;
+        let object = Object { shape, material, texture_from_world, faces, casts_shadow, inverse };
+        self.world.objects.push(object);
+        self.origins.objects.push(site);
+        Ok(())
+    }
+}
+
+/// Appends and returns the new entry's index.
+fn next<T>(list: &mut Vec<T>, item: T) -> u32 {
+    list.push(item);
+    list.len() as u32 - 1
+}

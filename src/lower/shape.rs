@@ -1,0 +1,180 @@
+//! Spending an affine map on a solid: the simplest canonical form that holds it exactly.
+//!
+//! **In:** a solid as written, and the map its transforms come to. **Out:** a canonical solid.
+//! **Invariant:** the form depends on the solid that results, not on how it was spelt.
+
+use super::Fault;
+use super::transform::{Affine, Cofactors, exact};
+use crate::diagnostic::Code;
+use crate::math::double::{Double, DoubleVector};
+use crate::math::placement::Placement;
+use crate::math::{UnitVector, Vector};
+use crate::shape::{Box_, Ellipsoid, Plane, Sphere};
+
+/// What a sphere becomes.
+pub enum Round {
+    Sphere(Sphere),
+    Ellipsoid(Ellipsoid),
+}
+
+/// A flat face of a solid before its map: the local plane `normal · p = distance`.
+#[derive(Debug, Clone, Copy)]
+pub struct LocalFace {
+    pub normal: DoubleVector,
+    pub distance: Double,
+}
+
+/// A sphere under translations, rotations and uniform scales stays one; else it is an ellipsoid.
+pub fn sphere(centre: Vector, radius: f64, map: &Affine) -> Result<Round, Fault> {
+    if radius == 0.0 {
+        return Err(no_size("this sphere's radius is 0"));
+    }
+    let radius = Double::from(radius).abs();
+    let centre = map.point(exact(centre)).round();
+    if let Some(scale) = map.uniform_scale() {
+        let radius = (radius * scale).round();
+        if !centre.is_finite() || !radius.is_finite() {
+            return Err(Fault::not_finite("this sphere"));
+        }
+        if radius == 0.0 {
+            return Err(no_size("this sphere is too small for a number"));
+        }
+        return Ok(Round::Sphere(Sphere { centre, radius }));
+    }
+    let (world_from_local, local_from_world) = map.stretch().ok_or_else(|| no_size(FLAT))?;
+    let placement = Placement {
+        centre,
+        world_from_local: world_from_local.matrix(radius),
+        local_from_world: local_from_world.matrix(Double::ONE / radius),
+    };
+    if !centre.is_finite()
+        || !placement.world_from_local.is_finite()
+        || !placement.local_from_world.is_finite()
+    {
+        return Err(Fault::not_finite("this sphere"));
+    }
+    Ok(Round::Ellipsoid(Ellipsoid { placement }))
+}
+
+/// The plane `normal · p = distance · |normal|`; inside out when `inverse`.
+pub fn plane(
+    normal: Vector,
+    distance: f64,
+    inverse: bool,
+    map: &Affine,
+) -> Result<(Plane, LocalFace), Fault> {
+    let Some((local_normal, _)) = exact(normal).normalized() else {
+        return Err(Fault::new(Code::ZeroVector, "this plane's normal is the zero vector")
+            .label("expected a direction, as in `plane { y, 0 }`"));
+    };
+    let local = LocalFace { normal: local_normal, distance: Double::from(distance) };
+    let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
+    // The normal goes by the inverse transpose, here times |determinant|.
+    let n = local.normal;
+    let towards = rows[0] * n.x + rows[1] * n.y + rows[2] * n.z;
+    let towards = if determinant.round() < 0.0 { -towards } else { towards };
+    let (unit, length) = towards.normalized().ok_or_else(|| no_size(FLAT))?;
+    let distance = local.distance * determinant.abs() / length + unit.dot(map.offset());
+    let (unit, distance) = if inverse { (-unit, -distance) } else { (unit, distance) };
+    if !unit.is_finite() || !distance.is_finite() {
+        return Err(Fault::not_finite("this plane"));
+    }
+    let plane = Plane { normal: UnitVector::from_unit(unit.round()), distance: distance.round() };
+    Ok((plane, local))
+}
+
+/// The box between two corners, and its six faces before the map, in the order of the canonical
+/// box.
+///
+/// Each normal is named after the axis it is nearest to and points that way, so that a box turned
+/// by 90° is the box with its sides exchanged.
+pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6]), Fault> {
+    let [a, b] = corners.map(exact);
+    let half = Double::from(0.5);
+    let centre = map.point((a + b) * half);
+    let half_widths = ((b - a) * half).map(Double::abs).components();
+    match half_widths.iter().filter(|w| w.is_zero()).count() {
+        0 | 1 => {}
+        2 => {
+            return Err(Fault::new(Code::DegenerateShape, "this box is a line and cannot be seen")
+                .label("two of its three sides have no length"));
+        }
+        _ => return Err(no_size("both corners of this box are the same point")),
+    }
+    let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
+    let mut sides = Vec::with_capacity(3);
+    for (axis, row) in rows.into_iter().enumerate() {
+        let (unit, length) = row.normalized().ok_or_else(|| no_size(FLAT))?;
+        let unit = if determinant.round() < 0.0 { -unit } else { unit };
+        let half_width = half_widths[axis] * determinant.abs() / length;
+        sides.push(Side { axis, normal: unit, half_width, turned: false });
+    }
+    let sides = in_canonical_order(sides, map.bound());
+    let faces = sides.each_ref().map(|side| {
+        let (low, high) = (a.components()[side.axis], b.components()[side.axis]);
+        let (low, high) = if low.round() <= high.round() { (low, high) } else { (high, low) };
+        let axis = DoubleVector::axis(side.axis);
+        let ends = [
+            LocalFace { normal: axis, distance: high },
+            LocalFace { normal: -axis, distance: -low },
+        ];
+        if side.turned { [ends[1], ends[0]] } else { ends }
+    });
+    let solid = Box_ {
+        centre: centre.round(),
+        normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
+        half_widths: sides.each_ref().map(|side| side.half_width.round()),
+    };
+    if !centre.is_finite()
+        || !sides.iter().all(|side| side.normal.is_finite() && side.half_width.is_finite())
+    {
+        return Err(Fault::not_finite("this box"));
+    }
+    let [x, y, z] = faces;
+    Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
+}
+
+/// A box's pair of faces under way.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// The local axis it came from.
+    axis: usize,
+    normal: DoubleVector,
+    half_width: Double,
+    /// The canonical normal is that of the low face.
+    turned: bool,
+}
+
+/// The sides so that the first is nearest to x, the second, of the others, nearest to y; each
+/// pointing along its axis. Components closer than `bound` count as equal, and then the next axis
+/// decides.
+fn in_canonical_order(mut sides: Vec<Side>, bound: f64) -> [Side; 3] {
+    let near = |a: f64, b: f64| (a - b).abs() <= bound;
+    std::array::from_fn(|axis| {
+        let key = |side: &Side| {
+            let n = side.normal.components().map(Double::round);
+            let key = [n[axis], n[(axis + 1) % 3], n[(axis + 2) % 3]];
+            let leading = key.iter().find(|c| !near(**c, 0.0)).copied().unwrap_or(0.0);
+            (leading < 0.0, key.map(|c| if leading < 0.0 { -c } else { c }))
+        };
+        let mut best = 0;
+        for candidate in 1..sides.len() {
+            let (ours, theirs) = (key(&sides[candidate]).1, key(&sides[best]).1);
+            let decisive = ours.iter().zip(theirs).find(|&(&a, b)| !near(a, b));
+            if decisive.is_some_and(|(&a, b)| a > b) {
+                best = candidate;
+            }
+        }
+        let side = sides.remove(best);
+        match key(&side).0 {
+            true => Side { normal: -side.normal, turned: true, ..side },
+            false => side,
+        }
+    })
+}
+
+const FLAT: &str = "the transforms leave this solid no volume";
+
+fn no_size(message: &str) -> Fault {
+    Fault::new(Code::ZeroSize, message).label("nothing of it can be seen")
+}

@@ -1,0 +1,4 @@
+//! Laws of lowering.
+
+mod build;
+mod form;

@@ -1,0 +1,335 @@
+//! Textures: from pigments and finishes with transforms to shared materials and maps.
+//!
+//! **In:** a pigment, a finish and where the pattern stands. **Out:** indices into the World's lists.
+//! **Invariant:** equal materials and equal maps are one entry, in the order of first use. An
+//! object's texture space is the space of its pattern, so that all transforms of a pigment are in
+//! the object's map and a coordinate that is constant over a flat face is one of the pattern's own.
+
+use std::collections::HashMap;
+
+use super::shape::LocalFace;
+use super::transform::{Affine, Transforms};
+use super::{Fault, Lowering};
+use crate::color::{Color, Rgb};
+use crate::diagnostic::Code;
+use crate::math::double::Double;
+use crate::math::placement::Map;
+use crate::scene::{self, ClassicFinish, FinishId, PigmentId, PigmentKind, TextureId};
+use crate::source::Site;
+use crate::world::{
+    FaceCoordinates, Finish, Lobe, LobeKind, Material, Pigment, Reflection, Sky, World,
+};
+
+/// What has been put into the World's lists of materials and maps.
+#[derive(Default)]
+pub struct Materials {
+    of_ids: HashMap<(PigmentId, FinishId), u32>,
+    /// Materials that share the numbers in which most differ; equality decides among them.
+    alike: HashMap<[u64; 6], Vec<u32>>,
+    maps: HashMap<[u64; 12], u32>,
+}
+
+/// A surface on its way down the tree.
+///
+/// In POV-Ray (measured) a pigment that replaces another keeps where the other stood: its own
+/// transforms come after all that the pigment before it went through.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface {
+    pub pigment: PigmentId,
+    pub finish: FinishId,
+    /// Where the pattern stands, in the space of whoever holds the surface.
+    pub place: Affine,
+    /// Where it stood when the pigment was set, and the way there from the space of the solid:
+    /// the shortest way from solid to pattern, free of whatever moved both.
+    set_place: Affine,
+    set_from_solid: Affine,
+}
+
+impl Surface {
+    /// The texture `id`, set where `set_from_solid` leads.
+    pub fn set(
+        scene: &scene::Scene,
+        transforms: &mut Transforms,
+        id: TextureId,
+        set_from_solid: Affine,
+    ) -> Result<Self, (Fault, Site)> {
+        let texture = &scene.textures[id.index()];
+        let pigment = &scene.pigments[texture.pigment.index()];
+        let place = || {
+            let inner = transforms.product(&pigment.transforms)?;
+            Ok(transforms.product(&texture.transforms)?.after(&inner))
+        };
+        let place: Affine = { place }().map_err(|fault| (fault, pigment.site))?;
+        Ok(Self {
+            pigment: texture.pigment,
+            finish: texture.finish,
+            place,
+            set_place: place,
+            set_from_solid,
+        })
+    }
+
+    /// Another pigment instead.
+    pub fn repaint(
+        &mut self,
+        scene: &scene::Scene,
+        transforms: &mut Transforms,
+        id: PigmentId,
+        set_from_solid: Affine,
+    ) -> Result<(), (Fault, Site)> {
+        let pigment = &scene.pigments[id.index()];
+        let own = transforms.product(&pigment.transforms).map_err(|f| (f, pigment.site))?;
+        self.pigment = id;
+        self.place = own.after(&self.place);
+        (self.set_place, self.set_from_solid) = (self.place, set_from_solid);
+        Ok(())
+    }
+
+    /// Another finish instead.
+    pub fn polished(self, finish: FinishId) -> Self {
+        Self { finish, ..self }
+    }
+
+    /// The same surface held by a child whose own transforms come to `child`.
+    pub fn under(&self, child: &Affine) -> Self {
+        Self { set_from_solid: self.set_from_solid.after(child), ..*self }
+    }
+
+    /// The same surface seen from outside of `outer`.
+    pub fn within(&self, outer: &Affine) -> Self {
+        Self { place: outer.after(&self.place), ..*self }
+    }
+}
+
+impl Lowering<'_, '_> {
+    /// The World's index of a material; `site` is the object's, for faults of its finish.
+    pub(super) fn material(&mut self, pigment: PigmentId, finish: FinishId, site: Site) -> u32 {
+        if let Some(&index) = self.materials.of_ids.get(&(pigment, finish)) {
+            return index;
+        }
+        let scene = self.scene;
+        let written = &scene.pigments[pigment.index()];
+        let lowered = lower_pigment(&written.kind, Map::IDENTITY, false);
+        let paint = self.reporter.made(lowered, written.site);
+        let lowered = lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light);
+        let finish_lowered = self.reporter.made(lowered, site);
+        let material = Material {
+            pigment: paint.unwrap_or(Pigment::Color(Color::BLACK)),
+            finish: finish_lowered.unwrap_or(BARE),
+        };
+        let materials = &mut self.world.materials;
+        let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
+        let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
+        let index = known.unwrap_or_else(|| {
+            let index = materials.len() as u32;
+            materials.push(material);
+            self.origins.materials.push(Some(written.site));
+            alike.push(index);
+            index
+        });
+        self.materials.of_ids.insert((pigment, finish), index);
+        index
+    }
+
+    /// The World's index of the map into a surface's pattern; `None` where there is no pattern or
+    /// the map is the identity.
+    pub(super) fn texture_map(
+        &mut self,
+        surface: &Surface,
+        material: u32,
+    ) -> Result<Option<u32>, Fault> {
+        if !is_patterned(&self.world, material) || surface.place.is_identity() {
+            return Ok(None);
+        }
+        let map = inverse_map(&surface.place)?;
+        let numbers = map.matrix.to_cols_array().into_iter().chain(map.centre.to_array());
+        let mut key = [0; 12];
+        for (slot, number) in key.iter_mut().zip(numbers) {
+            *slot = bits(number);
+        }
+        let maps = &mut self.world.texture_maps;
+        Ok(Some(*self.materials.maps.entry(key).or_insert_with(|| {
+            maps.push(map);
+            maps.len() as u32 - 1
+        })))
+    }
+
+    /// The pattern coordinates that are constant over each of a solid's flat faces, as the World's
+    /// index of the first.
+    pub(super) fn faces(
+        &mut self,
+        surface: &Surface,
+        material: u32,
+        faces: &[LocalFace],
+    ) -> Result<Option<u32>, Fault> {
+        if !is_patterned(&self.world, material) {
+            return Ok(None);
+        }
+        let pattern_from_solid = surface.set_place.checked()?.after(&surface.set_from_solid);
+        let start = self.world.faces.len() as u32;
+        self.world.faces.extend(faces.iter().map(|face| coordinates(face, &pattern_from_solid)));
+        Ok(Some(start))
+    }
+
+    pub(super) fn sky(&mut self) {
+        let scene = self.scene;
+        let Some(sky) = &scene.sky_sphere else { return };
+        let transforms = &mut self.transforms;
+        let pigments = sky.pigments.iter().filter_map(|id| {
+            let written = &scene.pigments[id.index()];
+            let map = transforms
+                .product(&written.transforms)
+                .and_then(|inner| inverse_map(&transforms.product(&sky.transforms)?.after(&inner)));
+            let pigment = map.and_then(|map| lower_pigment(&written.kind, map, true));
+            self.reporter.made(pigment, written.site)
+        });
+        let pigments: Vec<_> = pigments.collect();
+        if !pigments.is_empty() {
+            self.world.sky = Some(Sky { pigments });
+            self.origins.sky = Some(sky.site);
+        }
+    }
+}
+
+fn is_patterned(world: &World, material: u32) -> bool {
+    matches!(world.materials[material as usize].pigment, Pigment::Patterned { .. })
+}
+
+/// From `place` in the world back to the pattern.
+fn inverse_map(place: &Affine) -> Result<Map, Fault> {
+    let map = Map { centre: place.offset().round(), matrix: place.checked()?.matrix(Double::ONE) };
+    if map.centre.is_finite() && map.matrix.is_finite() {
+        Ok(map)
+    } else {
+        Err(Fault::not_finite("this texture's place"))
+    }
+}
+
+/// A coordinate is constant over a face exactly when its row is parallel to the face's normal, here
+/// within the map's bound.
+fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates {
+    let offset = pattern_from_solid.offset().components();
+    let rows = pattern_from_solid.rows();
+    FaceCoordinates(std::array::from_fn(|i| {
+        let along = rows[i].dot(face.normal);
+        let across = rows[i] - face.normal * along;
+        let constant = across.largest() <= pattern_from_solid.bound() * rows[i].largest();
+        constant.then(|| (along * face.distance + offset[i]).round())
+    }))
+}
+
+/// A pigment all of one colour has no pattern.
+fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pigment, Fault> {
+    let pigment = match kind {
+        PigmentKind::Color(color) => Pigment::Color(*color),
+        PigmentKind::Patterned { pattern, map: colors } => match colors.0.as_slice() {
+            [] => Pigment::Color(Color::BLACK),
+            [(_, first), rest @ ..] if rest.iter().all(|(_, color)| color == first) => {
+                Pigment::Color(*first)
+            }
+            entries => Pigment::Patterned {
+                pattern: *pattern,
+                pattern_from_texture: map,
+                map: entries.to_vec(),
+            },
+        },
+    };
+    let entries = match &pigment {
+        Pigment::Color(color) => &[(0.0, *color)][..],
+        Pigment::Patterned { map, .. } => map,
+    };
+    for (value, color) in entries {
+        let numbers = [*value, color.filter, color.transmit];
+        if !color.rgb.is_finite() || numbers.iter().any(|n| !n.is_finite()) {
+            return Err(Fault::not_finite("this pigment"));
+        }
+        if !may_be_clear && (color.filter != 0.0 || color.transmit != 0.0) {
+            return Err(Fault::new(
+                Code::NotSupportedYet,
+                "transparent surfaces are not supported yet",
+            )
+            .label("a colour of this pigment has `filter` or `transmit`")
+            .help("write `rgb` and three numbers for an opaque colour"));
+        }
+    }
+    Ok(pigment)
+}
+
+/// A finish that answers no light.
+const BARE: Finish = Finish {
+    glow: Rgb::BLACK,
+    diffuse: 0.0,
+    brilliance: 1.0,
+    lobes: Vec::new(),
+    reflection: None,
+    seed: false,
+};
+
+/// Everything of weight zero is left out.
+fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish, Fault> {
+    let lowered = match finish {
+        &scene::Finish::Seed { kd, ks, phong_exponent } => Finish {
+            glow: ambient_light * kd,
+            diffuse: kd,
+            lobes: lobe(LobeKind::Blinn, ks, phong_exponent, 1.0),
+            reflection: (ks != 0.0).then_some(Reflection {
+                minimum: Rgb::gray(ks),
+                maximum: Rgb::gray(ks),
+                falloff: 1.0,
+                exponent: 1.0,
+                metallic: 0.0,
+            }),
+            seed: true,
+            ..BARE
+        },
+        scene::Finish::Classic(classic) => lower_classic(classic, ambient_light),
+    };
+    let exponents = lowered.lobes.iter().flat_map(|lobe| [lobe.weight, lobe.exponent]);
+    let mut numbers = exponents.chain([lowered.diffuse, lowered.brilliance]);
+    if !lowered.glow.is_finite() || numbers.any(|n| !n.is_finite()) {
+        return Err(Fault::not_finite("this object's finish"));
+    }
+    Ok(lowered)
+}
+
+fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
+    let mut lobes = lobe(LobeKind::Phong, finish.phong, finish.phong_size, finish.metallic);
+    lobes.extend(lobe(LobeKind::Blinn, finish.specular, 1.0 / finish.roughness, finish.metallic));
+    let reflection = finish.reflection.as_ref();
+    let reflection = reflection.filter(|r| !(r.minimum.is_black() && r.maximum.is_black()));
+    Finish {
+        glow: finish.ambient * ambient_light + finish.emission,
+        diffuse: finish.diffuse,
+        // Brilliance bends diffuse light only.
+        brilliance: if finish.diffuse == 0.0 { 1.0 } else { finish.brilliance },
+        lobes,
+        reflection: reflection.map(|r| Reflection {
+            minimum: r.minimum,
+            maximum: r.maximum,
+            falloff: r.falloff,
+            exponent: r.exponent,
+            metallic: r.metallic,
+        }),
+        seed: false,
+    }
+}
+
+fn lobe(kind: LobeKind, weight: f64, exponent: f64, metallic: f64) -> Vec<Lobe> {
+    if weight == 0.0 { Vec::new() } else { vec![Lobe { kind, weight, exponent, metallic }] }
+}
+
+/// Bits that are the same for equal numbers: both zeros are one.
+fn bits(number: f64) -> u64 {
+    (number + 0.0).to_bits()
+}
+
+/// The numbers in which most materials differ.
+fn telling_numbers(material: &Material) -> [u64; 6] {
+    let color = match &material.pigment {
+        Pigment::Color(color) => *color,
+        Pigment::Patterned { map, .. } => map.first().map_or(Color::BLACK, |(_, color)| *color),
+    };
+    let [red, green, blue] = color.rgb.components();
+    let Finish { glow, diffuse, ref lobes, .. } = material.finish;
+    [red, green, blue, glow.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)].map(bits)
+}

@@ -1,0 +1,337 @@
+//! Affine maps in extended precision: what a list of transforms comes to.
+//!
+//! **In:** steps as written. **Out:** one map, whose numbers are rounded to `f64` only by whoever
+//! spends it.
+//! **Invariant:** dyadic numbers and multiples of 90° are exact; elsewhere each step adds at most
+//! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay twelve digits
+//! below what an `f64` can tell.
+
+use super::Fault;
+use crate::diagnostic::Code;
+use crate::math::double::{Double, DoubleVector, power_of_two_near, sin_cos_degrees};
+use crate::math::transform::Step;
+use crate::math::{Matrix, Vector};
+use crate::scene::TransformId;
+
+/// `p ↦ linear · p + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Affine {
+    /// The rows of the linear part.
+    rows: [DoubleVector; 3],
+    offset: DoubleVector,
+    /// How far rounding may have moved the linear part, relative to its size.
+    rounding: f64,
+}
+
+/// The inverse of the linear part, as yet undivided: row i over `determinant`.
+#[derive(Debug, Clone, Copy)]
+pub struct Cofactors {
+    pub rows: [DoubleVector; 3],
+    pub determinant: Double,
+}
+
+impl Affine {
+    pub const IDENTITY: Self = Self {
+        rows: [
+            DoubleVector::new(Double::ONE, Double::ZERO, Double::ZERO),
+            DoubleVector::new(Double::ZERO, Double::ONE, Double::ZERO),
+            DoubleVector::new(Double::ZERO, Double::ZERO, Double::ONE),
+        ],
+        offset: DoubleVector::ZERO,
+        rounding: 0.0,
+    };
+
+    /// 2⁻⁹⁶: a rotation is a dozen roundings of 2⁻¹⁰² each.
+    pub const STEP_ROUNDING: f64 = 1.0 / (1u128 << 96) as f64;
+
+    /// The map of all `steps`, in order.
+    ///
+    /// Fails with `zero-scale` when they flatten space, and with `not-a-number` when a number is
+    /// not finite or becomes so.
+    pub fn from_steps(steps: &[Step]) -> Result<Self, Fault> {
+        // `inverse` nests; an explicit stack holds what is under way.
+        let mut waiting = Vec::new();
+        let (mut map, mut rest) = (Self::IDENTITY, steps.iter());
+        loop {
+            match rest.next() {
+                Some(Step::InverseOf(inner)) => {
+                    waiting.push((map, rest));
+                    (map, rest) = (Self::IDENTITY, inner.iter());
+                }
+                Some(step) => map = map.then(step)?,
+                None => {
+                    let inverse = map.checked()?;
+                    let Some((outer, outer_rest)) = waiting.pop() else { return Ok(map) };
+                    (map, rest) = (inverse.after(&outer), outer_rest);
+                }
+            }
+        }
+    }
+
+    /// This map, then one step other than `InverseOf`.
+    fn then(mut self, step: &Step) -> Result<Self, Fault> {
+        match step {
+            Step::Translate(by) => self.offset = self.offset + DoubleVector::from(*by),
+            Step::Scale(by) => {
+                if by.to_array().contains(&0.0) {
+                    return Err(Fault::flat("a scale factor is 0"));
+                }
+                for axis in 0..3 {
+                    self.scale_row(axis, by[axis]);
+                }
+            }
+            Step::Rotate(degrees) => {
+                self.turn(1, 2, degrees.x);
+                self.turn(2, 0, degrees.y);
+                self.turn(0, 1, degrees.z);
+            }
+            Step::Matrix([x, y, z, offset]) => {
+                let [x, y, z, offset] = [x, y, z, offset].map(|v| DoubleVector::from(*v));
+                let columns = [x, y, z].map(DoubleVector::components);
+                let row = |i: usize| DoubleVector::new(columns[0][i], columns[1][i], columns[2][i]);
+                let matrix =
+                    Self { rows: [row(0), row(1), row(2)], offset, rounding: Self::STEP_ROUNDING };
+                self = matrix.after(&self);
+            }
+            // `from_steps` opens these.
+            Step::InverseOf(steps) => self = Self::from_steps(steps)?.checked()?.after(&self),
+        }
+        Ok(self)
+    }
+
+    fn scale_row(&mut self, axis: usize, factor: f64) {
+        let factor = Double::from(factor);
+        self.rows[axis] = self.rows[axis] * factor;
+        let mut offset = self.offset.components();
+        offset[axis] = offset[axis] * factor;
+        self.offset = DoubleVector::new(offset[0], offset[1], offset[2]);
+        self.rounding += Self::STEP_ROUNDING;
+    }
+
+    /// Turns axis `a` toward axis `b`.
+    fn turn(&mut self, a: usize, b: usize, degrees: f64) {
+        if degrees == 0.0 {
+            return;
+        }
+        let (sine, cosine) = sin_cos_degrees(degrees);
+        let (row_a, row_b) = (self.rows[a], self.rows[b]);
+        self.rows[a] = row_a * cosine - row_b * sine;
+        self.rows[b] = row_a * sine + row_b * cosine;
+        let mut offset = self.offset.components();
+        let (offset_a, offset_b) = (offset[a], offset[b]);
+        offset[a] = offset_a * cosine - offset_b * sine;
+        offset[b] = offset_a * sine + offset_b * cosine;
+        self.offset = DoubleVector::new(offset[0], offset[1], offset[2]);
+        self.rounding += Self::STEP_ROUNDING;
+    }
+
+    /// The map that first does `inner`, then this one.
+    pub fn after(&self, inner: &Self) -> Self {
+        let columns = inner.columns();
+        let row = |row: DoubleVector| {
+            DoubleVector::new(row.dot(columns[0]), row.dot(columns[1]), row.dot(columns[2]))
+        };
+        Self {
+            rows: self.rows.map(row),
+            offset: self.point(inner.offset),
+            rounding: self.rounding + inner.rounding + Self::STEP_ROUNDING,
+        }
+    }
+
+    pub fn is_identity(&self) -> bool {
+        self.rows == Self::IDENTITY.rows && self.offset == DoubleVector::ZERO
+    }
+
+    pub fn point(&self, p: DoubleVector) -> DoubleVector {
+        self.direction(p) + self.offset
+    }
+
+    pub fn direction(&self, d: DoubleVector) -> DoubleVector {
+        DoubleVector::new(self.rows[0].dot(d), self.rows[1].dot(d), self.rows[2].dot(d))
+    }
+
+    pub fn rows(&self) -> [DoubleVector; 3] {
+        self.rows
+    }
+
+    pub fn offset(&self) -> DoubleVector {
+        self.offset
+    }
+
+    fn columns(&self) -> [DoubleVector; 3] {
+        let [x, y, z] = self.rows;
+        [
+            DoubleVector::new(x.x, y.x, z.x),
+            DoubleVector::new(x.y, y.y, z.y),
+            DoubleVector::new(x.z, y.z, z.z),
+        ]
+    }
+
+    /// Relative differences below this are rounding.
+    pub fn bound(&self) -> f64 {
+        16.0 * (self.rounding + Self::STEP_ROUNDING)
+    }
+
+    /// The largest number of the linear part, as a power of two.
+    fn size(&self) -> f64 {
+        power_of_two_near(self.rows.iter().map(|row| row.largest()).fold(0.0, f64::max))
+    }
+
+    /// `None` when the map flattens space: when its determinant is zero within the map's bound.
+    pub fn cofactors(&self) -> Option<Cofactors> {
+        // Brought near 1 first, so that the determinant of a huge or tiny map is a number.
+        let size = self.size();
+        let near_one = |v: DoubleVector| v.map(|c| c.times_power_of_two(1.0 / size));
+        let [x, y, z] = self.columns().map(near_one);
+        let determinant = x.dot(y.cross(z));
+        // What the determinant would be if nothing in it cancelled.
+        let [a, b, c] = [x, y, z].map(|v| v.round().abs());
+        let uncancelled = a.x * (b.y * c.z + b.z * c.y)
+            + a.y * (b.z * c.x + b.x * c.z)
+            + a.z * (b.x * c.y + b.y * c.x);
+        if !(determinant.abs().round() > self.bound() * uncancelled) {
+            return None;
+        }
+        let rows = [y.cross(z), z.cross(x), x.cross(y)];
+        Some(Cofactors { rows, determinant: determinant.times_power_of_two(size) })
+    }
+
+    /// The inverse, or why there is none.
+    pub fn checked(&self) -> Result<Self, Fault> {
+        if !(self.rows.iter().all(|row| row.is_finite()) && self.offset.is_finite()) {
+            return Err(Fault::not_finite("this transform"));
+        }
+        let Cofactors { rows, determinant } =
+            self.cofactors().ok_or(Fault::flat("this transform flattens space"))?;
+        let rows = rows.map(|row| row.map(|c| c / determinant));
+        let linear = Self { rows, offset: DoubleVector::ZERO, rounding: self.bound() };
+        Ok(Self { offset: -linear.direction(self.offset), ..linear })
+    }
+
+    /// The factor by which lengths grow, if it is the same in all directions: when the rows are as
+    /// long as each other and at right angles, within the map's bound (which is far below `f64`).
+    pub fn uniform_scale(&self) -> Option<Double> {
+        let [x, y, z] = self.rows;
+        let length = x.length();
+        let [x, y, z] = [x, y, z].map(|row| row.map(|c| c / length));
+        let small = |v: Double| v.abs().round() <= self.bound();
+        let same = small(y.length() - Double::ONE) && small(z.length() - Double::ONE);
+        let square = small(x.dot(y)) && small(y.dot(z)) && small(z.dot(x));
+        (same && square).then_some(length)
+    }
+
+    /// The linear part times `factor`, each number rounded once.
+    pub fn matrix(&self, factor: Double) -> Matrix {
+        let [x, y, z] = self.columns().map(|column| (column * factor).round());
+        Matrix::from_cols(x, y, z)
+    }
+}
+
+/// Each transform of the Scene, spent once.
+pub struct Transforms<'s> {
+    steps: &'s [Vec<Step>],
+    spent: Vec<Option<Result<Affine, Fault>>>,
+}
+
+impl<'s> Transforms<'s> {
+    pub fn new(steps: &'s [Vec<Step>]) -> Self {
+        Self { steps, spent: vec![None; steps.len()] }
+    }
+
+    pub fn get(&mut self, id: TransformId) -> Result<Affine, Fault> {
+        let steps = &self.steps[id.index()];
+        self.spent[id.index()].get_or_insert_with(|| Affine::from_steps(steps)).clone()
+    }
+
+    /// All of `ids`, in order.
+    pub fn product(&mut self, ids: &[TransformId]) -> Result<Affine, Fault> {
+        ids.iter().try_fold(Affine::IDENTITY, |map, &id| Ok(self.get(id)?.after(&map)))
+    }
+}
+
+impl Fault {
+    fn flat(message: &str) -> Self {
+        Self::new(Code::ZeroScale, message)
+            .label("no volume is left after this")
+            .help("every factor must be other than 0; 1 leaves a direction as it is")
+    }
+}
+
+/// A vector of `f64`, exactly.
+pub fn exact(v: Vector) -> DoubleVector {
+    DoubleVector::from(v)
+}
+
+impl Affine {
+    /// The linear part without the rotation that comes first in it, which no sphere about the
+    /// origin can tell: the symmetric positive matrix P of M = P·Q, and its inverse. `None` where
+    /// the map flattens space.
+    ///
+    /// Newton's iteration X ← ½(X + X⁻ᵀ) leads from M to Q, quadratically once near; it is exact
+    /// from the start where each row and column has but one number.
+    /// **Source:** Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 7 (1986).
+    pub fn stretch(&self) -> Option<(Self, Self)> {
+        let turn = if self.is_monomial() {
+            let sign = |c: Double| match c.round() {
+                c if c > 0.0 => Double::ONE,
+                c if c < 0.0 => -Double::ONE,
+                _ => Double::ZERO,
+            };
+            self.rows.map(|row| row.map(sign))
+        } else {
+            self.nearest_rotation()?
+        };
+        let inverse = self.checked().ok()?;
+        let stretch = self.rows.map(|row| {
+            let [x, y, z] = turn.map(|axis| row.dot(axis));
+            DoubleVector::new(x, y, z)
+        });
+        let columns = inverse.columns();
+        let unstretch = turn.map(|row| {
+            let [x, y, z] = columns.map(|column| row.dot(column));
+            DoubleVector::new(x, y, z)
+        });
+        let symmetric = |rows: [DoubleVector; 3]| {
+            let map = Self { rows, offset: DoubleVector::ZERO, rounding: self.bound() };
+            let half = Double::from(0.5);
+            let [x, y, z] = map.columns();
+            Self { rows: [(rows[0] + x) * half, (rows[1] + y) * half, (rows[2] + z) * half], ..map }
+        };
+        Some((symmetric(stretch), symmetric(unstretch)))
+    }
+
+    /// The rows of the rotation (or mirror) nearest to the linear part.
+    fn nearest_rotation(&self) -> Option<[DoubleVector; 3]> {
+        let half = Double::from(0.5);
+        let mut near = *self;
+        for _ in 0..100 {
+            let Cofactors { rows, determinant } = near.cofactors()?;
+            // The columns of the inverse transpose.
+            let [x, y, z] = rows.map(|row| row.map(|c| c / determinant));
+            let opposite = Self { rows: [x, y, z], ..near }.columns();
+            // A power of two that brings the two to one size makes the first steps quick.
+            let balance = (opposite.iter().map(|r| r.largest()).fold(0.0, f64::max)
+                / near.rows.iter().map(|r| r.largest()).fold(0.0, f64::max))
+            .sqrt();
+            let balance =
+                if (0.25..4.0).contains(&balance) { 1.0 } else { power_of_two_near(balance) };
+            let mut step: f64 = 0.0;
+            for (row, other) in near.rows.iter_mut().zip(opposite) {
+                let grown = row.map(|c| c.times_power_of_two(balance));
+                let mean = (grown + other.map(|c| c.times_power_of_two(1.0 / balance))) * half;
+                step = step.max((mean - *row).largest());
+                *row = mean;
+            }
+            if step < Self::STEP_ROUNDING {
+                break;
+            }
+        }
+        Some(near.rows)
+    }
+
+    /// Whether each row and each column has but one number that is not zero.
+    fn is_monomial(&self) -> bool {
+        let lone = |v: &DoubleVector| v.components().iter().filter(|c| !c.is_zero()).count() == 1;
+        self.rows.iter().all(lone) && self.columns().iter().all(lone)
+    }
+}

@@ -1,0 +1,158 @@
+//! The whole road in one place: what the command line, the tests and any other program call.
+//!
+//! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
+//! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::evaluate::{EvaluateOptions, Limits, evaluate};
+use crate::lower::lower;
+use crate::scene::{Dialect, Scene};
+use crate::source::{FileId, Files, Source, Sources, Span, decode};
+use crate::syntax::ast::Ast;
+use crate::syntax::{ParseOptions, parse};
+use crate::world::{Origins, World};
+
+/// What the caller may choose about a scene.
+#[derive(Debug, Clone)]
+pub struct Options {
+    pub dialect: Dialect,
+    /// Keep lints.
+    pub lints: bool,
+    /// The picture's size, as the scene may ask for it.
+    pub width: u32,
+    pub height: u32,
+    /// Names declared before the scene starts.
+    pub declares: Vec<(String, f64)>,
+    pub clock: f64,
+    pub frame_number: f64,
+    pub nesting_limit: u32,
+    pub limits: Limits,
+}
+
+impl Options {
+    /// Brackets may be nested this deep.
+    pub const NESTING_LIMIT: u32 = 10_000;
+
+    /// The defaults of a dialect: lints on for `.scene`, 640×480.
+    pub fn new(dialect: Dialect) -> Self {
+        Self {
+            dialect,
+            lints: dialect == Dialect::Scene,
+            width: 640,
+            height: 480,
+            declares: Vec::new(),
+            clock: 0.0,
+            frame_number: 0.0,
+            nesting_limit: Self::NESTING_LIMIT,
+            limits: Limits::default(),
+        }
+    }
+}
+
+/// The dialect of a main file by its name: POV-Ray's for `.pov` and `.inc`, else ours.
+pub fn dialect(name: &str) -> Dialect {
+    let lower = name.to_lowercase();
+    match lower.ends_with(".pov") || lower.ends_with(".inc") {
+        true => Dialect::Pov,
+        false => Dialect::Scene,
+    }
+}
+
+/// A scene on its way, with the texts and the messages so far.
+pub struct Road<'a> {
+    files: &'a dyn Files,
+    options: Options,
+    pub sources: Sources,
+    pub diagnostics: Diagnostics,
+}
+
+impl<'a> Road<'a> {
+    pub fn new(files: &'a dyn Files, options: Options) -> Self {
+        let diagnostics = Diagnostics::new(options.lints);
+        Self { files, options, sources: Sources::default(), diagnostics }
+    }
+
+    /// Takes in the main file as it lies on disk.
+    pub fn read(&mut self, name: &str, bytes: Vec<u8>) -> FileId {
+        let wide = matches!(bytes.get(..2), Some([0xff, 0xfe] | [0xfe, 0xff]));
+        // The first byte that is not UTF-8, and how many bytes it and those before it become.
+        let wrong = std::str::from_utf8(&bytes).err().map(|error| {
+            let before = &bytes[..error.valid_up_to()];
+            error.valid_up_to() + before.iter().filter(|byte| !byte.is_ascii()).count()
+        });
+        let (text, _) = decode(bytes);
+        let file = self.sources.add(Source::new(name, text));
+        if let Some(at) = wrong {
+            let end =
+                self.sources.get(file).text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
+            let help = match wide {
+                true => "it looks like UTF-16: save it as UTF-8",
+                false => "save it as UTF-8",
+            };
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::BadEncoding,
+                    "the file is not UTF-8, and was read as Latin-1",
+                )
+                .at(Span::new(file, at, end), "the first byte that is not UTF-8")
+                .help(help),
+            );
+        }
+        file
+    }
+
+    pub fn parse(&mut self, file: FileId) -> Ast {
+        let Options { dialect, nesting_limit, .. } = self.options;
+        let options = ParseOptions { dialect, nesting_limit: nesting_limit as usize };
+        parse(self.sources.get(file), file, &options, &mut self.diagnostics)
+    }
+
+    pub fn evaluate(&mut self, ast: &Ast) -> Scene {
+        let options = EvaluateOptions {
+            dialect: self.options.dialect,
+            width: self.options.width,
+            height: self.options.height,
+            declares: self.options.declares.clone(),
+            clock: self.options.clock,
+            frame_number: self.options.frame_number,
+            limits: self.options.limits,
+        };
+        evaluate(ast, &mut self.sources, self.files, &options, &mut self.diagnostics)
+    }
+
+    pub fn lower(&mut self, scene: Scene) -> (World, Origins) {
+        lower(scene, &mut self.diagnostics)
+    }
+
+    /// From the main file to its World.
+    pub fn compile(&mut self, name: &str, bytes: Vec<u8>) -> (World, Origins) {
+        let file = self.read(name, bytes);
+        let ast = self.parse(file);
+        let scene = self.evaluate(&ast);
+        self.lower(scene)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::NoFiles;
+
+    #[test]
+    fn a_file_that_is_not_utf_8_is_read_and_its_first_foreign_byte_named() {
+        let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+        let file = road.read("a.scene", b"// \xc3\xa9 \xe9\n".to_vec());
+        let warning = road.diagnostics.iter().next().expect("a message");
+        assert_eq!(warning.code, Code::BadEncoding);
+        let span = warning.primary().expect("a place").span;
+        assert_eq!(road.sources.text(span), "é");
+        assert_eq!(road.sources.get(file).position(span.start as usize).column, 7);
+    }
+
+    #[test]
+    fn the_extension_chooses_the_dialect() {
+        assert_eq!(dialect("a.POV"), Dialect::Pov);
+        assert_eq!(dialect("a.scene"), Dialect::Scene);
+        assert_eq!(dialect("pov"), Dialect::Scene);
+    }
+}

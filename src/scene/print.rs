@@ -1,0 +1,264 @@
+//! A Scene for people to read: `lucarne show --stage scene`.
+//!
+//! **Invariant:** objects as written, children indented under their parents, modifiers in written
+//! order. A shared child is shown in full once and named after that, so the text is never longer than the
+//! Scene by more than its indentation. No call stack: the depth of nesting does not matter.
+
+use std::fmt::{self, Write};
+
+use super::{
+    CameraItemKind, CameraKind, Finish, LightKind, LightSource, Modifier, ModifierKind, ObjectId,
+    ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
+};
+use crate::math::transform::Step;
+use crate::pattern::Pattern;
+use crate::source::Sources;
+use crate::world::print::{color, rgb, vector};
+
+/// Deeper levels are not indented further.
+const DEEPEST_INDENT: usize = 20;
+
+/// The Scene, a word a line.
+pub fn dump(scene: &Scene, sources: &Sources) -> String {
+    let mut out = String::new();
+    let mut printer = Printer { scene, sources, seen: vec![false; scene.objects.len()] };
+    // Writing to a string cannot fail.
+    let _ = printer.write(&mut out);
+    out
+}
+
+struct Printer<'a> {
+    scene: &'a Scene,
+    sources: &'a Sources,
+    seen: Vec<bool>,
+}
+
+impl Printer<'_> {
+    fn write(&mut self, out: &mut String) -> fmt::Result {
+        let settings = &self.scene.settings;
+        writeln!(out, "global_settings")?;
+        writeln!(out, "  ambient_light {}", rgb(settings.ambient_light))?;
+        writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
+        writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
+        writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
+        self.cameras(out)?;
+        if let Some(background) = &self.scene.background {
+            writeln!(out, "background {}", color(background.color))?;
+        }
+        if let Some(sky) = &self.scene.sky_sphere {
+            writeln!(out, "sky_sphere")?;
+            for &id in &sky.pigments {
+                self.pigment(out, id, "  ")?;
+            }
+            for &id in &sky.transforms {
+                self.transform(out, id, "  ")?;
+            }
+        }
+        for root in &self.scene.roots {
+            self.object(out, root.object)?;
+        }
+        let mut defaults: Vec<TextureId> =
+            self.scene.roots.iter().map(|root| root.default_texture).collect();
+        defaults.sort();
+        defaults.dedup();
+        for id in defaults {
+            writeln!(out, "default texture {}", id.0)?;
+            self.texture(out, id, "  ")?;
+        }
+        Ok(())
+    }
+
+    fn cameras(&self, out: &mut String) -> fmt::Result {
+        for camera in &self.scene.cameras {
+            let kind = match camera.kind {
+                CameraKind::Perspective => "perspective",
+                CameraKind::Orthographic => "orthographic",
+            };
+            writeln!(out, "camera {kind}  ({})", self.sources.place(camera.site.span))?;
+            for item in &camera.items {
+                match item.kind {
+                    CameraItemKind::Location(v) => writeln!(out, "  location {}", vector(v))?,
+                    CameraItemKind::LookAt(v) => writeln!(out, "  look_at {}", vector(v))?,
+                    CameraItemKind::Sky(v) => writeln!(out, "  sky {}", vector(v))?,
+                    CameraItemKind::Up(v) => writeln!(out, "  up {}", vector(v))?,
+                    CameraItemKind::Right(v) => writeln!(out, "  right {}", vector(v))?,
+                    CameraItemKind::Direction(v) => writeln!(out, "  direction {}", vector(v))?,
+                    CameraItemKind::Angle(degrees) => writeln!(out, "  angle {degrees}")?,
+                    CameraItemKind::Shift { x, y } => writeln!(out, "  shift <{x}, {y}>")?,
+                    CameraItemKind::Transform(id) => self.transform(out, id, "  ")?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// An object and all that it holds, with an explicit stack.
+    fn object(&mut self, out: &mut String, root: ObjectId) -> fmt::Result {
+        enum Task {
+            Open(ObjectId, usize),
+            Modifiers(ObjectId, usize),
+        }
+        let mut stack = vec![Task::Open(root, 0)];
+        while let Some(task) = stack.pop() {
+            match task {
+                Task::Open(id, depth) => {
+                    let object = &self.scene.objects[id.index()];
+                    let indent = "  ".repeat(depth.min(DEEPEST_INDENT));
+                    write!(out, "{indent}{} ", id.0)?;
+                    if std::mem::replace(&mut self.seen[id.index()], true) {
+                        writeln!(out, "again")?;
+                        continue;
+                    }
+                    let place = self.sources.place(object.site.span);
+                    stack.push(Task::Modifiers(id, depth + 1));
+                    match &object.kind {
+                        ObjectKind::Sphere { centre, radius } => {
+                            write!(out, "sphere {} {radius}", vector(*centre))?;
+                        }
+                        ObjectKind::Plane { normal, distance } => {
+                            write!(out, "plane {} {distance}", vector(*normal))?;
+                        }
+                        ObjectKind::Box { corners: [a, b] } => {
+                            write!(out, "box {} {}", vector(*a), vector(*b))?;
+                        }
+                        ObjectKind::Union(children) => {
+                            write!(out, "union")?;
+                            let children = children.iter().rev();
+                            stack.extend(children.map(|&child| Task::Open(child, depth + 1)));
+                        }
+                        ObjectKind::Use(child) => {
+                            write!(out, "object")?;
+                            stack.push(Task::Open(*child, depth + 1));
+                        }
+                        ObjectKind::LightSource(source) => light(out, source)?,
+                    }
+                    writeln!(out, "  ({place})")?;
+                }
+                Task::Modifiers(id, depth) => {
+                    let indent = "  ".repeat(depth.min(DEEPEST_INDENT));
+                    for modifier in &self.scene.objects[id.index()].modifiers {
+                        self.modifier(out, modifier, &indent)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn modifier(&self, out: &mut String, modifier: &Modifier, indent: &str) -> fmt::Result {
+        match modifier.kind {
+            ModifierKind::Transform(id) => self.transform(out, id, indent),
+            ModifierKind::Texture(id) => {
+                writeln!(out, "{indent}texture {}", id.0)?;
+                self.texture(out, id, &format!("{indent}  "))
+            }
+            ModifierKind::Pigment(id) => self.pigment(out, id, indent),
+            ModifierKind::Finish(id) => self.finish(out, &self.scene.finishes[id.index()], indent),
+            ModifierKind::NoShadow => writeln!(out, "{indent}no_shadow"),
+            ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
+        }
+    }
+
+    fn texture(&self, out: &mut String, id: TextureId, indent: &str) -> fmt::Result {
+        let texture = &self.scene.textures[id.index()];
+        self.pigment(out, texture.pigment, indent)?;
+        self.finish(out, &self.scene.finishes[texture.finish.index()], indent)?;
+        for &id in &texture.transforms {
+            self.transform(out, id, indent)?;
+        }
+        Ok(())
+    }
+
+    fn pigment(&self, out: &mut String, id: PigmentId, indent: &str) -> fmt::Result {
+        let pigment = &self.scene.pigments[id.index()];
+        match &pigment.kind {
+            PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", color(*c))?,
+            PigmentKind::Patterned { pattern, map } => {
+                let name = match pattern {
+                    Pattern::Checker => "checker".to_owned(),
+                    Pattern::Gradient { direction } => format!("gradient {}", vector(*direction)),
+                };
+                writeln!(out, "{indent}pigment {name}")?;
+                for (value, c) in &map.0 {
+                    writeln!(out, "{indent}  {value} {}", color(*c))?;
+                }
+            }
+        }
+        for &id in &pigment.transforms {
+            self.transform(out, id, &format!("{indent}  "))?;
+        }
+        Ok(())
+    }
+
+    fn finish(&self, out: &mut String, finish: &Finish, indent: &str) -> fmt::Result {
+        match finish {
+            Finish::Seed { kd, ks, phong_exponent } => {
+                writeln!(out, "{indent}finish kd {kd} ks {ks} phong_exponent {phong_exponent}")
+            }
+            Finish::Classic(f) => {
+                write!(out, "{indent}finish ambient {}", rgb(f.ambient))?;
+                if !f.emission.is_black() {
+                    write!(out, " emission {}", rgb(f.emission))?;
+                }
+                write!(out, " diffuse {} brilliance {}", f.diffuse, f.brilliance)?;
+                write!(out, " phong {} phong_size {}", f.phong, f.phong_size)?;
+                write!(out, " specular {} roughness {}", f.specular, f.roughness)?;
+                write!(out, " metallic {}", f.metallic)?;
+                if let Some(r) = &f.reflection {
+                    let (low, high) = (rgb(r.minimum), rgb(r.maximum));
+                    write!(out, " reflection {low} to {high} falloff {}", r.falloff)?;
+                    write!(out, " exponent {} metallic {}", r.exponent, r.metallic)?;
+                }
+                writeln!(out)
+            }
+        }
+    }
+
+    fn transform(&self, out: &mut String, id: TransformId, indent: &str) -> fmt::Result {
+        enum Task<'a> {
+            Step(&'a Step, usize),
+            Text(&'static str, usize),
+        }
+        let steps = &self.scene.transforms[id.index()];
+        let mut stack: Vec<Task> = steps.iter().rev().map(|step| Task::Step(step, 0)).collect();
+        while let Some(task) = stack.pop() {
+            let (Task::Step(_, depth) | Task::Text(_, depth)) = task;
+            write!(out, "{indent}{}", "  ".repeat(depth.min(DEEPEST_INDENT)))?;
+            match task {
+                Task::Text(text, _) => writeln!(out, "{text}")?,
+                Task::Step(Step::Translate(v), _) => writeln!(out, "translate {}", vector(*v))?,
+                Task::Step(Step::Scale(v), _) => writeln!(out, "scale {}", vector(*v))?,
+                Task::Step(Step::Rotate(v), _) => writeln!(out, "rotate {}", vector(*v))?,
+                Task::Step(Step::Matrix(rows), _) => {
+                    let numbers: Vec<String> =
+                        rows.iter().flat_map(|v| [v.x, v.y, v.z]).map(|n| n.to_string()).collect();
+                    writeln!(out, "matrix <{}>", numbers.join(", "))?;
+                }
+                Task::Step(Step::InverseOf(inner), _) => {
+                    writeln!(out, "inverse of")?;
+                    if inner.is_empty() {
+                        stack.push(Task::Text("nothing", depth + 1));
+                    }
+                    stack.extend(inner.iter().rev().map(|step| Task::Step(step, depth + 1)));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn light(out: &mut String, source: &LightSource) -> fmt::Result {
+    write!(out, "light_source ")?;
+    match source.kind {
+        LightKind::Point { location } => write!(out, "{}", vector(location))?,
+        LightKind::Parallel { location, point_at } => {
+            write!(out, "{} parallel point_at {}", vector(location), vector(point_at))?;
+        }
+        LightKind::Direction { to_light } => write!(out, "direction {}", vector(to_light))?,
+    }
+    write!(out, " color {}", rgb(source.color))?;
+    if source.shadowless {
+        write!(out, " shadowless")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! Finds what is not code: comments, which become blanks, and strings without an end.
+//!
+//! **In:** a text. **Out:** a copy of the same length (one byte longer at most) in which comments are
+//! spaces and every string is closed, and the spans of the comments.
+//! **Invariant:** comments nest, to any depth; a byte outside comments keeps its place and value.
+
+use std::borrow::Cow;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, Span};
+
+/// The text without its comments.
+pub(super) struct Quiet<'a> {
+    pub text: Cow<'a, str>,
+    pub comments: Vec<Span>,
+}
+
+/// Replaces comments by spaces and closes a string that has no end.
+pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnostics) -> Quiet<'a> {
+    let scan = Scan::of(text, false);
+    let (scan, unclosed) = match scan.unclosed_string {
+        // An odd quote turns the rest of the text inside out. Take strings to end with their line
+        // this time, and blame the first that does not.
+        Some(last) => {
+            let again = Scan::of(text, true);
+            let first = again.unclosed_string.unwrap_or(last);
+            (again, Some(first))
+        }
+        None => (scan, None),
+    };
+    if let Some(quote) = unclosed {
+        let end = text[quote..].find(['\n', '\r']).map_or(text.len(), |line| quote + line);
+        diagnostics.push(
+            Diagnostic::new(Code::UnclosedString, "this string is never closed")
+                .at(
+                    Span::new(file, quote, quote + 1),
+                    "opened here, and no `\"` follows on this line",
+                )
+                .fix(Span::new(file, end, end), "\""),
+        );
+    }
+    if let Some(open) = scan.unclosed_comment {
+        diagnostics.push(
+            Diagnostic::new(Code::UnclosedComment, "this comment is never closed")
+                .at(Span::new(file, open, open + 2), "opened here, and its `*/` is missing")
+                .help("comments nest: each `/*` needs its own `*/`"),
+        );
+    }
+    let comments = scan.comments.iter().map(|&(start, end)| Span::new(file, start, end)).collect();
+    if scan.comments.is_empty() && scan.closers.is_empty() {
+        return Quiet { text: Cow::Borrowed(text), comments };
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    for &(start, end) in &scan.comments {
+        // Line breaks stay, so that a lone `#` before a comment still ends its line.
+        for byte in &mut bytes[start..end] {
+            if !matches!(byte, b'\n' | b'\r') {
+                *byte = b' ';
+            }
+        }
+    }
+    for &place in &scan.closers {
+        match bytes.get_mut(place) {
+            Some(byte) => *byte = b'"',
+            None => bytes.push(b'"'),
+        }
+    }
+    // Only whole comments and line breaks were replaced, by single bytes: still UTF-8.
+    Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
+}
+
+#[derive(Default)]
+struct Scan {
+    comments: Vec<(usize, usize)>,
+    unclosed_comment: Option<usize>,
+    /// The first opening quote without an end.
+    unclosed_string: Option<usize>,
+    /// Where a closing quote has to stand in for a line break, or for the end of the text.
+    closers: Vec<usize>,
+}
+
+impl Scan {
+    fn of(text: &str, strings_end_with_lines: bool) -> Self {
+        let bytes = text.as_bytes();
+        let mut scan = Self::default();
+        let mut at = 0;
+        while at < bytes.len() {
+            match (bytes[at], bytes.get(at + 1)) {
+                (b'"', _) => at = scan.string(bytes, at, strings_end_with_lines),
+                (b'/', Some(b'/')) => {
+                    let line = bytes[at..].iter().position(|b| matches!(b, b'\n' | b'\r'));
+                    let end = line.map_or(bytes.len(), |line| at + line);
+                    scan.comments.push((at, end));
+                    at = end;
+                }
+                (b'/', Some(b'*')) => at = scan.block_comment(bytes, at),
+                _ => at += 1,
+            }
+        }
+        scan
+    }
+
+    /// From the quote at `start` to behind its end.
+    fn string(&mut self, bytes: &[u8], start: usize, ends_with_line: bool) -> usize {
+        let mut at = start + 1;
+        while at < bytes.len() {
+            match (bytes[at], bytes.get(at + 1)) {
+                (b'"', _) => return at + 1,
+                (b'\n' | b'\r', _) if ends_with_line => break,
+                // A backslash before the end would escape the quote that closes it.
+                (b'\\', Some(b'\n' | b'\r')) if ends_with_line => break,
+                (b'\\', None) => break,
+                (b'\\', _) => at += 2,
+                _ => at += 1,
+            }
+        }
+        self.unclosed_string.get_or_insert(start);
+        self.closers.push(at);
+        at + 1
+    }
+
+    /// From the `/*` at `start` to behind its `*/`.
+    fn block_comment(&mut self, bytes: &[u8], start: usize) -> usize {
+        let mut at = start + 2;
+        let mut depth = 1;
+        while depth > 0 && at < bytes.len() {
+            match (bytes[at], bytes.get(at + 1)) {
+                (b'*', Some(b'/')) => (depth, at) = (depth - 1, at + 2),
+                (b'/', Some(b'*')) => (depth, at) = (depth + 1, at + 2),
+                _ => at += 1,
+            }
+        }
+        if depth > 0 {
+            self.unclosed_comment = Some(start);
+        }
+        self.comments.push((start, at));
+        at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text_of(text: &str) -> (String, Vec<Code>) {
+        let mut diagnostics = Diagnostics::new(true);
+        let quiet = quiet(text, FileId(0), &mut diagnostics).text.into_owned();
+        (quiet, diagnostics.iter().map(|d| d.code).collect())
+    }
+
+    #[test]
+    fn comments_nest_and_become_blanks() {
+        assert_eq!(text_of("a/*b/*c*/d*/e//f\ng"), ("a           e   \ng".to_owned(), vec![]));
+        assert_eq!(text_of("\"/*\" é // é\n").0, "\"/*\" é      \n");
+    }
+
+    #[test]
+    fn comments_nested_very_deep_are_only_comments() {
+        let text = "/*".repeat(50_000) + &"*/".repeat(50_000) + "x";
+        assert_eq!(text_of(&text).0.trim(), "x");
+        assert_eq!(text_of(&"/*".repeat(50_000)).1, [Code::UnclosedComment]);
+    }
+
+    #[test]
+    fn an_unclosed_string_ends_with_its_line_and_is_told_once() {
+        let (text, codes) = text_of("#include \"a.inc\n#include \"b.inc\"\n");
+        assert_eq!(codes, [Code::UnclosedString]);
+        assert_eq!(text, "#include \"a.inc\"#include \"b.inc\"\n");
+        assert_eq!(text_of("\"a"), ("\"a\"".to_owned(), vec![Code::UnclosedString]));
+        assert_eq!(text_of("\"a\\"), ("\"a\"".to_owned(), vec![Code::UnclosedString]));
+    }
+
+    #[test]
+    fn a_string_may_hold_line_breaks_and_quotes() {
+        let text = "\"a\nb\" \"c\\\"d\"";
+        assert_eq!(text_of(text), (text.to_owned(), vec![]));
+    }
+}

@@ -1,0 +1,167 @@
+//! Builds expressions by precedence climbing on explicit stacks.
+//!
+//! **In:** operands and operators in written order, for the innermost open bracket. **Out:** nodes in
+//! [`Ast::expressions`](super::ast::Ast), children first.
+//! **Source:** POV-Ray 3.7 manual, section 3.3.1.5.3 "Operators"; that `&` and `|` bind alike, and
+//! that `?:` groups to the right, was tried on the program.
+
+use super::ast::{BinaryOperator, Expression, ExpressionId, ExpressionKind, UnaryOperator};
+use super::token::Mark;
+use crate::source::Span;
+
+/// Operands and operators of all expressions under way; each bracket works above its own base.
+#[derive(Default)]
+pub(super) struct Stacks {
+    pub operands: Vec<ExpressionId>,
+    pub operators: Vec<Operator>,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Operator {
+    pub kind: OperatorKind,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum OperatorKind {
+    Unary(UnaryOperator),
+    Binary(BinaryOperator),
+    /// `?`, its `:` still to come.
+    Question,
+    /// `? … :`, its last operand still to come.
+    Conditional,
+}
+
+/// How tightly an operator binds its neighbours; a higher rank is taken first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Conditional,
+    Logical,
+    Relational,
+    Sum,
+    Product,
+    Unary,
+}
+
+impl OperatorKind {
+    fn rank(self) -> Rank {
+        use BinaryOperator as B;
+        match self {
+            OperatorKind::Unary(_) => Rank::Unary,
+            OperatorKind::Binary(operator) => match operator {
+                B::Multiply | B::Divide => Rank::Product,
+                B::Add | B::Subtract => Rank::Sum,
+                B::Less
+                | B::LessOrEqual
+                | B::Equal
+                | B::NotEqual
+                | B::GreaterOrEqual
+                | B::Greater => Rank::Relational,
+                B::And | B::Or => Rank::Logical,
+            },
+            OperatorKind::Question | OperatorKind::Conditional => Rank::Conditional,
+        }
+    }
+}
+
+/// The operator between two operands that a mark stands for, and whether a sum may hold it.
+pub(super) fn binary(mark: Mark) -> Option<(BinaryOperator, bool)> {
+    use BinaryOperator as B;
+    Some(match mark {
+        Mark::Plus => (B::Add, true),
+        Mark::Minus => (B::Subtract, true),
+        Mark::Star => (B::Multiply, true),
+        Mark::Slash => (B::Divide, true),
+        Mark::Less => (B::Less, false),
+        Mark::LessOrEqual => (B::LessOrEqual, false),
+        Mark::Equal => (B::Equal, false),
+        Mark::NotEqual => (B::NotEqual, false),
+        Mark::GreaterOrEqual => (B::GreaterOrEqual, false),
+        Mark::Greater => (B::Greater, false),
+        Mark::And => (B::And, false),
+        Mark::Or => (B::Or, false),
+        Mark::Open(_)
+        | Mark::Close(_)
+        | Mark::Comma
+        | Mark::Semicolon
+        | Mark::Dot
+        | Mark::Not
+        | Mark::Question
+        | Mark::Colon => return None,
+    })
+}
+
+impl Stacks {
+    /// Takes in an operator that follows an operand: first everything before it that binds at least
+    /// as tightly becomes one operand.
+    pub fn operator(&mut self, base: usize, arena: &mut Vec<Expression>, operator: Operator) {
+        let rank = operator.kind.rank();
+        while let Some(top) = self.operators[base..].last() {
+            // `a ? b : c ? d : e` is `a ? b : (c ? d : e)`.
+            let before = top.kind.rank() > rank
+                || (top.kind.rank() == rank && rank != Rank::Conditional && rank != Rank::Unary);
+            if !before {
+                break;
+            }
+            self.reduce(arena);
+        }
+        self.operators.push(operator);
+    }
+
+    /// Takes in a `:`. False if no `?` waits for it.
+    pub fn colon(&mut self, base: usize, arena: &mut Vec<Expression>) -> bool {
+        let waits = |operator: &Operator| operator.kind == OperatorKind::Question;
+        let Some(question) = self.operators[base..].iter().rposition(waits) else {
+            return false;
+        };
+        while self.operators.len() > base + question + 1 {
+            self.reduce(arena);
+        }
+        self.operators[base + question].kind = OperatorKind::Conditional;
+        true
+    }
+
+    /// The `?` above `base` that still waits for its `:`.
+    pub fn open_question(&self, base: usize) -> Option<Span> {
+        let waits = |operator: &&Operator| operator.kind == OperatorKind::Question;
+        self.operators[base..].iter().rfind(waits).map(|operator| operator.span)
+    }
+
+    /// Makes one node of everything above `base` and takes it off. `None` if there is nothing.
+    pub fn finish(&mut self, base: usize, arena: &mut Vec<Expression>) -> Option<ExpressionId> {
+        while self.operators.len() > base {
+            self.reduce(arena);
+        }
+        self.operands.pop()
+    }
+
+    /// Applies the last operator to the last operands.
+    fn reduce(&mut self, arena: &mut Vec<Expression>) {
+        let Some(operator) = self.operators.pop() else { return };
+        let span = |id: ExpressionId| arena[id.0 as usize].span;
+        let Some(last) = self.operands.pop() else { return };
+        let node = match operator.kind {
+            OperatorKind::Unary(unary) => Expression {
+                kind: ExpressionKind::Unary(unary, last),
+                span: operator.span.to(span(last)),
+            },
+            OperatorKind::Binary(binary) => {
+                let Some(first) = self.operands.pop() else { return };
+                Expression {
+                    kind: ExpressionKind::Binary(binary, first, last),
+                    span: span(first).to(span(last)),
+                }
+            }
+            OperatorKind::Conditional | OperatorKind::Question => {
+                let Some(second) = self.operands.pop() else { return };
+                let Some(first) = self.operands.pop() else { return };
+                Expression {
+                    kind: ExpressionKind::Conditional(first, second, last),
+                    span: span(first).to(span(last)),
+                }
+            }
+        };
+        arena.push(node);
+        self.operands.push(ExpressionId(arena.len() as u32 - 1));
+    }
+}

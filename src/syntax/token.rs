@@ -1,0 +1,259 @@
+//! Turns a text into tokens: the only file that knows pest.
+//!
+//! **In:** a text without comments. **Out:** its tokens, in order, without blanks.
+//! **Invariant:** every byte that is not blank is in exactly one token.
+
+use pest::Parser;
+use pest_derive::Parser;
+
+use crate::vocabulary::Word;
+
+#[derive(Parser)]
+#[grammar = "../grammar/lucarne.pest"]
+struct Grammar;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Token {
+    pub kind: TokenKind,
+    pub start: u32,
+    pub end: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TokenKind {
+    Word(Word),
+    Name,
+    Number,
+    String,
+    /// Literals, each followed by a comma.
+    Numbers,
+    /// Vectors of literals, each followed by a comma.
+    Vectors,
+    Mark(Mark),
+    Directive(Head),
+    /// Stands in for the body of a macro whose brackets do not balance.
+    Raw,
+    /// A character without meaning, or a `#` without a word.
+    Stray,
+}
+
+/// Brackets, separators and operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    Open(Bracket),
+    Close(Bracket),
+    Comma,
+    Semicolon,
+    Dot,
+    Plus,
+    Minus,
+    Star,
+    Slash,
+    Not,
+    Less,
+    LessOrEqual,
+    Equal,
+    NotEqual,
+    GreaterOrEqual,
+    Greater,
+    And,
+    Or,
+    Question,
+    Colon,
+}
+
+/// The brackets that pair without knowing what stands between them (`<` does not).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bracket {
+    Brace,
+    Square,
+    Round,
+}
+
+impl Bracket {
+    pub fn opener(self) -> char {
+        match self {
+            Bracket::Brace => '{',
+            Bracket::Square => '[',
+            Bracket::Round => '(',
+        }
+    }
+
+    pub fn closer(self) -> char {
+        match self {
+            Bracket::Brace => '}',
+            Bracket::Square => ']',
+            Bracket::Round => ')',
+        }
+    }
+}
+
+macro_rules! heads {
+    ($($variant:ident $word:literal)*) => {
+        /// The word of a directive.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(super) enum Head { $($variant,)* Unknown }
+
+        impl Head {
+            pub const WORDS: &[&str] = &[$($word),*];
+
+            pub fn from_word(word: &str) -> Self {
+                match word { $($word => Head::$variant,)* _ => Head::Unknown }
+            }
+
+            pub fn word(self) -> &'static str {
+                match self { $(Head::$variant => $word,)* Head::Unknown => "" }
+            }
+        }
+    };
+}
+
+heads! {
+    Declare "declare" Local "local" Undef "undef"
+    If "if" Ifdef "ifdef" Ifndef "ifndef" Else "else" Elseif "elseif" End "end"
+    While "while" For "for" Switch "switch" Case "case" Range "range" Break "break"
+    Macro "macro" Include "include" Default "default" Version "version"
+    Debug "debug" Warning "warning" Error "error"
+    Fopen "fopen" Fclose "fclose" Read "read" Write "write"
+    Render "render" Statistics "statistics"
+}
+
+impl Head {
+    /// True for a directive that ends with its own `#end`.
+    pub fn opens(self) -> bool {
+        matches!(
+            self,
+            Head::If
+                | Head::Ifdef
+                | Head::Ifndef
+                | Head::While
+                | Head::For
+                | Head::Switch
+                | Head::Macro
+        )
+    }
+
+    /// True for one that starts another branch of a directive.
+    pub fn divides(self) -> bool {
+        matches!(self, Head::Else | Head::Elseif | Head::Case | Head::Range)
+    }
+}
+
+/// All tokens of a text.
+pub(super) fn tokens(text: &str) -> Vec<Token> {
+    // The grammar ends in `ANY`, so it takes every text.
+    let Some(file) = Grammar::parse(Rule::file, text).ok().and_then(|mut pairs| pairs.next())
+    else {
+        return Vec::new();
+    };
+    let mut tokens = Vec::with_capacity(text.len() / 5);
+    for pair in file.into_inner() {
+        let span = pair.as_span();
+        let (start, end) = (span.start(), span.end());
+        let token = span.as_str();
+        let kind = match pair.as_rule() {
+            Rule::word => match Word::from_name(token) {
+                Some(word) => TokenKind::Word(word),
+                None => TokenKind::Name,
+            },
+            Rule::number => TokenKind::Number,
+            Rule::numbers => TokenKind::Numbers,
+            Rule::vectors => TokenKind::Vectors,
+            Rule::mark => mark(token),
+            Rule::directive => {
+                TokenKind::Directive(Head::from_word(token[1..].trim_start_matches([' ', '\t'])))
+            }
+            Rule::string => TokenKind::String,
+            Rule::stray => TokenKind::Stray,
+            Rule::EOI => break,
+            Rule::file
+            | Rule::blank
+            | Rule::token
+            | Rule::letter
+            | Rule::digit
+            | Rule::literal
+            | Rule::exponent
+            | Rule::triple
+            | Rule::signed
+            | Rule::comma => continue,
+        };
+        tokens.push(Token { kind, start: start as u32, end: end as u32 });
+    }
+    tokens
+}
+
+fn mark(text: &str) -> TokenKind {
+    TokenKind::Mark(match text {
+        "{" => Mark::Open(Bracket::Brace),
+        "}" => Mark::Close(Bracket::Brace),
+        "[" => Mark::Open(Bracket::Square),
+        "]" => Mark::Close(Bracket::Square),
+        "(" => Mark::Open(Bracket::Round),
+        ")" => Mark::Close(Bracket::Round),
+        "," => Mark::Comma,
+        ";" => Mark::Semicolon,
+        "." => Mark::Dot,
+        "+" => Mark::Plus,
+        "-" => Mark::Minus,
+        "*" => Mark::Star,
+        "/" => Mark::Slash,
+        "!" => Mark::Not,
+        "<" => Mark::Less,
+        "<=" => Mark::LessOrEqual,
+        "=" => Mark::Equal,
+        "!=" => Mark::NotEqual,
+        ">=" => Mark::GreaterOrEqual,
+        ">" => Mark::Greater,
+        "&" => Mark::And,
+        "|" => Mark::Or,
+        "?" => Mark::Question,
+        ":" => Mark::Colon,
+        _ => return TokenKind::Stray,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kinds(text: &str) -> Vec<(TokenKind, &str)> {
+        tokens(text).iter().map(|t| (t.kind, &text[t.start as usize..t.end as usize])).collect()
+    }
+
+    #[test]
+    fn a_run_needs_eight_literals_each_with_its_comma() {
+        let run = "1, -2,3.5 ,.5,5.,1e5,7,8,";
+        assert_eq!(
+            kinds(&format!("{run} 9")),
+            [(TokenKind::Numbers, &format!("{run} ")[..]), (TokenKind::Number, "9"),]
+        );
+        assert_eq!(kinds("1,2,3,4,5,6,7,8").len(), 15);
+    }
+
+    #[test]
+    fn vectors_of_literals_make_a_run() {
+        let run = "<1,-2, 3>, ".repeat(8);
+        assert_eq!(kinds(&run), [(TokenKind::Vectors, &run[..])]);
+        assert_eq!(kinds("<1,2>").len(), 5);
+    }
+
+    #[test]
+    fn a_directive_takes_its_blanks_and_a_lone_hash_is_stray() {
+        assert_eq!(
+            kinds("#  debug\"a\"#\nx"),
+            [
+                (TokenKind::Directive(Head::Debug), "#  debug"),
+                (TokenKind::String, "\"a\""),
+                (TokenKind::Stray, "#"),
+                (TokenKind::Word(Word::X), "x"),
+            ]
+        );
+    }
+
+    #[test]
+    fn every_character_is_in_a_token_or_blank() {
+        let text = "a\u{e9}<=>=!=!{}[]()1.2.3 @ \"x\\\"y\" `";
+        let joined: String = kinds(text).iter().map(|(_, text)| *text).collect();
+        assert_eq!(joined, text.replace(' ', ""));
+    }
+}

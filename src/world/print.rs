@@ -1,0 +1,282 @@
+//! A World for people to read: `lucarne show --stage world`.
+//!
+//! **Invariant:** every number of the World is here, each in the shortest form that reads back to the
+//! same bits; an object stands with its shape, a box with the seed's numbers for each face.
+
+use std::fmt::{self, Write};
+
+use super::{CameraKind, Finish, LightKind, LobeKind, Object, Origins, Pigment, World};
+use crate::color::{Color, Rgb};
+use crate::math::placement::Map;
+use crate::math::{Matrix, UnitVector, Vector};
+use crate::pattern::Pattern;
+use crate::shape::{Box_, Shape};
+use crate::source::{Site, Sources};
+
+/// The World, a part a line; what a part came from stands behind it.
+pub fn dump(world: &World, origins: &Origins, sources: &Sources) -> String {
+    let mut out = String::new();
+    let printer = Printer { world, origins, sources };
+    // Writing to a string cannot fail.
+    let _ = printer.write(&mut out);
+    out
+}
+
+struct Printer<'a> {
+    world: &'a World,
+    origins: &'a Origins,
+    sources: &'a Sources,
+}
+
+impl Printer<'_> {
+    fn write(&self, out: &mut String) -> fmt::Result {
+        self.camera(out)?;
+        let settings = &self.world.settings;
+        writeln!(out, "settings")?;
+        writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
+        writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
+        writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
+        writeln!(out, "background {}", rgb(self.world.background))?;
+        if let Some(sky) = &self.world.sky {
+            writeln!(out, "sky{}", self.at(self.origins.sky))?;
+            for layer in &sky.pigments {
+                pigment(out, layer, "  ")?;
+            }
+        }
+        self.lights(out)?;
+        writeln!(out, "objects {}", self.world.objects.len())?;
+        for (i, object) in self.world.objects.iter().enumerate() {
+            self.object(out, i, object)?;
+        }
+        writeln!(out, "materials {}", self.world.materials.len())?;
+        for (i, material) in self.world.materials.iter().enumerate() {
+            let site = self.origins.materials.get(i).copied().flatten();
+            writeln!(out, "  {i}{}", self.at(site))?;
+            pigment(out, &material.pigment, "    ")?;
+            finish(out, &material.finish)?;
+        }
+        if !self.world.texture_maps.is_empty() {
+            writeln!(out, "texture_maps {}", self.world.texture_maps.len())?;
+            for (i, map) in self.world.texture_maps.iter().enumerate() {
+                writeln!(out, "  {i} {}", affine(map))?;
+            }
+        }
+        if !self.origins.dropped.is_empty() {
+            writeln!(out, "left out")?;
+            for dropped in &self.origins.dropped {
+                writeln!(out, "  {}{}", dropped.why, self.at(Some(dropped.site)))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn camera(&self, out: &mut String) -> fmt::Result {
+        let camera = &self.world.camera;
+        let kind = match camera.kind {
+            CameraKind::Perspective => "perspective",
+            CameraKind::Orthographic => "orthographic",
+        };
+        writeln!(out, "camera {kind}{}", self.at(self.origins.camera))?;
+        writeln!(out, "  location {}", vector(camera.location))?;
+        writeln!(out, "  forward {}", vector(camera.forward))?;
+        writeln!(out, "  right {}", vector(camera.right))?;
+        writeln!(out, "  up {}", vector(camera.up))
+    }
+
+    fn lights(&self, out: &mut String) -> fmt::Result {
+        writeln!(out, "lights {}", self.world.lights.len())?;
+        for (i, light) in self.world.lights.iter().enumerate() {
+            let kind = match light.kind {
+                LightKind::Point { position } => format!("point {}", vector(position)),
+                LightKind::Directional { to_light } => format!("directional {}", unit(to_light)),
+                LightKind::Parallel { position, to_light } => {
+                    format!("parallel {} to_light {}", vector(position), unit(to_light))
+                }
+            };
+            let shadows = if light.casts_shadows { "" } else { " shadowless" };
+            let site = self.at(self.origins.lights.get(i).copied());
+            writeln!(out, "  {i} {kind} color {}{shadows}{site}", rgb(light.color))?;
+        }
+        Ok(())
+    }
+
+    fn object(&self, out: &mut String, i: usize, object: &Object) -> fmt::Result {
+        write!(out, "  {i} ")?;
+        let mut more = String::new();
+        match object.shape {
+            Shape::Sphere(at) => {
+                let sphere = &self.world.spheres[at as usize];
+                write!(out, "sphere centre {} radius {}", vector(sphere.centre), sphere.radius)?;
+            }
+            Shape::Plane(at) => {
+                let plane = &self.world.planes[at as usize];
+                write!(out, "plane normal {} distance {}", unit(plane.normal), plane.distance)?;
+            }
+            Shape::Box(at) => {
+                let solid = &self.world.boxes[at as usize];
+                write!(out, "box centre {}", vector(solid.centre))?;
+                faces(&mut more, solid)?;
+            }
+            Shape::Ellipsoid(at) => {
+                let placement = &self.world.ellipsoids[at as usize].placement;
+                write!(out, "ellipsoid centre {}", vector(placement.centre))?;
+                writeln!(more, "      world_from_local {}", matrix(placement.world_from_local))?;
+                writeln!(more, "      local_from_world {}", matrix(placement.local_from_world))?;
+            }
+        }
+        write!(out, " material {}", object.material)?;
+        if let Some(map) = object.texture_from_world {
+            write!(out, " texture_map {map}")?;
+        }
+        if !object.casts_shadow {
+            write!(out, " no_shadow")?;
+        }
+        if object.inverse {
+            write!(out, " inverse")?;
+        }
+        writeln!(out, "{}", self.at(self.origins.objects.get(i).copied()))?;
+        out.push_str(&more);
+        self.constants(out, object)
+    }
+
+    /// The texture coordinates that do not change over a face.
+    fn constants(&self, out: &mut String, object: &Object) -> fmt::Result {
+        let Some(start) = object.faces else { return Ok(()) };
+        let count = match object.shape {
+            Shape::Plane(_) => 1,
+            Shape::Box(_) => 6,
+            Shape::Sphere(_) | Shape::Ellipsoid(_) => 0,
+        };
+        for (face, constant) in self.world.faces.iter().skip(start as usize).take(count).enumerate()
+        {
+            let known: Vec<String> = ["x", "y", "z"]
+                .iter()
+                .zip(constant.0)
+                .filter_map(|(axis, value)| value.map(|value| format!("{axis} = {value}")))
+                .collect();
+            if !known.is_empty() {
+                writeln!(out, "      texture on face {face}: {}", known.join(", "))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn at(&self, site: Option<Site>) -> String {
+        site.map_or(String::new(), |site| format!("  ({})", self.sources.place(site.span)))
+    }
+}
+
+/// A box as the seed describes it: for each of three faces N, C_f, d_f, C_o, d_o and l.
+fn faces(out: &mut String, solid: &Box_) -> fmt::Result {
+    for i in 0..3 {
+        let face = solid.face(i);
+        writeln!(
+            out,
+            "      face {} N {} C_f {} d_f {} C_o {} d_o {} l {}",
+            i + 1,
+            unit(face.normal),
+            vector(face.centre),
+            face.distance,
+            vector(face.opposite_centre),
+            face.opposite_distance,
+            face.half_width
+        )?;
+    }
+    Ok(())
+}
+
+fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
+    match pigment {
+        Pigment::Color(c) => writeln!(out, "{indent}color {}", color(*c)),
+        Pigment::Patterned { pattern, pattern_from_texture, map } => {
+            let name = match pattern {
+                Pattern::Checker => "checker".to_owned(),
+                Pattern::Gradient { direction } => format!("gradient {}", vector(*direction)),
+            };
+            write!(out, "{indent}{name}")?;
+            if *pattern_from_texture != Map::IDENTITY {
+                write!(out, " at {}", affine(pattern_from_texture))?;
+            }
+            writeln!(out)?;
+            for (value, c) in map {
+                writeln!(out, "{indent}  {value} {}", color(*c))?;
+            }
+            Ok(())
+        }
+    }
+}
+
+fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
+    let mut parts = Vec::new();
+    if finish.seed {
+        parts.push("seed".to_owned());
+    }
+    if !finish.glow.is_black() {
+        parts.push(format!("glow {}", rgb(finish.glow)));
+    }
+    if finish.diffuse != 0.0 {
+        parts.push(format!("diffuse {}", finish.diffuse));
+        if finish.brilliance != 1.0 {
+            parts.push(format!("brilliance {}", finish.brilliance));
+        }
+    }
+    for lobe in &finish.lobes {
+        let kind = match lobe.kind {
+            LobeKind::Phong => "phong",
+            LobeKind::Blinn => "blinn",
+        };
+        parts.push(format!(
+            "{kind} weight {} exponent {} metallic {}",
+            lobe.weight, lobe.exponent, lobe.metallic
+        ));
+    }
+    if let Some(r) = &finish.reflection {
+        parts.push(format!(
+            "reflection {} to {} falloff {} exponent {} metallic {}",
+            rgb(r.minimum),
+            rgb(r.maximum),
+            r.falloff,
+            r.exponent,
+            r.metallic
+        ));
+    }
+    match parts.is_empty() {
+        true => writeln!(out, "    black"),
+        false => writeln!(out, "    {}", parts.join(", ")),
+    }
+}
+
+/// `<1, 2, 3>`.
+pub(crate) fn vector(v: Vector) -> String {
+    format!("<{}, {}, {}>", v.x, v.y, v.z)
+}
+
+/// `<1, 0.5, 0>`.
+pub(crate) fn rgb(c: Rgb) -> String {
+    format!("<{}, {}, {}>", c.red, c.green, c.blue)
+}
+
+/// As [`rgb`], with filter and transmit where they are not zero.
+pub(crate) fn color(c: Color) -> String {
+    let mut text = rgb(c.rgb);
+    if c.filter != 0.0 {
+        text += &format!(" filter {}", c.filter);
+    }
+    if c.transmit != 0.0 {
+        text += &format!(" transmit {}", c.transmit);
+    }
+    text
+}
+
+fn unit(v: UnitVector) -> String {
+    vector(v.get())
+}
+
+/// Row by row.
+fn matrix(m: Matrix) -> String {
+    [m.row(0), m.row(1), m.row(2)].map(vector).join(" ")
+}
+
+fn affine(map: &Map) -> String {
+    format!("centre {} rows {}", vector(map.centre), matrix(map.matrix))
+}

@@ -1,0 +1,279 @@
+//! The rules of the house, as data: which room may use which, and what stays behind its one door.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lucarne::diagnostic::Code;
+use lucarne::vocabulary::{Family, Word};
+
+/// Every room of `src/`, from the ground up, and the rooms it may use. A circle cannot be written.
+const ROOMS: &[(&str, &[&str])] = &[
+    // ground
+    ("math", &[]),
+    ("color", &["math"]),
+    // words
+    ("source", &[]),
+    ("vocabulary", &[]),
+    ("diagnostic", &["source"]),
+    // things
+    ("pattern", &["math"]),
+    ("shape", &["math"]),
+    // nouns
+    ("scene", &["color", "math", "pattern", "source", "vocabulary"]),
+    ("world", &["color", "math", "pattern", "shape", "source"]),
+    ("geometry", &["math", "shape", "world"]),
+    ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
+    ("film", &["color", "math", "plan"]),
+    ("picture", &["color", "film"]),
+    // verbs
+    ("syntax", &["source", "vocabulary", "diagnostic"]),
+    ("lower", &["color", "diagnostic", "math", "pattern", "scene", "shape", "source", "vocabulary", "world"]),
+    (
+        "evaluate",
+        &[
+            "color", "diagnostic", "math", "pattern", "scene", "source", "syntax", "vocabulary",
+            // `trace()`, `inside()`, `min_extent()` and `max_extent()` look at what was declared.
+            "geometry", "lower", "shape", "world",
+        ],
+    ),
+    ("trace", &["color", "film", "geometry", "math", "pattern", "plan", "shape", "source", "world"]),
+    // road
+    (
+        "road",
+        &[
+            "diagnostic", "evaluate", "film", "lower", "plan", "scene", "source", "syntax", "trace", "vocabulary",
+            "world",
+        ],
+    ),
+    ("lib", &[]),
+    // doors: they use the library from outside, as anyone would
+    ("cli", &[]),
+    ("main", &["cli"]),
+];
+
+/// Outside crates, and the places that may name each.
+const DOORS: &[(&str, &[&str])] = &[
+    ("pest", &["syntax/"]),
+    ("pest_derive", &["syntax/"]),
+    ("glam", &["math/vector.rs"]),
+    ("libm", &["math/elementary.rs"]),
+    ("miette", &["diagnostic/render"]),
+    ("serde", &["diagnostic/json.rs", "cli/"]),
+    ("serde_json", &["diagnostic/json.rs", "cli/"]),
+    ("strsim", &["diagnostic/suggest.rs"]),
+    ("stacker", &["evaluate/"]),
+    ("image", &["picture"]),
+    ("png", &["picture"]),
+    ("rayon", &["trace/", "geometry/"]),
+    ("clap", &["cli/", "main.rs"]),
+    ("indicatif", &["cli/"]),
+    ("ctrlc", &["cli/"]),
+    ("nix", &["cli/"]),
+    ("tempfile", &["cli/"]),
+];
+
+/// What only the doors may do.
+const DOORS_ONLY: &[&str] =
+    &["println!", "eprintln!", "print!(", "eprint!(", "std::fs", "std::env", "process::exit", "std::io::std"];
+
+/// Functions whose last bit depends on the machine: only `math/elementary.rs` wraps them.
+const ELEMENTARY: &[&str] = &[
+    ".sin()", ".cos()", ".tan()", ".sin_cos()", ".asin()", ".acos()", ".atan()", ".atan2(", ".sinh()", ".cosh()",
+    ".tanh()", ".powf(", ".powi(", ".exp()", ".exp2()", ".ln()", ".log(", ".log2()", ".log10()", ".cbrt()", ".hypot(",
+];
+
+const EMPTY_NAMES: &[&str] = &[
+    "core", "base", "common", "util", "utils", "helper", "helpers", "misc", "types", "manager", "engine", "context",
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files of a folder with one of these extensions: their path below it, and their text.
+fn files(folder: &str, extensions: &[&str]) -> Vec<(String, String)> {
+    let top = root().join(folder);
+    let mut paths: Vec<PathBuf> = Vec::new();
+    let mut folders = vec![top.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}")) {
+            let path = entry.expect("readable").path();
+            let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("");
+            if path.is_dir() {
+                folders.push(path);
+            } else if extensions.contains(&extension) {
+                paths.push(path);
+            }
+        }
+    }
+    paths.sort();
+    let name = |path: &Path| path.strip_prefix(&top).expect("below").to_string_lossy().replace('\\', "/");
+    paths.iter().map(|path| (name(path), fs::read_to_string(path).expect("readable"))).collect()
+}
+
+fn room(file: &str) -> &str {
+    file.split('/').next().map_or(file, |first| first.strip_suffix(".rs").unwrap_or(first))
+}
+
+/// The code of a file: no comments, no tests.
+fn code(text: &str) -> String {
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
+    text.lines().map(|line| line.split("//").next().unwrap_or(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// The rooms named after `crate::`, alone or in braces.
+fn uses(code: &str) -> Vec<String> {
+    let name = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut rooms = Vec::new();
+    for (at, _) in code.match_indices("crate::") {
+        let rest = &code[at + "crate::".len()..];
+        let Some(group) = rest.strip_prefix('{') else {
+            rooms.push(name(rest));
+            continue;
+        };
+        let (mut depth, mut start) = (0usize, true);
+        for (i, c) in group.char_indices() {
+            match c {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                ',' if depth == 0 => start = true,
+                c if start && c.is_alphabetic() => {
+                    rooms.push(name(&group[i..]));
+                    start = false;
+                }
+                _ => {}
+            }
+        }
+    }
+    rooms.retain(|room| !room.is_empty());
+    rooms
+}
+
+fn assert_none(faults: Vec<String>) {
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn a_room_uses_only_the_rooms_the_table_lists() {
+    let table: BTreeMap<&str, &[&str]> = ROOMS.iter().copied().collect();
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        let room = room(&file);
+        let Some(allowed) = table.get(room) else {
+            faults.push(format!("{file}: the room `{room}` is not in the table"));
+            continue;
+        };
+        for used in uses(&code(&text)) {
+            if used != room && !allowed.contains(&used.as_str()) {
+                faults.push(format!("{file}: `{room}` may not use `{used}`"));
+            }
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn the_table_has_no_circle() {
+    for (index, (room, allowed)) in ROOMS.iter().enumerate() {
+        for used in *allowed {
+            let at = ROOMS.iter().position(|(other, _)| other == used).expect("a room of the table");
+            assert!(at < index, "`{room}` uses `{used}`, which does not stand below it");
+        }
+    }
+}
+
+#[test]
+fn the_reader_of_uses_finds_them_alone_and_in_braces() {
+    let text = "use crate::math::{a, b};\nuse crate::{color::Rgb, shape::{Ray, Chord}, world};\ncrate::film::x()";
+    assert_eq!(uses(text), ["math", "color", "shape", "world", "film"]);
+    assert!(uses(&code("// crate::math\nlet a = 1; // crate::color")).is_empty());
+}
+
+#[test]
+fn an_outside_crate_is_named_at_its_door_only() {
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        let code = code(&text);
+        for (name, doors) in DOORS {
+            let named = code.match_indices(&format!("{name}::")).any(|(at, _)| {
+                let before = code[..at].chars().next_back();
+                !before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':')
+            });
+            if named && !doors.iter().any(|door| file.starts_with(door)) {
+                faults.push(format!("{file}: names `{name}`, whose door is {doors:?}"));
+            }
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn only_the_doors_print_read_disks_or_exit() {
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        if file.starts_with("cli/") || file == "main.rs" {
+            continue;
+        }
+        let code = code(&text);
+        faults.extend(DOORS_ONLY.iter().filter(|word| code.contains(*word)).map(|word| format!("{file}: `{word}`")));
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn elementary_functions_are_called_through_one_room_only() {
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        if file == "math/elementary.rs" {
+            continue;
+        }
+        let code = code(&text);
+        faults.extend(ELEMENTARY.iter().filter(|call| code.contains(*call)).map(|call| format!("{file}: `{call}`")));
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn every_file_opens_with_its_one_idea() {
+    let faults = files("src", &["rs"]).into_iter().filter(|(_, text)| !text.starts_with("//! "));
+    assert_none(faults.map(|(file, _)| file).collect());
+}
+
+#[test]
+fn no_room_is_named_after_nothing() {
+    let empty = |part: &str| EMPTY_NAMES.contains(&part.strip_suffix(".rs").unwrap_or(part));
+    let faults = files("src", &["rs"]).into_iter().filter(|(file, _)| file.split('/').any(empty));
+    assert_none(faults.map(|(file, _)| file).collect());
+}
+
+#[test]
+fn every_diagnostic_code_has_a_page() {
+    let missing = |code: &&Code| !root().join(format!("docs/diagnostics/{}.md", code.name())).exists();
+    assert_none(Code::ALL.iter().filter(missing).map(|code| code.name().to_owned()).collect());
+}
+
+/// Directives that make sense together only, and are shown together.
+const SHOWN_TOGETHER: &[&str] = &["else", "elseif", "end", "break", "case", "range", "ifndef", "error"];
+
+#[test]
+fn every_built_word_has_an_example_among_the_scenes() {
+    let scenes = files("scenes", &["scene", "inc"]);
+    let words: BTreeSet<&str> =
+        scenes.iter().flat_map(|(_, text)| text.split(|c: char| !c.is_alphanumeric() && c != '_')).collect();
+    let stems: BTreeSet<&str> =
+        scenes.iter().filter_map(|(file, _)| file.rsplit('/').next()?.strip_suffix(".scene")).collect();
+    let mut faults = Vec::new();
+    for word in Word::ALL.iter().filter(|word| word.is_built()) {
+        let name = word.name();
+        if !words.contains(name) {
+            faults.push(format!("`{name}` is in no scene below scenes/"));
+        }
+        let wants_its_own = matches!(word.family(), Family::Shape | Family::Csg | Family::Directive);
+        if wants_its_own && !SHOWN_TOGETHER.contains(&name) && !stems.contains(name) {
+            faults.push(format!("`{name}` has no scene `{name}.scene` of its own"));
+        }
+    }
+    assert_none(faults);
+}
