@@ -20,9 +20,9 @@ pub(super) fn tree(bounds: &[Bounds]) -> (Tree, Vec<u32>) {
     let space = Space::around(bounds);
     let mut things: Vec<Thing> =
         (0..).zip(bounds).map(|(index, b)| Thing::new(index, space.outward(b))).collect();
-    let nodes = nodes(&mut things);
+    let (nodes, depth) = nodes(&mut things);
     let order = things.iter().map(|thing| thing.index).collect();
-    (Tree { space, nodes, count: bounds.len() }, order)
+    (Tree { space, nodes, count: bounds.len(), depth }, order)
 }
 
 impl Space {
@@ -97,10 +97,13 @@ impl Part {
     }
 }
 
-fn nodes(things: &mut [Thing]) -> Vec<Node> {
+/// The nodes, and how many lie on the longest way down.
+fn nodes(things: &mut [Thing]) -> (Vec<Node>, usize) {
     let mut nodes = vec![Node::EMPTY];
-    let mut tasks = vec![(0, Part::new(0..things.len(), Extent::of(things), 0))];
-    while let Some((index, part)) = tasks.pop() {
+    let mut depth = 0;
+    let mut tasks = vec![(0, 1, Part::new(0..things.len(), Extent::of(things), 0))];
+    while let Some((index, level, part)) = tasks.pop() {
+        depth = depth.max(level);
         let mut parts = Vec::with_capacity(4);
         parts.push(part);
         while parts.len() < 4 {
@@ -124,11 +127,11 @@ fn nodes(things: &mut [Thing]) -> Vec<Node> {
             };
             nodes[index].set(lane, child, &part.extent);
             if !part.whole {
-                tasks.push((nodes.len() - 1, part));
+                tasks.push((nodes.len() - 1, level + 1, part));
             }
         }
     }
-    nodes
+    (nodes, depth)
 }
 
 impl Node {

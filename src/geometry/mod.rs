@@ -31,7 +31,8 @@ pub struct Geometry {
     tree: Option<Tree>,
     spheres: Vec<Sphere>,
     planes: Vec<Plane>,
-    boxes: Vec<Box_>,
+    /// With the square of the radius that holds each.
+    boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
 }
 
@@ -99,7 +100,10 @@ impl Geometry {
         let shape = match object.shape {
             Shape::Sphere(i) => Shape::Sphere(copy(&mut self.spheres, world.spheres[i as usize])),
             Shape::Plane(i) => Shape::Plane(copy(&mut self.planes, world.planes[i as usize])),
-            Shape::Box(i) => Shape::Box(copy(&mut self.boxes, world.boxes[i as usize])),
+            Shape::Box(i) => {
+                let box_ = world.boxes[i as usize];
+                Shape::Box(copy(&mut self.boxes, (box_, box_.reach_squared())))
+            }
             Shape::Ellipsoid(i) => {
                 Shape::Ellipsoid(copy(&mut self.ellipsoids, world.ellipsoids[i as usize]))
             }
@@ -187,15 +191,21 @@ impl Geometry {
         let chord = match entry.shape {
             Shape::Sphere(i) => {
                 let Sphere { centre, radius } = self.spheres[i as usize];
-                let roots = sphere::roots(centre, radius, ray)?;
-                // Most spheres whose line is hit lie behind the start or too far: no error bounds.
+                let roots = sphere::roots_ahead(centre, radius, ray)?;
+                // Behind the start or too far: no error bounds are needed.
                 if roots.leave() <= 0.0 || roots.enter() > limit {
                     return None;
                 }
                 roots.chord()
             }
-            Shape::Plane(i) => self.planes[i as usize].chord(ray)?,
-            Shape::Box(i) => self.boxes[i as usize].chord(ray)?,
+            Shape::Plane(i) => self.planes[i as usize].chord_ahead(ray)?,
+            Shape::Box(i) => {
+                let (box_, reach_squared) = &self.boxes[i as usize];
+                if box_.is_out_of_reach(*reach_squared, ray) {
+                    return None;
+                }
+                box_.chord(ray)?
+            }
             Shape::Ellipsoid(i) => self.ellipsoids[i as usize].chord(ray)?,
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;

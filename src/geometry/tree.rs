@@ -14,8 +14,8 @@ use crate::shape::{Bounds, Ray};
 
 /// No leaf lies deeper: splits by cost end at half of it, the rest are by halves.
 pub(super) const DEPTH: usize = 64;
-/// Of every node on the way down at most three siblings wait.
-const STACK: usize = 3 * DEPTH + 1;
+/// Trees of common depth get by with a short stack, which is cleared sooner.
+const COMMON_DEPTH: usize = 16;
 /// The greatest leaf that a [`Child`] can name.
 pub(super) const LEAF: usize = 15;
 /// Distances from the tree beyond which no slab test can be trusted (in the tree's own size).
@@ -33,6 +33,8 @@ pub(super) struct Tree {
     pub nodes: Vec<Node>,
     /// How many things the leaves name in all.
     pub count: usize,
+    /// How many nodes lie on the longest way to a leaf.
+    pub depth: usize,
 }
 
 /// Where the tree's coordinates are −1 … 1: `(p − origin) · scale`, `scale` a power of two.
@@ -151,7 +153,21 @@ impl Tree {
     /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before; it
     /// returns the limit from then on (−∞ ends the search). Near boxes come first.
     #[inline(always)]
-    pub fn visit(&self, ray: &Ray, limit: f64, mut leaf: impl FnMut(Range<usize>) -> f64) {
+    pub fn visit(&self, ray: &Ray, limit: f64, leaf: impl FnMut(Range<usize>) -> f64) {
+        // Of every node on the way down at most three siblings wait.
+        if self.depth <= COMMON_DEPTH {
+            self.visit_with::<{ 3 * COMMON_DEPTH + 1 }>(ray, limit, leaf);
+        } else {
+            self.visit_with::<{ 3 * DEPTH + 1 }>(ray, limit, leaf);
+        }
+    }
+
+    fn visit_with<const STACK: usize>(
+        &self,
+        ray: &Ray,
+        limit: f64,
+        mut leaf: impl FnMut(Range<usize>) -> f64,
+    ) {
         let Some(slanted) = Slanted::new(ray, &self.space) else {
             leaf(0..self.count);
             return;

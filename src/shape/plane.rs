@@ -16,6 +16,14 @@ impl Plane {
         chord(self.normal.get(), self.distance, ray)
     }
 
+    /// As [`Plane::chord`], but `None` too when the crossing is behind the start.
+    #[inline(always)]
+    pub fn chord_ahead(&self, ray: &Ray) -> Option<Chord> {
+        let normal = self.normal.get();
+        let ahead = (self.distance - normal.dot(ray.origin)) * normal.dot(ray.direction) > 0.0;
+        if ahead { self.chord(ray) } else { None }
+    }
+
     /// The point of the plane where `ray` crosses it at `t`: what is left of N·P − d is taken off
     /// along N.
     ///

@@ -68,6 +68,16 @@ pub fn roots<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Root
     Roots::of(&ray.slide(centre), radius)
 }
 
+/// As [`roots`], but `None` too when the ray starts outside and moves away.
+#[inline(always)]
+pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
+    let near = ray.slide(centre);
+    if near.along > R::ZERO && near.start.length_squared() > radius * radius {
+        return None;
+    }
+    Roots::of(&near, radius)
+}
+
 /// What a map into the sphere's space adds to the errors there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blur<R: Real = f64> {

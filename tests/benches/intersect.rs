@@ -1,0 +1,154 @@
+//! How fast rays meet the World: building the tree, nearest hits, obstructions.
+//!
+//! `cargo bench --bench intersect`. The two scenes are those of the speed promise: three spheres, a
+//! box and a plane, and 100,000 spheres.
+
+use divan::counter::ItemsCount;
+use lucarne::color::{Color, Rgb};
+use lucarne::geometry::{Geometry, surface};
+use lucarne::math::{UnitVector, Vector};
+use lucarne::shape::{Box_, Plane, Ray, Shape, Sphere};
+use lucarne::world::{Finish, Material, Object, Pigment, World};
+
+fn main() {
+    divan::main();
+}
+
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 270;
+const LIGHTS: [Vector; 2] = [Vector::new(50.0, 80.0, 60.0), Vector::new(-60.0, 50.0, 30.0)];
+
+fn empty() -> World {
+    let finish = Finish {
+        glow: Rgb::default(),
+        diffuse: 0.6,
+        brilliance: 1.0,
+        lobes: Vec::new(),
+        reflection: None,
+        seed: false,
+    };
+    let material = Material { pigment: Pigment::Color(Color::default()), finish };
+    World { materials: vec![material], ..World::default() }
+}
+
+fn object(shape: Shape) -> Object {
+    Object {
+        shape,
+        material: 0,
+        texture_from_world: None,
+        faces: None,
+        casts_shadow: true,
+        inverse: false,
+    }
+}
+
+fn add_sphere(world: &mut World, centre: Vector, radius: f64) {
+    world.spheres.push(Sphere { centre, radius });
+    world.objects.push(object(Shape::Sphere(world.spheres.len() as u32 - 1)));
+}
+
+fn few() -> (World, Vector) {
+    let mut world = empty();
+    world.planes.push(Plane { normal: UnitVector::Y, distance: 0.0 });
+    world.objects.push(object(Shape::Plane(0)));
+    add_sphere(&mut world, Vector::new(0.0, 1.0, 0.0), 1.0);
+    add_sphere(&mut world, Vector::new(-2.0, 0.6, 0.8), 0.6);
+    add_sphere(&mut world, Vector::new(1.6, 0.5, 1.6), 0.5);
+    let (c, s) = (3f64.sqrt() / 2.0, 0.5);
+    world.boxes.push(Box_ {
+        centre: Vector::new(2.4, 0.5, -0.6),
+        normals: [
+            UnitVector::from_unit(Vector::new(c, 0.0, -s)),
+            UnitVector::Y,
+            UnitVector::from_unit(Vector::new(s, 0.0, c)),
+        ],
+        half_widths: [0.5; 3],
+    });
+    world.objects.push(object(Shape::Box(0)));
+    (world, Vector::new(0.0, 1.2, 6.0))
+}
+
+fn spheres(count: usize) -> (World, Vector) {
+    let mut world = empty();
+    let mut state = 7u64;
+    let mut number = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for _ in 0..count {
+        let centre = Vector::new(number(), number(), number()) * 20.0 - Vector::splat(10.0);
+        add_sphere(&mut world, centre, 0.03 + 0.09 * number());
+    }
+    (world, Vector::new(0.0, 0.0, 30.0))
+}
+
+/// What a picture asks for: camera rays, from each hit a ray to each light and a mirrored ray, and
+/// rays to the lights from where that one hits. In the order a tracer would ask.
+struct Questions {
+    nearest: Vec<Ray>,
+    occluded: Vec<(Ray, f64)>,
+}
+
+fn questions(world: &World, eye: Vector) -> Questions {
+    let geometry = Geometry::build(world);
+    let mut asked = Questions { nearest: Vec::new(), occluded: Vec::new() };
+    let towards = |v: Vector| UnitVector::from_direction(v).map_or(Vector::Z, UnitVector::get);
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let u = (f64::from(2 * x + 1) - f64::from(WIDTH)) / f64::from(HEIGHT);
+            let v = (f64::from(HEIGHT) - f64::from(2 * y + 1)) / f64::from(HEIGHT);
+            let mut ray =
+                Ray { origin: eye, direction: towards(Vector::new(0.414 * u, 0.414 * v, -1.0)) };
+            for _ in 0..2 {
+                asked.nearest.push(ray);
+                let Some(hit) = geometry.nearest(&ray) else { break };
+                let point = surface(world, &ray, &hit);
+                for light in LIGHTS {
+                    let to_light = light - point.point;
+                    let direction = towards(to_light);
+                    if direction.dot(point.normal) > 0.0 {
+                        let origin = point.spawn(direction);
+                        asked.occluded.push((Ray { origin, direction }, to_light.length()));
+                    }
+                }
+                let mirrored =
+                    ray.direction - point.normal * (2.0 * ray.direction.dot(point.normal));
+                ray = Ray { origin: point.spawn(mirrored), direction: mirrored };
+            }
+        }
+    }
+    asked
+}
+
+fn scene(name: &str) -> (World, Vector) {
+    match name {
+        "3 spheres, box, plane" => few(),
+        count => spheres(count.parse().expect("a number of spheres")),
+    }
+}
+
+#[divan::bench(args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
+fn nearest(bencher: divan::Bencher, name: &str) {
+    let (world, eye) = scene(name);
+    let geometry = Geometry::build(&world);
+    let Questions { nearest, .. } = questions(&world, eye);
+    bencher
+        .counter(ItemsCount::new(nearest.len()))
+        .bench(|| nearest.iter().filter(|ray| geometry.nearest(ray).is_some()).count());
+}
+
+#[divan::bench(args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
+fn occluded(bencher: divan::Bencher, name: &str) {
+    let (world, eye) = scene(name);
+    let geometry = Geometry::build(&world);
+    let Questions { occluded, .. } = questions(&world, eye);
+    bencher.counter(ItemsCount::new(occluded.len())).bench(|| {
+        occluded.iter().filter(|(ray, distance)| geometry.occluded(ray, *distance)).count()
+    });
+}
+
+#[divan::bench(args = [1000, 100_000])]
+fn build(bencher: divan::Bencher, count: usize) {
+    let (world, _) = spheres(count);
+    bencher.counter(ItemsCount::new(count)).bench(|| Geometry::build(&world));
+}
