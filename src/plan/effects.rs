@@ -21,7 +21,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         effects: Vec::new(),
         left_out: Vec::new(),
     };
-    let census = Census { world, origins };
+    let census = Census::new(world, origins);
     for effect in Effect::ALL {
         match census.decide(effect, &plan, options) {
             Ok((by, cost)) => plan.effects.push(Called { effect, by, cost }),
@@ -44,9 +44,20 @@ fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)
 struct Census<'a> {
     world: &'a World,
     origins: &'a Origins,
+    /// What called for each material: its pigment or texture, else the first object that has it.
+    callers: Vec<Option<Site>>,
 }
 
-impl Census<'_> {
+impl<'a> Census<'a> {
+    fn new(world: &'a World, origins: &'a Origins) -> Self {
+        let called = |i| origins.materials.get(i).copied().flatten();
+        let mut callers: Vec<_> = (0..world.materials.len()).map(called).collect();
+        for (object, site) in world.objects.iter().zip(&origins.objects) {
+            callers[object.material as usize].get_or_insert(*site);
+        }
+        Self { world, origins, callers }
+    }
+
     fn decide(&self, effect: Effect, plan: &Plan, options: &PlanOptions) -> Decision {
         match effect {
             Effect::Diffuse => self.diffuse(),
@@ -168,7 +179,7 @@ impl Census<'_> {
 
     fn material_sites(&self, calls: impl Fn(&Material) -> bool) -> Vec<Site> {
         let calling = self.materials().filter(|(_, material)| calls(material));
-        calling.filter_map(|(i, _)| self.origins.materials.get(i).copied().flatten()).collect()
+        calling.filter_map(|(i, _)| self.callers[i]).collect()
     }
 }
 
@@ -290,6 +301,15 @@ mod tests {
     }
 
     #[test]
+    fn a_material_nobody_wrote_is_called_for_by_the_first_object_that_has_it() {
+        let (mut world, mut origins) = lit_mirror();
+        world.objects.push(world.objects[0]);
+        origins.objects.push(site(2));
+        origins.materials = vec![None];
+        assert_eq!(plan(&world, &origins, &OPTIONS).effects[0].by, [site(1)]);
+    }
+
+    #[test]
     fn shadows_are_left_out_for_the_reason_that_holds() {
         let why = |change: &dyn Fn(&mut World)| why_not(Effect::Shadows, change).0;
         assert_eq!(why(&|w| w.lights.clear()), "no light");
@@ -334,7 +354,8 @@ mod tests {
         world.settings.max_trace_level = 1;
         let deep = plan(&world, &origins, &PlanOptions { depth: Some(3), ..OPTIONS });
         assert!(deep.simulates(Effect::Reflection) && deep.max_trace_level == 3);
-        let flat = plan(&world, &origins, &PlanOptions { depth: Some(1), ..OPTIONS });
+        let flat = plan(&world, &origins, &PlanOptions { depth: Some(0), ..OPTIONS });
+        assert_eq!(flat.max_trace_level, 1);
         let reason = flat.left_out.iter().find(|left| left.what == "reflection").expect("named");
         assert_eq!(reason.site, None);
     }

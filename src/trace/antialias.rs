@@ -62,3 +62,45 @@ fn encode(radiance: Rgb, assumed_gamma: f64) -> [f64; 3] {
         srgb_encode(linear)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Frame;
+
+    /// A gray film three pixels wide and high.
+    fn film(assumed_gamma: f64, grays: [f64; 9]) -> Film {
+        let mut film = Film::new(Frame::whole(3, 3), assumed_gamma);
+        film.radiance = grays.map(Rgb::gray).to_vec();
+        film
+    }
+
+    #[test]
+    fn a_pixel_is_an_edge_when_one_of_its_eight_neighbours_differs() {
+        for odd in 0..9 {
+            let mut grays = [0.5; 9];
+            grays[odd] = 0.6;
+            let film = film(1.0, grays);
+            let shown = Shown::new(&film);
+            assert!(shown.is_edge(1, 1, 0.05));
+            assert_eq!(shown.is_edge(0, 0, 0.05), [0, 1, 3, 4].contains(&odd));
+            assert_eq!(shown.is_edge(2, 1, 0.05), [1, 2, 4, 5, 7, 8].contains(&odd));
+        }
+    }
+
+    #[test]
+    fn differences_are_those_a_display_shows() {
+        let edge = |assumed_gamma: f64, a: f64, b: f64| {
+            let film = film(assumed_gamma, [a, a, a, a, a, a, a, a, b]);
+            Shown::new(&film).is_edge(1, 1, 0.05)
+        };
+        assert!(edge(1.0, 0.0, 0.02) && !edge(1.0, 0.9, 0.92));
+        assert!(!edge(1.0, 5.0, 1.0) && !edge(1.0, -3.0, 0.0), "beyond white and black");
+        assert!(!edge(2.2, 0.0, 0.02) && edge(2.2, 0.0, 0.2), "by the scene's gamma");
+    }
+
+    #[test]
+    fn the_mean_is_of_unclamped_light() {
+        assert_eq!(mean(2, |i, j| Rgb::gray(f64::from(i * j) * 8.0)), Rgb::gray(2.0));
+    }
+}

@@ -10,7 +10,7 @@ use crate::world::LightKind;
 pub(super) struct Aim {
     /// Of length 1.
     pub to_light: Vector,
-    /// What is beyond this distance casts no shadow.
+    /// What is not nearer than this casts no shadow; negative behind a parallel light's plane.
     pub reach: f64,
 }
 
@@ -44,9 +44,6 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
 
 /// Whether something stands between `origin` (just off a surface) and the light.
 pub(super) fn shadowed(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &Aim) -> bool {
-    if aim.reach <= 0.0 {
-        return false;
-    }
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
     tracer.geometry.occluded(&ray, aim.reach)

@@ -1,0 +1,151 @@
+//! Small worlds to trace, built by hand.
+
+mod film;
+mod light;
+
+use super::*;
+use crate::color::Color;
+use crate::math::placement::Map;
+use crate::math::{Matrix, UnitVector, Vector};
+use crate::pattern::Pattern;
+use crate::plan::{Called, PlanOptions, plan};
+use crate::shape::{Box_, Plane, Shape, Sphere};
+use crate::world::{
+    Camera, CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Material,
+    Object, Origins, Pigment, Reflection, Settings, Sky,
+};
+
+const NO_FINISH: Finish = Finish {
+    glow: Rgb::BLACK,
+    diffuse: 0.0,
+    brilliance: 1.0,
+    lobes: Vec::new(),
+    reflection: None,
+    seed: false,
+};
+
+fn glowing(glow: f64) -> Material {
+    let finish = Finish { glow: Rgb::gray(glow), ..NO_FINISH };
+    Material { pigment: Pigment::Color(Color::WHITE), finish }
+}
+
+fn mirror(albedo: f64, glow: f64) -> Material {
+    let all = Rgb::gray(albedo);
+    let reflection =
+        Reflection { minimum: all, maximum: all, falloff: 1.0, exponent: 1.0, metallic: 0.0 };
+    let finish = Finish { glow: Rgb::gray(glow), reflection: Some(reflection), ..NO_FINISH };
+    Material { pigment: Pigment::Color(Color::WHITE), finish }
+}
+
+fn matte(red: f64, green: f64, blue: f64) -> Material {
+    let finish = Finish { glow: Rgb::gray(0.1), diffuse: 0.6, ..NO_FINISH };
+    Material { pigment: Pigment::Color(Color::opaque(Rgb::new(red, green, blue))), finish }
+}
+
+fn seed(rgb: Rgb, kd: f64, ks: f64, exponent: f64, ambient: f64) -> Material {
+    let mut material = mirror(ks, kd * ambient);
+    let lobe = Lobe { kind: LobeKind::Blinn, weight: ks, exponent, metallic: 1.0 };
+    material.pigment = Pigment::Color(Color::opaque(rgb));
+    material.finish = Finish { diffuse: kd, lobes: vec![lobe], seed: true, ..material.finish };
+    material
+}
+
+/// A World under construction.
+#[derive(Default)]
+struct Built(World);
+
+impl Built {
+    fn object(mut self, shape: Shape, material: Material) -> Self {
+        self.0.objects.push(Object {
+            shape,
+            material: self.0.materials.len() as u32,
+            texture_from_world: None,
+            faces: None,
+            casts_shadow: true,
+            inverse: false,
+        });
+        self.0.materials.push(material);
+        self
+    }
+
+    fn sphere(mut self, centre: [f64; 3], radius: f64, material: Material) -> Self {
+        self.0.spheres.push(Sphere { centre: Vector::from_array(centre), radius });
+        let shape = Shape::Sphere(self.0.spheres.len() as u32 - 1);
+        self.object(shape, material)
+    }
+
+    fn plane(mut self, normal: UnitVector, distance: f64, material: Material) -> Self {
+        self.0.planes.push(Plane { normal, distance });
+        let shape = Shape::Plane(self.0.planes.len() as u32 - 1);
+        self.object(shape, material)
+    }
+
+    fn cube(mut self, centre: [f64; 3], half_width: f64, material: Material) -> Self {
+        self.0.boxes.push(Box_ {
+            centre: Vector::from_array(centre),
+            normals: [UnitVector::X, UnitVector::Y, UnitVector::Z],
+            half_widths: [half_width; 3],
+        });
+        let shape = Shape::Box(self.0.boxes.len() as u32 - 1);
+        self.object(shape, material)
+    }
+
+    fn light(mut self, position: [f64; 3], intensity: f64) -> Self {
+        let kind = LightKind::Point { position: Vector::from_array(position) };
+        self.0.lights.push(Light { kind, color: Rgb::gray(intensity), casts_shadows: true });
+        self
+    }
+
+    fn world(mut self, change: impl FnOnce(&mut World)) -> World {
+        change(&mut self.0);
+        self.0
+    }
+}
+
+/// Two mirrors that face each other across the camera, which looks straight at one.
+fn corridor(material: &Material) -> Built {
+    Built::default().plane(UnitVector::Z, -3.0, material.clone()).plane(
+        -UnitVector::Z,
+        -3.0,
+        material.clone(),
+    )
+}
+
+/// A bit of everything.
+fn varied() -> World {
+    let mut ground = matte(1.0, 1.0, 1.0);
+    ground.pigment = Pigment::Patterned {
+        pattern: Pattern::Checker,
+        pattern_from_texture: Map::IDENTITY,
+        map: vec![(0.0, Color::WHITE), (1.0, Color::opaque(Rgb::new(0.2, 0.3, 0.4)))],
+    };
+    let mut shiny = matte(1.0, 0.5, 0.2);
+    let lobe = Lobe { kind: LobeKind::Phong, weight: 0.7, exponent: 30.0, metallic: 0.5 };
+    shiny.finish.lobes.push(lobe);
+    Built::default()
+        .plane(UnitVector::Y, -1.0, ground)
+        .sphere([-1.1, 0.0, -5.0], 1.0, mirror(0.7, 0.05))
+        .sphere([1.1, 0.2, -4.0], 0.8, shiny)
+        .cube([0.2, -0.5, -3.0], 0.3, seed(Rgb::new(0.2, 0.9, 0.4), 0.7, 0.3, 20.0, 0.2))
+        .light([3.0, 5.0, 0.0], 0.8)
+        .light([-4.0, 2.0, -1.0], 0.5)
+        .world(|world| world.background = Rgb::new(0.3, 0.5, 0.9))
+}
+
+fn options(width: u32, height: u32, antialias: Antialias) -> PlanOptions {
+    PlanOptions { frame: Frame::whole(width, height), antialias, depth: None }
+}
+
+fn traced_by(world: &World, plan: &Plan) -> Traced {
+    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+}
+
+fn traced(world: &World, width: u32, height: u32, antialias: Antialias) -> Traced {
+    let options = options(width, height, antialias);
+    traced_by(world, &plan(world, &Origins::default(), &options))
+}
+
+/// What the camera's central ray sees.
+fn centre(world: &World) -> Rgb {
+    traced(world, 1, 1, Antialias::Off).film.radiance[0]
+}
