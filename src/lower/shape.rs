@@ -120,16 +120,16 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
         ];
         if side.turned { [ends[1], ends[0]] } else { ends }
     });
-    let solid = Box_ {
-        centre: centre.round(),
-        normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
-        half_widths: sides.each_ref().map(|side| side.half_width.round()),
-    };
     if !centre.is_finite()
         || !sides.iter().all(|side| side.normal.is_finite() && side.half_width.is_finite())
     {
         return Err(Fault::not_finite("this box"));
     }
+    let solid = Box_ {
+        centre: centre.round(),
+        normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
+        half_widths: sides.each_ref().map(|side| side.half_width.round()),
+    };
     let [x, y, z] = faces;
     Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
 }

@@ -201,7 +201,7 @@ impl Affine {
         let uncancelled = a.x * (b.y * c.z + b.z * c.y)
             + a.y * (b.z * c.x + b.x * c.z)
             + a.z * (b.x * c.y + b.y * c.x);
-        if !(determinant.abs().round() > self.bound() * uncancelled) {
+        if determinant.abs().round() <= self.bound() * uncancelled {
             return None;
         }
         let rows = [y.cross(z), z.cross(x), x.cross(y)];
