@@ -182,7 +182,7 @@ fn a_face_knows_its_coordinate_also_when_the_pigment_itself_is_turned_with_it() 
     let mut build = Build::new();
     let pigment = checkered(&mut build, vec![rotate(0.0, 0.0, 30.0), translate(0.0, 5.0, 0.0)]);
     let texture = build.texture(pigment, vec![]);
-    let (s, c) = (30f64.to_radians().sin(), 30f64.to_radians().cos());
+    let (s, c) = crate::math::elementary::sin_cos_degrees(30.0);
     let mut tilted = |steps: Vec<Step>, normal: Vector| {
         let moved = ModifierKind::Transform(build.transform(steps));
         let kind = ObjectKind::Plane { normal, distance: 0.0 };
