@@ -96,7 +96,9 @@ pub enum ModifierKind {
     Transform(TransformId),
     /// Replaces the texture.
     Texture(TextureId),
-    /// Replaces the texture's pigment only (a texture always precedes it).
+    /// Replaces the texture's pigment only (a texture always precedes it). As in POV-Ray
+    /// (measured) it stands where the other one stood: its own transforms come after all that the
+    /// other went through.
     Pigment(PigmentId),
     /// Replaces the texture's finish only (a texture always precedes it).
     Finish(FinishId),
@@ -246,7 +248,8 @@ impl Default for Settings {
     }
 }
 
-/// The camera's words in written order (POV-Ray's defaults stand before them).
+/// The camera's words in written order, without the defaults. As in POV-Ray 3.7 (measured) the order
+/// only matters among equal words, where the last counts, and among transforms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,

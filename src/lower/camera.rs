@@ -146,7 +146,7 @@ impl Words {
         let Some((degrees, site)) = self.angle else { return Ok(()) };
         let (sine, cosine) = sin_cos_degrees(0.5 * degrees);
         let length = self.right.vector.length() * Double::from(0.5) * cosine / sine;
-        let (unit, _) = self
+        let unit = self
             .direction
             .vector
             .normalized()
@@ -173,7 +173,7 @@ impl Words {
     /// stands upright in the picture. Where the camera looks along `sky`, it keeps its `right`.
     fn turn(&mut self, dialect: Dialect) -> Result<(), (Fault, Site)> {
         let Some((target, site)) = self.look_at else { return Ok(()) };
-        let Some((forward, _)) = (target - self.location).normalized() else {
+        let Some(forward) = (target - self.location).normalized() else {
             let fault = degenerate(
                 "this camera looks at the point where it stands",
                 "expected another point than `location`",
@@ -196,7 +196,7 @@ impl Words {
                 return Err((fault.help("give it another `sky`, such as `sky z`"), site));
             }
         }
-        let Some((across, _)) = across.normalized() else {
+        let Some(across) = across.normalized() else {
             return Err((Fault::not_finite("this camera"), site));
         };
         self.direction.vector = forward * direction.length();

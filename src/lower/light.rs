@@ -25,7 +25,7 @@ impl Lowering<'_, '_> {
 
 fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
     let unit = |to_light: DoubleVector| match to_light.normalized() {
-        Some((unit, _)) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
+        Some(unit) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
         Some(_) => Err(Fault::not_finite("this light's direction")),
         None => Err(Fault::new(Code::ZeroVector, "this light's direction is the zero vector")
             .label("expected the light to come from somewhere")),

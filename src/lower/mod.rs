@@ -57,7 +57,9 @@ impl Lowering<'_, '_> {
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
-            self.world.background = background.color.rgb;
+            let rgb = background.color.rgb;
+            let rgb = rgb.is_finite().then_some(rgb).ok_or(Fault::not_finite("the background"));
+            self.world.background = self.reporter.made(rgb, background.site).unwrap_or_default();
         }
     }
 }

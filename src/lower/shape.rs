@@ -63,7 +63,7 @@ pub fn plane(
     inverse: bool,
     map: &Affine,
 ) -> Result<(Plane, LocalFace), Fault> {
-    let Some((local_normal, _)) = exact(normal).normalized() else {
+    let Some(local_normal) = exact(normal).normalized() else {
         return Err(Fault::new(Code::ZeroVector, "this plane's normal is the zero vector")
             .label("expected a direction, as in `plane { y, 0 }`"));
     };
@@ -73,8 +73,8 @@ pub fn plane(
     let n = local.normal;
     let towards = rows[0] * n.x + rows[1] * n.y + rows[2] * n.z;
     let towards = if determinant.round() < 0.0 { -towards } else { towards };
-    let (unit, length) = towards.normalized().ok_or_else(|| no_size(FLAT))?;
-    let distance = local.distance * determinant.abs() / length + unit.dot(map.offset());
+    let unit = towards.normalized().ok_or_else(|| no_size(FLAT))?;
+    let distance = local.distance * determinant.abs() / towards.length() + unit.dot(map.offset());
     let (unit, distance) = if inverse { (-unit, -distance) } else { (unit, distance) };
     if !unit.is_finite() || !distance.is_finite() {
         return Err(Fault::not_finite("this plane"));
@@ -104,9 +104,9 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
     let mut sides = Vec::with_capacity(3);
     for (axis, row) in rows.into_iter().enumerate() {
-        let (unit, length) = row.normalized().ok_or_else(|| no_size(FLAT))?;
+        let unit = row.normalized().ok_or_else(|| no_size(FLAT))?;
         let unit = if determinant.round() < 0.0 { -unit } else { unit };
-        let half_width = half_widths[axis] * determinant.abs() / length;
+        let half_width = half_widths[axis] * determinant.abs() / row.length();
         sides.push(Side { axis, normal: unit, half_width, turned: false });
     }
     let sides = in_canonical_order(sides, map.bound());
@@ -120,16 +120,16 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
         ];
         if side.turned { [ends[1], ends[0]] } else { ends }
     });
-    let solid = Box_ {
-        centre: centre.round(),
-        normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
-        half_widths: sides.each_ref().map(|side| side.half_width.round()),
-    };
     if !centre.is_finite()
         || !sides.iter().all(|side| side.normal.is_finite() && side.half_width.is_finite())
     {
         return Err(Fault::not_finite("this box"));
     }
+    let solid = Box_ {
+        centre: centre.round(),
+        normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
+        half_widths: sides.each_ref().map(|side| side.half_width.round()),
+    };
     let [x, y, z] = faces;
     Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
 }

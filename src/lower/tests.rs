@@ -1,4 +1,10 @@
 //! Laws of lowering.
 
 mod build;
+mod camera;
+mod drift;
+mod fault;
 mod form;
+mod seed_rules;
+mod spelling;
+mod texture;

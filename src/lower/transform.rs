@@ -127,19 +127,28 @@ impl Affine {
 
     /// The map that first does `inner`, then this one.
     pub fn after(&self, inner: &Self) -> Self {
+        let rounding = self.rounding + inner.rounding;
+        let offset = self.point(inner.offset);
+        // Most maps only translate: nothing is rounded then, and little is computed.
+        if inner.is_translation() {
+            return Self { rows: self.rows, offset, rounding };
+        }
+        if self.is_translation() {
+            return Self { rows: inner.rows, offset, rounding };
+        }
         let columns = inner.columns();
         let row = |row: DoubleVector| {
             DoubleVector::new(row.dot(columns[0]), row.dot(columns[1]), row.dot(columns[2]))
         };
-        Self {
-            rows: self.rows.map(row),
-            offset: self.point(inner.offset),
-            rounding: self.rounding + inner.rounding + Self::STEP_ROUNDING,
-        }
+        Self { rows: self.rows.map(row), offset, rounding: rounding + Self::STEP_ROUNDING }
     }
 
     pub fn is_identity(&self) -> bool {
-        self.rows == Self::IDENTITY.rows && self.offset == DoubleVector::ZERO
+        self.is_translation() && self.offset == DoubleVector::ZERO
+    }
+
+    fn is_translation(&self) -> bool {
+        self.rows == Self::IDENTITY.rows
     }
 
     pub fn point(&self, p: DoubleVector) -> DoubleVector {
@@ -147,6 +156,9 @@ impl Affine {
     }
 
     pub fn direction(&self, d: DoubleVector) -> DoubleVector {
+        if self.is_translation() {
+            return d;
+        }
         DoubleVector::new(self.rows[0].dot(d), self.rows[1].dot(d), self.rows[2].dot(d))
     }
 
@@ -189,7 +201,7 @@ impl Affine {
         let uncancelled = a.x * (b.y * c.z + b.z * c.y)
             + a.y * (b.z * c.x + b.x * c.z)
             + a.z * (b.x * c.y + b.y * c.x);
-        if !(determinant.abs().round() > self.bound() * uncancelled) {
+        if determinant.abs().round() <= self.bound() * uncancelled {
             return None;
         }
         let rows = [y.cross(z), z.cross(x), x.cross(y)];
@@ -201,6 +213,9 @@ impl Affine {
         if !(self.rows.iter().all(|row| row.is_finite()) && self.offset.is_finite()) {
             return Err(Fault::not_finite("this transform"));
         }
+        if self.is_translation() {
+            return Ok(Self { offset: -self.offset, ..*self });
+        }
         let Cofactors { rows, determinant } =
             self.cofactors().ok_or(Fault::flat("this transform flattens space"))?;
         let rows = rows.map(|row| row.map(|c| c / determinant));
@@ -211,6 +226,9 @@ impl Affine {
     /// The factor by which lengths grow, if it is the same in all directions: when the rows are as
     /// long as each other and at right angles, within the map's bound (which is far below `f64`).
     pub fn uniform_scale(&self) -> Option<Double> {
+        if self.is_translation() {
+            return Some(Double::ONE);
+        }
         let [x, y, z] = self.rows;
         let length = x.length();
         let [x, y, z] = [x, y, z].map(|row| row.map(|c| c / length));

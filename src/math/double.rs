@@ -46,10 +46,10 @@ impl Double {
     const RADIANS_PER_DEGREE: Self =
         Self { high: 0.017453292519943295, low: 2.9486522708701687e-19 };
 
-    /// The nearest `f64`.
+    /// The nearest `f64`; of the two zeros the positive one.
     #[inline]
     pub fn round(self) -> f64 {
-        self.high
+        self.high + 0.0
     }
 
     #[inline]
@@ -240,18 +240,25 @@ impl DoubleVector {
 
     /// The length; exact along an axis, at any size without over- or underflow.
     pub fn length(self) -> Double {
-        let size = power_of_two_near(self.largest());
-        let v = self.map(|c| c.times_power_of_two(1.0 / size));
-        v.on_axis().unwrap_or_else(|| v.dot(v).sqrt()).times_power_of_two(size)
+        let (v, size) = self.near_one();
+        v.length_near_one().times_power_of_two(size)
     }
 
-    /// The vector of length 1 in this direction, and the length; `None` for zero.
-    pub fn normalized(self) -> Option<(Self, Double)> {
-        let length = self.length();
-        if length.is_zero() {
-            return None;
-        }
-        Some((self.map(|c| c / length), length))
+    /// The vector of length 1 in this direction; `None` for zero.
+    pub fn normalized(self) -> Option<Self> {
+        let (v, _) = self.near_one();
+        let length = v.length_near_one();
+        (!length.is_zero()).then(|| v.map(|c| c / length))
+    }
+
+    /// This vector over a power of two that brings it near 1, and that power.
+    fn near_one(self) -> (Self, f64) {
+        let size = power_of_two_near(self.largest());
+        (self.map(|c| c.times_power_of_two(1.0 / size)), size)
+    }
+
+    fn length_near_one(self) -> Double {
+        self.on_axis().unwrap_or_else(|| self.dot(self).sqrt())
     }
 
     /// The size of the only component that is not zero, if there is but one.
