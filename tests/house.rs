@@ -71,6 +71,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("ctrlc", &["cli/"]),
     ("nix", &["cli/"]),
     ("tempfile", &["cli/"]),
+    ("terminal_size", &["cli/"]),
 ];
 
 /// What only the doors may do.
