@@ -231,7 +231,8 @@ fn a_full_disk_is_an_error() {
 #[test]
 fn an_interrupted_render_leaves_what_is_done() {
     let place = Place::new();
-    let mut command = place.command("a.scene -o big.png --size 8000x8000 --antialias 32 --threads 1");
+    let mut command =
+        place.command("a.scene -o big.png --size 8000x8000 --antialias 32 --threads 1");
     let child = command.stderr(Stdio::piped()).spawn().expect("runs");
     std::thread::sleep(std::time::Duration::from_millis(1500));
     let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
@@ -403,9 +404,12 @@ fn includes_are_found_in_the_folders_given() {
 #[test]
 fn each_stage_can_be_shown() {
     let place = Place::new();
-    for (stage, word) in
-        [("ast", "sphere"), ("scene", "sphere <0, 0, 0> 1"), ("world", "radius 1"), ("plan", "diffuse")]
-    {
+    for (stage, word) in [
+        ("ast", "sphere"),
+        ("scene", "sphere <0, 0, 0> 1"),
+        ("world", "radius 1"),
+        ("plan", "diffuse"),
+    ] {
         let shown = place.run(&format!("show a.scene --stage {stage}")).ends(0, &[]).stdout();
         assert!(shown.contains(word), "{stage}:\n{shown}");
     }

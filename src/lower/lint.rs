@@ -8,6 +8,10 @@ use crate::world::Pigment;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
+        // A part that is not there because of a fault is no second fault.
+        if self.reporter.faults > 0 || self.reporter.diagnostics.has_errors() {
+            return;
+        }
         let cameras = &self.scene.cameras;
         if cameras.is_empty() {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
@@ -23,9 +27,6 @@ impl Lowering<'_, '_> {
                     .traced(camera.site, self.reporter.expansions);
                 self.reporter.diagnostics.push(diagnostic);
             }
-        }
-        if self.reporter.faults > 0 {
-            return;
         }
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();

@@ -213,7 +213,13 @@ impl Evaluator<'_> {
         }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let name = word.name();
-        let diagnostic = if has_block {
+        let near = suggest::foreign(name).filter(|near| place.words().any(|word| word == *near));
+        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+            Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
+                .at(token.span, format!("did you mean `{near}`?"))
+                .help(format!("replace it with `{near}`"))
+                .fix(token.span, near)
+        } else if has_block {
             let home = if Place::SCENE.holds(word) { "it belongs to the scene itself" } else { "it belongs elsewhere" };
             Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
                 .at(token.span, home)
