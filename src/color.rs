@@ -4,6 +4,7 @@
 //! a colour: light plus `filter` and `transmit`. Encoding for a display happens only in
 //! [`srgb_encode`].
 
+use std::fmt;
 use std::ops::{Add, AddAssign, Mul};
 
 use crate::math::elementary::pow;
@@ -58,6 +59,14 @@ impl Rgb {
 
     pub fn components(self) -> [f64; 3] {
         [self.red, self.green, self.blue]
+    }
+}
+
+/// As the language writes it: `<1, 0.5, 0>`.
+impl fmt::Display for Rgb {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Adding zero turns −0 into 0.
+        write!(f, "<{}, {}, {}>", self.red + 0.0, self.green + 0.0, self.blue + 0.0)
     }
 }
 
@@ -122,6 +131,20 @@ impl Color {
             filter: mix(self.filter, other.filter),
             transmit: mix(self.transmit, other.transmit),
         }
+    }
+}
+
+/// As [`Rgb`], with filter and transmit where they are not zero.
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.rgb.fmt(f)?;
+        if self.filter != 0.0 {
+            write!(f, " filter {}", self.filter)?;
+        }
+        if self.transmit != 0.0 {
+            write!(f, " transmit {}", self.transmit)?;
+        }
+        Ok(())
     }
 }
 

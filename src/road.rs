@@ -25,14 +25,10 @@ pub struct Options {
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
     pub frame_number: f64,
-    pub nesting_limit: u32,
     pub limits: Limits,
 }
 
 impl Options {
-    /// Brackets may be nested this deep.
-    pub const NESTING_LIMIT: u32 = 10_000;
-
     /// The defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
         Self {
@@ -43,7 +39,6 @@ impl Options {
             declares: Vec::new(),
             clock: 0.0,
             frame_number: 0.0,
-            nesting_limit: Self::NESTING_LIMIT,
             limits: Limits::default(),
         }
     }
@@ -82,7 +77,8 @@ impl<'a> Road<'a> {
         });
         let (text, _) = decode(bytes);
         let file = self.sources.add(Source::new(name, text));
-        if let Some(at) = wrong {
+        // Old POV-Ray files have accents in comments, and are right all the same.
+        if let Some(at) = wrong.filter(|_| self.options.lints) {
             let end =
                 self.sources.get(file).text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
             let help = match wide {
@@ -102,8 +98,8 @@ impl<'a> Road<'a> {
     }
 
     pub fn parse(&mut self, file: FileId) -> Ast {
-        let Options { dialect, nesting_limit, .. } = self.options;
-        let options = ParseOptions { dialect, nesting_limit: nesting_limit as usize };
+        let Options { dialect, limits, .. } = self.options;
+        let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
         parse(self.sources.get(file), file, &options, &mut self.diagnostics)
     }
 

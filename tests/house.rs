@@ -106,6 +106,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("ctrlc", &["cli/"]),
     ("nix", &["cli/"]),
     ("tempfile", &["cli/"]),
+    ("terminal_size", &["cli/"]),
 ];
 
 /// What only the doors may do.

@@ -154,7 +154,7 @@ pub struct SceneArguments {
     /// Declare a number before the scene starts; may be given several times
     #[arg(short = 'D', long = "declare", value_name = "NAME=VALUE", value_parser = declare)]
     declares: Vec<(String, f64)>,
-    /// Raise or lower a limit: loops, macros, includes, nesting, objects, pixels
+    /// Raise or lower a limit: loop-turns, macro-depth, include-depth, nesting, objects, pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
     /// Warn about what is probably a mistake, in `.pov` files too
@@ -170,9 +170,9 @@ pub struct SceneArguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Limit {
-    Loops,
-    Macros,
-    Includes,
+    LoopTurns,
+    MacroDepth,
+    IncludeDepth,
     Nesting,
     Objects,
     Pixels,
@@ -195,10 +195,10 @@ impl SceneArguments {
         for &(limit, n) in &self.limits {
             let small = u32::try_from(n).unwrap_or(u32::MAX);
             match limit {
-                Limit::Loops => options.limits.loop_turns = n,
-                Limit::Macros => options.limits.macro_depth = small,
-                Limit::Includes => options.limits.include_depth = small,
-                Limit::Nesting => options.nesting_limit = small,
+                Limit::LoopTurns => options.limits.loop_turns = n,
+                Limit::MacroDepth => options.limits.macro_depth = small,
+                Limit::IncludeDepth => options.limits.include_depth = small,
+                Limit::Nesting => options.limits.nesting = small,
                 Limit::Objects => options.limits.objects = n,
                 Limit::Pixels => {}
             }
@@ -291,9 +291,9 @@ fn declare(text: &str) -> Result<(String, f64), String> {
 
 fn limit(text: &str) -> Result<(Limit, u64), String> {
     let (name, value) =
-        text.split_once('=').ok_or("expected NAME=N, such as loops=1000000".to_owned())?;
+        text.split_once('=').ok_or("expected NAME=N, such as objects=10000000".to_owned())?;
     let limit = Limit::from_str(name, true).map_err(|_| {
-        "the limits are loops, macros, includes, nesting, objects, pixels".to_owned()
+        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, pixels".to_owned()
     })?;
     let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;
     Ok((limit, number))

@@ -115,6 +115,7 @@ impl Evaluator<'_> {
                 Ok(())
             }),
             DirectiveKind::Version(version) => {
+                self.says_version = true;
                 self.version = self.number(here, *version)?;
                 Ok(())
             }

@@ -1,7 +1,9 @@
 //! Lints: what a right scene might contain, and probably does not.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use crate::scene::Dialect;
+use crate::source::{FileId, Span};
+use crate::vocabulary::Word;
 
 use super::value::Value;
 use super::{Evaluator, Here};
@@ -26,6 +28,10 @@ impl Evaluator<'_> {
             if declared.used || !declared.global_in_main || name.starts_with('_') {
                 continue;
             }
+            // A word of the language cannot be declared; that has been told.
+            if Word::from_name(&name).is_some() {
+                continue;
+            }
             let site = declared.site;
             let diagnostic = match value {
                 Some(Value::Broken) | None => continue,
@@ -47,6 +53,22 @@ impl Evaluator<'_> {
         for diagnostic in unused {
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
+    pub(super) fn warn_of_old_version(&mut self, main: FileId) {
+        let missing = match (self.says_version, self.says_gamma) {
+            _ if self.options.dialect == Dialect::Scene => return,
+            (true, true) => return,
+            (false, true) => "`#version`",
+            (true, false) => "`assumed_gamma`",
+            (false, false) => "`#version` and no `assumed_gamma`",
+        };
+        let message = format!("the file has no {missing}; it is read as version 3.7 with gamma 1");
+        let diagnostic = Diagnostic::new(Code::OldVersion, message)
+            .at(Span::new(main, 0, 0), "POV-Ray would read this as an old file")
+            .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
+        self.diagnostics.push(diagnostic);
     }
 
     /// Degrees are wanted; these look like radians.

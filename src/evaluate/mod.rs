@@ -201,6 +201,9 @@ struct Evaluator<'a> {
     including: Vec<String>,
     default_texture: TextureId,
     version: f64,
+    /// Whether the scene said `#version`, and `assumed_gamma`.
+    says_version: bool,
+    says_gamma: bool,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
     /// Set by `#error` and by limits: nothing further is evaluated.
@@ -270,6 +273,8 @@ impl<'a> Evaluator<'a> {
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,
+            says_version: false,
+            says_gamma: false,
             poison: None,
             halted: false,
             macro_depth: 0,
@@ -287,6 +292,7 @@ impl<'a> Evaluator<'a> {
         self.inside(&here, root, Self::scene_items);
         if !self.halted {
             self.lint_declarations();
+            self.warn_of_old_version(main.file);
         }
     }
 

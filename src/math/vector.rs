@@ -143,6 +143,13 @@ real!(
 );
 real!(f64, glam::DVec3, |v| v, |v| v, (f64::from_bits(123 << 52), f64::from_bits(2023 << 52)));
 
+/// The vector as the language writes it: `<1, 2, 3>`, each number in the shortest form that reads
+/// back to the same value.
+pub fn written(v: Vector) -> String {
+    // Adding zero turns −0 into 0.
+    format!("<{}, {}, {}>", v.x + 0.0, v.y + 0.0, v.z + 0.0)
+}
+
 /// A vector of length 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnitVector(Vector);

@@ -11,9 +11,9 @@ use super::{
     ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
 };
 use crate::math::transform::Step;
+use crate::math::vector::written as vector;
 use crate::pattern::Pattern;
 use crate::source::Sources;
-use crate::world::print::{color, rgb, vector};
 
 /// Deeper levels are not indented further.
 const DEEPEST_INDENT: usize = 20;
@@ -37,13 +37,13 @@ impl Printer<'_> {
     fn write(&mut self, out: &mut String) -> fmt::Result {
         let settings = &self.scene.settings;
         writeln!(out, "global_settings")?;
-        writeln!(out, "  ambient_light {}", rgb(settings.ambient_light))?;
+        writeln!(out, "  ambient_light {}", settings.ambient_light)?;
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
         writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
         writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
         self.cameras(out)?;
         if let Some(background) = &self.scene.background {
-            writeln!(out, "background {}", color(background.color))?;
+            writeln!(out, "background {}", background.color)?;
         }
         if let Some(sky) = &self.scene.sky_sphere {
             writeln!(out, "sky_sphere")?;
@@ -172,7 +172,7 @@ impl Printer<'_> {
     fn pigment(&self, out: &mut String, id: PigmentId, indent: &str) -> fmt::Result {
         let pigment = &self.scene.pigments[id.index()];
         match &pigment.kind {
-            PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", color(*c))?,
+            PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", c)?,
             PigmentKind::Patterned { pattern, map } => {
                 let name = match pattern {
                     Pattern::Checker => "checker".to_owned(),
@@ -180,7 +180,7 @@ impl Printer<'_> {
                 };
                 writeln!(out, "{indent}pigment {name}")?;
                 for (value, c) in &map.0 {
-                    writeln!(out, "{indent}  {value} {}", color(*c))?;
+                    writeln!(out, "{indent}  {value} {}", c)?;
                 }
             }
         }
@@ -196,16 +196,16 @@ impl Printer<'_> {
                 writeln!(out, "{indent}finish kd {kd} ks {ks} phong_exponent {phong_exponent}")
             }
             Finish::Classic(f) => {
-                write!(out, "{indent}finish ambient {}", rgb(f.ambient))?;
+                write!(out, "{indent}finish ambient {}", f.ambient)?;
                 if !f.emission.is_black() {
-                    write!(out, " emission {}", rgb(f.emission))?;
+                    write!(out, " emission {}", f.emission)?;
                 }
                 write!(out, " diffuse {} brilliance {}", f.diffuse, f.brilliance)?;
                 write!(out, " phong {} phong_size {}", f.phong, f.phong_size)?;
                 write!(out, " specular {} roughness {}", f.specular, f.roughness)?;
                 write!(out, " metallic {}", f.metallic)?;
                 if let Some(r) = &f.reflection {
-                    let (low, high) = (rgb(r.minimum), rgb(r.maximum));
+                    let (low, high) = (r.minimum, r.maximum);
                     write!(out, " reflection {low} to {high} falloff {}", r.falloff)?;
                     write!(out, " exponent {} metallic {}", r.exponent, r.metallic)?;
                 }
@@ -256,7 +256,7 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
         }
         LightKind::Direction { to_light } => write!(out, "direction {}", vector(to_light))?,
     }
-    write!(out, " color {}", rgb(source.color))?;
+    write!(out, " color {}", source.color)?;
     if source.shadowless {
         write!(out, " shadowless")?;
     }

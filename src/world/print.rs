@@ -6,9 +6,9 @@
 use std::fmt::{self, Write};
 
 use super::{CameraKind, Finish, LightKind, LobeKind, Object, Origins, Pigment, World};
-use crate::color::{Color, Rgb};
 use crate::math::placement::Map;
-use crate::math::{Matrix, UnitVector, Vector};
+use crate::math::vector::written as vector;
+use crate::math::{Matrix, UnitVector};
 use crate::pattern::Pattern;
 use crate::shape::{Box_, Shape};
 use crate::source::{Site, Sources};
@@ -36,7 +36,7 @@ impl Printer<'_> {
         writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
         writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
-        writeln!(out, "background {}", rgb(self.world.background))?;
+        writeln!(out, "background {}", self.world.background)?;
         if let Some(sky) = &self.world.sky {
             writeln!(out, "sky{}", self.at(self.origins.sky))?;
             for layer in &sky.pigments {
@@ -95,7 +95,7 @@ impl Printer<'_> {
             };
             let shadows = if light.casts_shadows { "" } else { " shadowless" };
             let site = self.at(self.origins.lights.get(i).copied());
-            writeln!(out, "  {i} {kind} color {}{shadows}{site}", rgb(light.color))?;
+            writeln!(out, "  {i} {kind} color {}{shadows}{site}", light.color)?;
         }
         Ok(())
     }
@@ -187,7 +187,7 @@ fn faces(out: &mut String, solid: &Box_) -> fmt::Result {
 
 fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
     match pigment {
-        Pigment::Color(c) => writeln!(out, "{indent}color {}", color(*c)),
+        Pigment::Color(c) => writeln!(out, "{indent}color {}", c),
         Pigment::Patterned { pattern, pattern_from_texture, map } => {
             let name = match pattern {
                 Pattern::Checker => "checker".to_owned(),
@@ -199,7 +199,7 @@ fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
             }
             writeln!(out)?;
             for (value, c) in map {
-                writeln!(out, "{indent}  {value} {}", color(*c))?;
+                writeln!(out, "{indent}  {value} {}", c)?;
             }
             Ok(())
         }
@@ -212,7 +212,7 @@ fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
         parts.push("seed".to_owned());
     }
     if !finish.glow.is_black() {
-        parts.push(format!("glow {}", rgb(finish.glow)));
+        parts.push(format!("glow {}", finish.glow));
     }
     if finish.diffuse != 0.0 {
         parts.push(format!("diffuse {}", finish.diffuse));
@@ -233,39 +233,13 @@ fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
     if let Some(r) = &finish.reflection {
         parts.push(format!(
             "reflection {} to {} falloff {} exponent {} metallic {}",
-            rgb(r.minimum),
-            rgb(r.maximum),
-            r.falloff,
-            r.exponent,
-            r.metallic
+            r.minimum, r.maximum, r.falloff, r.exponent, r.metallic
         ));
     }
     match parts.is_empty() {
         true => writeln!(out, "    black"),
         false => writeln!(out, "    {}", parts.join(", ")),
     }
-}
-
-/// `<1, 2, 3>`.
-pub(crate) fn vector(v: Vector) -> String {
-    format!("<{}, {}, {}>", v.x, v.y, v.z)
-}
-
-/// `<1, 0.5, 0>`.
-pub(crate) fn rgb(c: Rgb) -> String {
-    format!("<{}, {}, {}>", c.red, c.green, c.blue)
-}
-
-/// As [`rgb`], with filter and transmit where they are not zero.
-pub(crate) fn color(c: Color) -> String {
-    let mut text = rgb(c.rgb);
-    if c.filter != 0.0 {
-        text += &format!(" filter {}", c.filter);
-    }
-    if c.transmit != 0.0 {
-        text += &format!(" transmit {}", c.transmit);
-    }
-    text
 }
 
 fn unit(v: UnitVector) -> String {

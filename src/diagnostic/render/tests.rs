@@ -1,3 +1,5 @@
+//! Messages as they are drawn.
+
 use super::*;
 use crate::diagnostic::{Code, TraceStep};
 use crate::source::Source;

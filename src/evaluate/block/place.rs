@@ -232,10 +232,9 @@ impl Evaluator<'_> {
         }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let name = word.name();
-        let foreign =
-            suggest::foreign(name).filter(|other| place.words().any(|word| word == *other));
-        let diagnostic = if let Some(near) = foreign {
-            Diagnostic::new(Code::ForeignWord, format!("`{name}` has no meaning {}", place.name()))
+        let near = suggest::foreign(name).filter(|near| place.words().any(|word| word == *near));
+        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+            Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
                 .fix(token.span, near)

@@ -25,6 +25,7 @@ impl Evaluator<'_> {
                     self.color_after(token, "a number or a colour")?.value.rgb;
             }
             TokenKind::Word(Word::AssumedGamma) => {
+                self.says_gamma = true;
                 // `srgb` stands for the curve of a usual display, whose mean exponent is 2.2.
                 self.scene.settings.assumed_gamma = match self.take_word(Word::Srgb) {
                     Some(_) => 2.2,

@@ -1,0 +1,440 @@
+//! The program as it is used: real runs, in folders of their own.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const SCENE: &str = "\
+camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+sphere { 0, 1 pigment { color rgb <1, 0, 0> } }
+";
+
+const BROKEN: &str = "\
+camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+sphere { 0, 1 pigmnt { color rgb <1, 0, 0> } }
+";
+
+/// A folder with a good scene, `a.scene`, and a broken one, `broken.scene`.
+struct Place(TempDir);
+
+impl Place {
+    fn new() -> Self {
+        let place = Self(tempfile::tempdir().expect("a folder"));
+        place.write("a.scene", SCENE);
+        place.write("broken.scene", BROKEN);
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).expect("written");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("listed").flatten();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, words: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lucarne"));
+        command.args(words.split_whitespace()).current_dir(self.0.path()).stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program with these words.
+    fn run(&self, words: &str) -> Run {
+        Run(self.command(words).output().expect("runs"))
+    }
+}
+
+struct Run(Output);
+
+impl Run {
+    fn code(&self) -> i32 {
+        self.0.status.code().expect("not killed")
+    }
+
+    fn stdout(&self) -> String {
+        String::from_utf8_lossy(&self.0.stdout).into_owned()
+    }
+
+    fn stderr(&self) -> String {
+        String::from_utf8_lossy(&self.0.stderr).into_owned()
+    }
+
+    /// Asserts the exit code, and that standard error has these words.
+    fn ends(self, code: i32, words: &[&str]) -> Self {
+        assert_eq!(self.code(), code, "{}{}", self.stdout(), self.stderr());
+        for word in words {
+            assert!(self.stderr().contains(word), "no `{word}` in:\n{}", self.stderr());
+        }
+        self
+    }
+}
+
+// ── render ──
+
+#[test]
+fn a_scene_alone_becomes_a_picture_of_its_name_in_the_current_folder() {
+    let place = Place::new();
+    fs::create_dir(place.path("here")).expect("a folder");
+    let mut command = place.command("../a.scene --size 32x24");
+    let run = Run(command.current_dir(place.path("here")).output().expect("runs"));
+    let run = run.ends(0, &["a.png: 32×24, 1 object, 1 light, ", " s\n"]);
+    assert_eq!((run.stdout().as_str(), run.stderr().lines().count()), ("", 1));
+    assert_eq!(&place.read("here/a.png")[..8], b"\x89PNG\r\n\x1a\n");
+}
+
+#[test]
+fn the_extension_chooses_the_format() {
+    let place = Place::new();
+    let starts: [(&str, &[u8]); 7] = [
+        ("b.png", b"\x89PNG"),
+        ("b.jpg", b"\xff\xd8\xff"),
+        ("b.JPEG", b"\xff\xd8\xff"),
+        ("b.ppm", b"P6\n16 8\n255\n"),
+        ("b.qoi", b"qoif"),
+        ("b.hdr", b"#?RADIANCE"),
+        ("b.exr", b"\x76\x2f\x31\x01"),
+    ];
+    for (name, start) in starts {
+        place.run(&format!("render a.scene -o {name} --size 16x8")).ends(0, &[name]);
+        assert!(place.read(name).starts_with(start), "{name}");
+    }
+    place.run("a.scene -o b.ppm --size 16x8 --bits 16").ends(0, &[]);
+    assert!(place.read("b.ppm").starts_with(b"P6\n16 8\n65535\n"));
+}
+
+#[test]
+fn a_picture_on_standard_output_is_alone_there() {
+    let place = Place::new();
+    let run = place.run("a.scene -o - --size 16x8 --stats json --message-format json").ends(0, &[]);
+    assert!(run.0.stdout.starts_with(b"\x89PNG") && run.0.stdout.ends_with(b"IEND\xaeB`\x82"));
+    assert!(run.stderr().contains("\"wall_s\""));
+    assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes_for_any_number_of_threads() {
+    let place = Place::new();
+    place.run("a.scene -o one.png --size 96x64 --threads 1").ends(0, &[]);
+    place.run("a.scene -o four.png --size 96x64 --threads 4").ends(0, &[]);
+    assert_eq!(place.read("one.png"), place.read("four.png"));
+}
+
+#[test]
+fn a_region_is_an_exact_crop() {
+    let place = Place::new();
+    place.run("a.scene -o whole.ppm --size 40x30").ends(0, &[]);
+    place.run("a.scene -o part.ppm --size 40x30 --region 10,8,20,12").ends(0, &["20×12"]);
+    let (whole, part) = (place.read("whole.ppm"), place.read("part.ppm"));
+    let (whole, part) = (&whole[b"P6\n40 30\n255\n".len()..], &part[b"P6\n20 12\n255\n".len()..]);
+    let cut: Vec<u8> =
+        (8..20).flat_map(|y| &whole[(y * 40 + 10) * 3..(y * 40 + 30) * 3]).copied().collect();
+    assert_eq!(cut, part);
+}
+
+#[test]
+fn a_number_from_the_command_line_reaches_the_scene() {
+    let place = Place::new();
+    place.write("d.scene", &SCENE.replace("0, 1 pig", "0, Radius pig"));
+    place.run("d.scene --size 8x8").ends(1, &["undeclared-name"]);
+    place.run("d.scene --size 8x8 -D Radius=0.5").ends(0, &[]);
+}
+
+#[test]
+fn stats_are_one_object_of_json_or_a_table() {
+    let place = Place::new();
+    let run = place.run("a.scene --size 16x8 --antialias off --stats json").ends(0, &[]);
+    let stats: serde_json::Value = serde_json::from_str(&run.stdout()).expect("JSON");
+    for key in ["parse", "evaluate", "lower", "build", "trace", "encode"] {
+        let seconds = stats[format!("{key}_cpu_s")].as_f64().expect(key);
+        assert!((0.0..10.0).contains(&seconds), "{key} {seconds}");
+    }
+    assert!(stats["wall_s"].as_f64().is_some_and(|s| s > 0.0));
+    assert!(stats["peak_rss_bytes"].as_u64().is_some_and(|bytes| bytes > 100_000));
+    assert_eq!((stats["objects"].as_u64(), stats["lights"].as_u64()), (Some(1), Some(1)));
+    assert_eq!(stats["rays"]["camera"].as_u64(), Some(16 * 8));
+    assert!(stats["rays"]["shadow"].is_u64() && stats["rays"]["reflection"].is_u64());
+    let table = place.run("--stats a.scene --size 16x8").ends(0, &[]).stdout();
+    assert!(table.contains("trace") && table.contains("peak memory"), "{table}");
+}
+
+#[test]
+fn a_broken_scene_gives_no_picture() {
+    let place = Place::new();
+    place.run("broken.scene").ends(1, &["unknown-word", "`pigment`", "1 error"]);
+    assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+}
+
+#[test]
+fn a_picture_is_overwritten_and_anything_else_is_not() {
+    let place = Place::new();
+    place.run("a.scene --size 8x8").ends(0, &[]);
+    place.run("a.scene --size 9x9").ends(0, &[]);
+    place.write("notes.png", "my notes");
+    place.run("a.scene --size 8x8 -o notes.png").ends(3, &["not a picture", "--force"]);
+    assert_eq!(place.read("notes.png"), b"my notes");
+    place.run("a.scene --size 8x8 -o notes.png --force").ends(0, &[]);
+    assert!(place.read("notes.png").starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn a_source_is_never_overwritten() {
+    let place = Place::new();
+    place.write("part.png", "sphere { x, 1 }\n");
+    place.write("b.scene", &format!("{SCENE}#include \"part.png\"\n"));
+    place.run("b.scene --size 8x8 -o part.png --force").ends(3, &["part of the scene"]);
+    assert_eq!(place.read("part.png"), b"sphere { x, 1 }\n");
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_told_before_the_render() {
+    let place = Place::new();
+    place.run("a.scene -o no/such/a.png").ends(3, &["there is no folder `no/such`"]);
+    fs::create_dir(place.path("b.png")).expect("a folder");
+    place.run("a.scene -o b.png").ends(3, &["it is a folder"]);
+}
+
+#[test]
+fn no_trace_of_a_failed_write_is_left() {
+    let place = Place::new();
+    place.run("a.scene --size 70000x1 -o wide.jpg").ends(3, &["wide.jpg"]);
+    assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let place = Place::new();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device");
+    let mut command = place.command("a.scene --size 8x8 -o -");
+    let run = Run(command.stdout(full).output().expect("runs"));
+    run.ends(3, &["cannot write to standard output", "no space left"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_render_leaves_what_is_done() {
+    let place = Place::new();
+    let mut command =
+        place.command("a.scene -o big.png --size 8000x8000 --antialias 32 --threads 1");
+    let child = command.stderr(Stdio::piped()).spawn().expect("runs");
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.expect("kill").success());
+    let run = Run(child.wait_with_output().expect("ends"));
+    run.ends(130, &["interrupted", "big.partial.png"]);
+    assert!(place.read("big.partial.png").starts_with(b"\x89PNG"));
+    assert!(!place.names().contains(&"big.png".to_owned()));
+}
+
+// ── usage ──
+
+#[test]
+fn wrong_usage_is_two() {
+    let place = Place::new();
+    for words in [
+        "",
+        "--no-such-flag a.scene",
+        "a.scene --size 0x5",
+        "a.scene --size big",
+        "a.scene --region 0,0,9,9 --size 8x8",
+        "a.scene --antialias maybe",
+        "a.scene --threads 0",
+        "a.scene --depth 0",
+        "a.scene -D 1=2",
+        "a.scene --limit colours=3",
+        "a.scene -o a.gif",
+        "a.scene -o a",
+        "a.scene -o a.jpg --bits 16",
+        "a.scene -o a.exr --bits 8",
+        "check",
+        "show a.scene",
+        "explain no-such-code",
+        "chekc a.scene",
+    ] {
+        let run = place.run(words);
+        assert_eq!(run.code(), 2, "{words}: {}", run.stderr());
+        assert!(!run.stderr().is_empty(), "{words}");
+    }
+    place.run("a.scene -o a.gif").ends(2, &[".gif", ".png"]);
+    place.run("explain unknwon-word").ends(2, &["did you mean `unknown-word`?"]);
+}
+
+#[test]
+fn help_and_version_are_asked_for() {
+    let place = Place::new();
+    let help = place.run("--help").ends(0, &[]).stdout();
+    for word in ["render", "check", "show", "plan", "explain", "Exit codes"] {
+        assert!(help.contains(word), "{word}");
+    }
+    assert!(place.run("--version").ends(0, &[]).stdout().starts_with("lucarne "));
+    assert!(place.run("render --help").ends(0, &[]).stdout().contains("--region"));
+}
+
+#[test]
+fn a_scene_that_cannot_be_read_is_three() {
+    let place = Place::new();
+    place.run("b.scene").ends(3, &["cannot read `b.scene`", "there is no such file"]);
+    place.run("a.scen").ends(3, &["did you mean `a.scene`?"]);
+    fs::create_dir(place.path("dir.scene")).expect("a folder");
+    place.run("dir.scene").ends(3, &["it is a folder"]);
+}
+
+#[test]
+fn a_limit_is_four() {
+    let place = Place::new();
+    place.write("loop.scene", &format!("{SCENE}#while (1) #end\n"));
+    place.run("check loop.scene --limit loop-turns=1000").ends(4, &["loop-limit"]);
+    place.run("a.scene --size 99999x99999").ends(4, &["pixels", "--limit"]);
+}
+
+// ── check ──
+
+#[test]
+fn a_right_scene_gets_no_message() {
+    let run = Place::new().run("check a.scene").ends(0, &[]);
+    assert_eq!((run.stdout().as_str(), run.stderr().as_str()), ("", ""));
+}
+
+#[test]
+fn json_is_one_object_a_line_on_standard_output() {
+    let place = Place::new();
+    let run = place.run("check broken.scene a.scene --message-format json").ends(1, &[]);
+    assert_eq!(run.stderr(), "");
+    let message: serde_json::Value = serde_json::from_str(&run.stdout()).expect("one object");
+    assert_eq!(message["code"], "unknown-word");
+    let label = &message["labels"][0];
+    assert_eq!(
+        (&label["file"], label["line"].as_u64(), label["column"].as_u64()),
+        (&"broken.scene".into(), Some(3), Some(15))
+    );
+    assert_eq!((label["end_line"].as_u64(), label["end_column"].as_u64()), (Some(3), Some(21)));
+    assert_eq!(message["fixes"][0]["text"], "pigment");
+}
+
+#[test]
+fn short_is_one_line_a_message() {
+    let run = Place::new().run("check broken.scene --message-format short").ends(1, &[]);
+    assert_eq!(run.stderr().lines().count(), 1);
+    assert!(run.stderr().starts_with("broken.scene:3:15: error[unknown-word]: "));
+}
+
+#[test]
+fn colour_is_for_terminals() {
+    assert!(!Place::new().run("check broken.scene").ends(1, &[]).stderr().contains('\u{1b}'));
+}
+
+#[test]
+fn a_missing_file_does_not_keep_the_others_from_being_checked() {
+    let place = Place::new();
+    place.run("check missing.scene broken.scene").ends(3, &["missing.scene", "unknown-word"]);
+}
+
+#[test]
+fn warnings_can_be_denied() {
+    let place = Place::new();
+    place.write("w.scene", &format!("{SCENE}#declare Unused = 1;\n"));
+    place.run("check w.scene").ends(0, &["unused-declaration", "1 warning"]);
+    place.run("check w.scene --deny-warnings").ends(1, &["unused-declaration"]);
+    place.run("w.scene --deny-warnings").ends(1, &[]);
+    assert!(!place.names().contains(&"w.png".to_owned()));
+}
+
+#[test]
+fn lints_are_off_for_pov_files_unless_asked_for() {
+    let place = Place::new();
+    let text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Unused = 1;\n";
+    place.write("w.pov", &format!("{text}{SCENE}"));
+    assert_eq!(place.run("check w.pov").ends(0, &[]).stderr(), "");
+    place.run("check w.pov --lint").ends(0, &["unused-declaration"]);
+}
+
+#[test]
+fn syntax_only_reads_no_includes() {
+    let place = Place::new();
+    place.write("s.scene", "#include \"missing.inc\"\nsphere { 0, Undeclared }\n");
+    place.run("check s.scene --syntax-only").ends(0, &[]);
+    place.write("s.scene", "sphere { 0, 1\n");
+    place.run("check s.scene --syntax-only").ends(1, &["unclosed-block"]);
+}
+
+#[test]
+fn fixes_are_applied_and_the_rest_is_told() {
+    let place = Place::new();
+    place.write("f.scene", &format!("\u{feff}{}sphere {{ 0, Nowhere }}\r\n", BROKEN));
+    place.run("check --fix f.scene").ends(1, &["f.scene: 1 fix applied", "undeclared-name"]);
+    let mended = format!("\u{feff}{SCENE}sphere {{ 0, Nowhere }}\r\n");
+    assert_eq!(String::from_utf8(place.read("f.scene")).as_deref(), Ok(mended.as_str()));
+    assert_eq!(place.run("check --fix a.scene").ends(0, &[]).stderr(), "");
+    assert_eq!(place.names(), ["a.scene", "broken.scene", "f.scene"]);
+}
+
+#[test]
+fn includes_are_found_in_the_folders_given() {
+    let place = Place::new();
+    for folder in ["one", "two"] {
+        fs::create_dir(place.path(folder)).expect("a folder");
+        place.write(&format!("{folder}/ball.inc"), &format!("#debug \"{folder}\"\n"));
+    }
+    place.write("i.scene", &format!("#include \"ball.inc\"\n{SCENE}"));
+    place.run("check i.scene").ends(1, &["missing-include"]);
+    place.run("check i.scene -I two -I one").ends(0, &["two"]);
+    place.write("o.scene", &format!("#include \"../secret.inc\"\n{SCENE}"));
+    place.run("check o.scene").ends(1, &["forbidden-file"]);
+}
+
+// ── show, plan, explain ──
+
+#[test]
+fn each_stage_can_be_shown() {
+    let place = Place::new();
+    for (stage, word) in [
+        ("ast", "sphere"),
+        ("scene", "sphere <0, 0, 0> 1"),
+        ("world", "radius 1"),
+        ("plan", "diffuse"),
+    ] {
+        let shown = place.run(&format!("show a.scene --stage {stage}")).ends(0, &[]).stdout();
+        assert!(shown.contains(word), "{stage}:\n{shown}");
+    }
+    let plan = place.run("plan a.scene --size 8x8").ends(0, &[]).stdout();
+    assert!(plan.contains("picture 8×8") && plan.contains("a.scene:"), "{plan}");
+}
+
+#[test]
+fn a_broken_scene_shows_what_there_is_of_it() {
+    let run = Place::new().run("show broken.scene --stage world").ends(1, &["unknown-word"]);
+    assert!(run.stdout().contains("lights 1"));
+}
+
+#[test]
+fn explain_prints_a_page_or_lists_the_codes() {
+    let place = Place::new();
+    let page = place.run("explain zero-scale").ends(0, &[]).stdout();
+    assert!(page.starts_with("# zero-scale\n") && page.contains("## Instead"));
+    assert!(place.run("explain").ends(0, &[]).stdout().lines().count() > 50);
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let place = Place::new();
+    let mut child = place.command("explain").stdout(Stdio::piped()).spawn().expect("runs");
+    drop(child.stdout.take());
+    assert!(child.wait().expect("ends").code().is_some_and(|code| code != 70));
+}
