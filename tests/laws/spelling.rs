@@ -135,9 +135,9 @@ fn transforms() {
     );
     law(
         "one rotate is three",
-        "box { 0, 1 rotate <90, 180, 270> }",
-        "box { 0, 1 rotate 90*x rotate 180*y rotate 270*z }",
-        "box { 0, 1 rotate 270*z rotate 180*y rotate 90*x }",
+        "box { 0, 1 rotate <90, 180, 90> }",
+        "box { 0, 1 rotate 90*x rotate 180*y rotate 90*z }",
+        "box { 0, 1 rotate 90*z rotate 180*y rotate 90*x }",
     );
 }
 

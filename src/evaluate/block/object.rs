@@ -64,7 +64,8 @@ impl Evaluator<'_> {
                 None => parts(evaluator, token),
             };
             let mut modifiers = Vec::new();
-            let failed = evaluator.modifiers(word, &mut modifiers);
+            let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.is_textured(used));
+            let failed = evaluator.modifiers(word, textured, &mut modifiers);
             Ok((kind, modifiers, failed))
         })?;
         let kind = kind?;
@@ -205,14 +206,32 @@ impl Evaluator<'_> {
         Ok(ObjectKind::Union(children))
     }
 
-    /// Everything after the parts.
-    pub(super) fn modifiers(&mut self, word: Word, modifiers: &mut Vec<Modifier>) -> Outcome<()> {
+    /// Whether the object, or what it is a use of, has a texture of its own.
+    fn is_textured(&self, object: ObjectId) -> bool {
+        let mut next = Some(object);
+        while let Some(id) = next {
+            let Object { kind, modifiers, .. } = &self.scene.objects[id.index()];
+            if modifiers.iter().any(|m| matches!(m.kind, ModifierKind::Texture(_))) {
+                return true;
+            }
+            next = if let ObjectKind::Use(used) = kind { Some(*used) } else { None };
+        }
+        false
+    }
+
+    /// Everything after the parts. `textured`: what is modified has a texture already, which a
+    /// pigment or finish alone changes in part.
+    fn modifiers(
+        &mut self,
+        word: Word,
+        mut textured: bool,
+        modifiers: &mut Vec<Modifier>,
+    ) -> Outcome<()> {
         let place = match word {
             Word::Union => Place::csg(word),
             _ => Place::shape(word),
         };
         let mut failed = false;
-        let mut textured = false;
         while let Some(token) = self.next() {
             let before = self.poison;
             match self.modifier(&token, modifiers, &mut textured) {
