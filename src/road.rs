@@ -3,7 +3,7 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::evaluate::{EvaluateOptions, Limits, evaluate};
 use crate::lower::lower;
 use crate::scene::{Dialect, Scene};
@@ -113,7 +113,40 @@ impl<'a> Road<'a> {
             frame_number: self.options.frame_number,
             limits: self.options.limits,
         };
-        evaluate(ast, &mut self.sources, self.files, &options, &mut self.diagnostics)
+        let before = self.diagnostics.len();
+        let scene = evaluate(ast, &mut self.sources, self.files, &options, &mut self.diagnostics);
+        self.drop_echoes(before);
+        scene
+    }
+
+    /// A bracket without its partner shifts everything after it: what evaluation then finds out of
+    /// place there is the same mistake once more. So is what it misses on a line that did not parse.
+    fn drop_echoes(&mut self, parsed: usize) {
+        let line = |span: Span| {
+            (span.file, self.sources.get(span.file).position(span.start as usize).line)
+        };
+        let faults: Vec<(Code, Span)> = self
+            .diagnostics
+            .iter()
+            .take(parsed)
+            .filter(|fault| fault.severity == Severity::Error)
+            .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
+            .collect();
+        if faults.is_empty() {
+            return;
+        }
+        let echoes = |at: Span| {
+            faults.iter().any(|&(code, fault)| {
+                fault.file == at.file
+                    && (code.shifts_what_follows() && at.start >= fault.start
+                        || line(fault) == line(at))
+            })
+        };
+        let keep = |later: &Diagnostic| {
+            let place = later.primary().map(|label| label.span);
+            !(later.code.is_about_place() && place.is_none_or(echoes))
+        };
+        self.diagnostics.retain_after(parsed, keep);
     }
 
     pub fn lower(&mut self, scene: Scene) -> (World, Origins) {

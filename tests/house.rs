@@ -171,15 +171,41 @@ fn files(folder: &str, extensions: &[&str]) -> Vec<(String, String)> {
             }
         }
     }
+    let for_tests = modules_for_tests(&paths);
     // Files of tests live by the rules of tests.
-    paths.retain(|path| {
-        !path.components().any(|part| part.as_os_str() == "tests") || folder != "src"
-    });
-    paths.retain(|path| path.file_name().is_none_or(|name| name != "tests.rs"));
+    let is_test = |path: &Path| {
+        for_tests.iter().any(|test| path.starts_with(test) || path.with_extension("") == *test)
+    };
+    paths.retain(|path| !is_test(path));
     paths.sort();
     let name =
         |path: &Path| path.strip_prefix(&top).expect("below").to_string_lossy().replace('\\', "/");
     paths.iter().map(|path| (name(path), fs::read_to_string(path).expect("readable"))).collect()
+}
+
+/// The modules declared behind `#[cfg(test)]`, as paths without extension.
+fn modules_for_tests(paths: &[PathBuf]) -> Vec<PathBuf> {
+    let mut modules = Vec::new();
+    for path in
+        paths.iter().filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
+    {
+        let text = fs::read_to_string(path).expect("readable");
+        let folder = match path.file_stem().and_then(|stem| stem.to_str()) {
+            Some("mod" | "lib" | "main") => path.parent().expect("a folder").to_owned(),
+            _ => path.with_extension(""),
+        };
+        for (at, mark) in text.match_indices(
+            "#[cfg(test)]
+",
+        ) {
+            let declaration = text[at + mark.len()..].lines().next().unwrap_or("");
+            let name = declaration.trim_start_matches("pub(crate) ").strip_prefix("mod ");
+            if let Some(name) = name.and_then(|name| name.strip_suffix(';')) {
+                modules.push(folder.join(name));
+            }
+        }
+    }
+    modules
 }
 
 fn room(file: &str) -> &str {
@@ -340,7 +366,7 @@ fn every_diagnostic_code_has_a_page() {
 
 /// Directives that make sense together only, and are shown together.
 const SHOWN_TOGETHER: &[&str] =
-    &["else", "elseif", "end", "break", "case", "range", "ifndef", "error"];
+    &["debug", "warning", "else", "elseif", "end", "break", "case", "range", "ifndef"];
 
 #[test]
 fn every_built_word_has_an_example_among_the_scenes() {

@@ -116,3 +116,34 @@ codes! {
     AuthorDebug "author-debug" note "the scene's own `#debug`";
     OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
 }
+
+impl Code {
+    /// After such a fault of form, what follows stands in other blocks than its author meant.
+    pub fn shifts_what_follows(self) -> bool {
+        matches!(
+            self,
+            Self::UnclosedBlock
+                | Self::UnclosedString
+                | Self::UnclosedComment
+                | Self::StrayCloser
+                | Self::MissingEnd
+                | Self::StrayDirective
+                | Self::NestingLimit
+        )
+    }
+
+    /// It says that something stands where it should not, or does not where it should.
+    pub fn is_about_place(self) -> bool {
+        matches!(
+            self,
+            Self::MisplacedBlock
+                | Self::ExtraPart
+                | Self::MissingPart
+                | Self::ExpectedExpression
+                | Self::UnknownWord
+                | Self::WrongArity
+                | Self::UnusedDeclaration
+                | Self::NeverPlaced
+        )
+    }
+}

@@ -147,6 +147,12 @@ impl Diagnostics {
         self.list.truncate(len);
     }
 
+    /// Keeps, of the messages after the first `len`, those that `keep` says yes to.
+    pub fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
+        let later = self.list.split_off(len);
+        self.list.extend(later.into_iter().filter(keep));
+    }
+
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }

@@ -290,7 +290,8 @@ impl<'a> Evaluator<'a> {
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
-        if !self.halted {
+        // What a mistake kept from being run may be the use that is missing.
+        if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations();
             self.warn_of_old_version(main.file);
         }

@@ -1,7 +1,7 @@
 //! Puts right the misspelt words of directives, so that one letter does not unnest a file.
 
 use super::token::{Head, Token, TokenKind};
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
 
 /// What other languages write.
@@ -34,7 +34,8 @@ pub(super) fn correct_heads(
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
-        if let Some(near) = foreign.or_else(|| closest(word)) {
+        if let Some(near) = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()))
+        {
             let start = span.end - word.len() as u32;
             diagnostic = diagnostic
                 .help(format!("did you mean `#{near}`?"))
@@ -43,12 +44,4 @@ pub(super) fn correct_heads(
         }
         diagnostics.push(diagnostic);
     }
-}
-
-/// The directive nearest to a mistyped word, if one is near.
-fn closest(word: &str) -> Option<&'static str> {
-    let word = word.to_lowercase();
-    let distance = |candidate: &&&str| strsim::osa_distance(&word, candidate);
-    let best = Head::WORDS.iter().min_by_key(distance)?;
-    (distance(&best) <= 1 + word.len() / 5).then_some(best)
 }
