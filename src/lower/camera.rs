@@ -48,9 +48,9 @@ impl Lowering<'_, '_> {
             return;
         };
         self.origins.camera = Some(camera.site);
-        match self.spend_camera(camera) {
-            Ok(camera) => self.world.camera = camera,
-            Err((fault, site)) => self.reporter.fault(fault, site),
+        let spent = self.spend_camera(camera);
+        if let Some(camera) = self.reporter.made_there(spent) {
+            self.world.camera = camera;
         }
     }
 

@@ -5,6 +5,7 @@
 //! of the World was computed in extended precision and rounded once. Specified in `docs/world.md`.
 
 mod camera;
+mod finish;
 mod light;
 mod lint;
 mod object;
@@ -113,6 +114,11 @@ impl Reporter<'_, '_> {
     /// What was made, or `None` and a message.
     fn made<T>(&mut self, result: Result<T, Fault>, site: Site) -> Option<T> {
         result.map_err(|fault| self.fault(fault, site)).ok()
+    }
+
+    /// As [`Self::made`], for faults that bring their place along.
+    fn made_there<T>(&mut self, result: Result<T, (Fault, Site)>) -> Option<T> {
+        result.map_err(|(fault, site)| self.fault(fault, site)).ok()
     }
 }
 

@@ -49,7 +49,7 @@ impl<'s> Lowering<'s, '_> {
         for Root { object, default_texture } in &scene.roots {
             let default =
                 Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY);
-            let Some(surface) = self.surface(default) else { continue };
+            let Some(surface) = self.reporter.made_there(default) else { continue };
             let inherited = Inherited {
                 world_from_here: Affine::IDENTITY,
                 surface,
@@ -137,12 +137,12 @@ impl<'s> Lowering<'s, '_> {
                 }
                 ModifierKind::Texture(id) => {
                     let set = Surface::set(scene, &mut self.transforms, id, map);
-                    modified.surface = Some(self.surface(set)?);
+                    modified.surface = Some(self.reporter.made_there(set)?);
                 }
                 ModifierKind::Pigment(id) => {
                     let mut surface = self.textured(modified.surface, default_texture, map)?;
                     let painted = surface.repaint(scene, &mut self.transforms, id, map);
-                    self.surface(painted)?;
+                    self.reporter.made_there(painted)?;
                     modified.surface = Some(surface);
                 }
                 ModifierKind::Finish(id) => {
@@ -165,12 +165,8 @@ impl<'s> Lowering<'s, '_> {
     ) -> Option<Surface> {
         own.or_else(|| {
             let set = Surface::set(self.scene, &mut self.transforms, default, map);
-            self.surface(set)
+            self.reporter.made_there(set)
         })
-    }
-
-    fn surface<T>(&mut self, set: Result<T, (Fault, Site)>) -> Option<T> {
-        set.map_err(|(fault, site)| self.reporter.fault(fault, site)).ok()
     }
 
     fn solid(&mut self, kind: &ObjectKind, here: &Inherited, site: Site) -> Result<(), Fault> {

@@ -3,7 +3,7 @@
 //! **In:** steps as written. **Out:** one map, whose numbers are rounded to `f64` only by whoever
 //! spends it.
 //! **Invariant:** dyadic numbers and multiples of 90° are exact; elsewhere each step adds at most
-//! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay twelve digits
+//! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay six digits
 //! below what an `f64` can tell.
 
 use super::Fault;

@@ -145,6 +145,32 @@ fn equal_materials_and_equal_maps_are_one() {
 }
 
 #[test]
+fn maps_that_differ_stay_apart() {
+    let mut build = Build::new();
+    for x in [1.0, 2.0] {
+        let away = moved(&mut build, x);
+        let modifiers = vec![ModifierKind::Texture(CHECKER), away];
+        let ball = build.object(sphere(0.0, 0.0, 0.0, 1.0), modifiers);
+        build.root(ball);
+    }
+    let world = build.world();
+    assert_eq!(pattern_point(&world, 0, Vector::ZERO), v(-1.0, 0.0, 0.0));
+    assert_eq!(pattern_point(&world, 1, Vector::ZERO), v(-2.0, 0.0, 0.0));
+}
+
+#[test]
+fn ambient_is_lit_by_the_ambient_light_and_emission_is_not() {
+    let mut build = Build::new();
+    build.0.settings.ambient_light = Rgb::gray(0.5);
+    let (ambient, emission) = (Rgb::gray(0.25), Rgb::gray(1.0));
+    build.0.finishes[0] =
+        Finish::Classic(ClassicFinish { ambient, emission, ..Default::default() });
+    let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
+    build.root(object);
+    assert_eq!(build.world().materials[0].finish.glow, Rgb::gray(1.125));
+}
+
+#[test]
 fn a_pattern_of_one_colour_is_that_colour() {
     let mut build = Build::new();
     let map = ColorMap(vec![(0.0, Color::WHITE), (1.0, Color::WHITE)]);
@@ -175,6 +201,19 @@ fn a_checkered_plane_stays_on_its_lattice_wherever_it_is_turned_and_lifted() {
         assert_eq!(world.faces.len(), 1);
         assert_eq!(world.faces[0].0, [None, Some(3.0), None]);
     }
+}
+
+#[test]
+fn a_parents_checker_meets_a_moved_child_where_the_child_is() {
+    let mut build = Build::new();
+    let ground = plane(0.0, 1.0, 0.0, 1.0);
+    let child = build.moved(ground, vec![rotate(0.0, 20.0, 90.0), translate(2.5, 7.0, 7.0)]);
+    let steps = vec![rotate(11.0, 22.0, 33.0), translate(1e7, -1e7, 3e6)];
+    let away = ModifierKind::Transform(build.transform(steps));
+    let union = ObjectKind::Union(vec![child]);
+    let union = build.object(union, vec![ModifierKind::Texture(CHECKER), away]);
+    build.root(union);
+    assert_eq!(build.world().faces[0].0, [Some(1.5), None, None]);
 }
 
 #[test]

@@ -1,0 +1,72 @@
+//! Finishes: which answers to light a surface gives, and with what weight.
+//!
+//! **In:** the seed's or POV-Ray's words. **Out:** the World's finish.
+//! **Invariant:** everything of weight zero is left out; every number is finite.
+
+use super::Fault;
+use crate::color::Rgb;
+use crate::scene::{self, ClassicFinish};
+use crate::world::{Finish, Lobe, LobeKind, Reflection};
+
+/// A finish that answers no light.
+pub const BARE: Finish = Finish {
+    glow: Rgb::BLACK,
+    diffuse: 0.0,
+    brilliance: 1.0,
+    lobes: Vec::new(),
+    reflection: None,
+    seed: false,
+};
+
+/// Everything of weight zero is left out.
+pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish, Fault> {
+    let lowered = match finish {
+        &scene::Finish::Seed { kd, ks, phong_exponent } => Finish {
+            glow: ambient_light * kd,
+            diffuse: kd,
+            lobes: lobe(LobeKind::Blinn, ks, phong_exponent, 1.0),
+            reflection: (ks != 0.0).then_some(Reflection {
+                minimum: Rgb::gray(ks),
+                maximum: Rgb::gray(ks),
+                falloff: 1.0,
+                exponent: 1.0,
+                metallic: 0.0,
+            }),
+            seed: true,
+            ..BARE
+        },
+        scene::Finish::Classic(classic) => lower_classic(classic, ambient_light),
+    };
+    let exponents = lowered.lobes.iter().flat_map(|lobe| [lobe.weight, lobe.exponent]);
+    let mut numbers = exponents.chain([lowered.diffuse, lowered.brilliance]);
+    if !lowered.glow.is_finite() || numbers.any(|n| !n.is_finite()) {
+        return Err(Fault::not_finite("this object's finish"));
+    }
+    Ok(lowered)
+}
+
+fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
+    let mut lobes = lobe(LobeKind::Phong, finish.phong, finish.phong_size, finish.metallic);
+    lobes.extend(lobe(LobeKind::Blinn, finish.specular, 1.0 / finish.roughness, finish.metallic));
+    let reflection = finish.reflection.as_ref();
+    let reflection = reflection.filter(|r| !(r.minimum.is_black() && r.maximum.is_black()));
+    Finish {
+        glow: finish.ambient * ambient_light + finish.emission,
+        diffuse: finish.diffuse,
+        // Brilliance bends diffuse light only.
+        brilliance: if finish.diffuse == 0.0 { 1.0 } else { finish.brilliance },
+        lobes,
+        reflection: reflection.map(|r| Reflection {
+            minimum: r.minimum,
+            maximum: r.maximum,
+            falloff: r.falloff,
+            exponent: r.exponent,
+            metallic: r.metallic,
+        }),
+        seed: false,
+    }
+}
+
+fn lobe(kind: LobeKind, weight: f64, exponent: f64, metallic: f64) -> Vec<Lobe> {
+    if weight == 0.0 { Vec::new() } else { vec![Lobe { kind, weight, exponent, metallic }] }
+}
