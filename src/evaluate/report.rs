@@ -67,7 +67,7 @@ impl Evaluator<'_> {
         )
         .at(poison.site.span, "the language has it, this version does not build it");
         if let Some(used) = used.filter(|used| *used != poison.site.span) {
-            diagnostic = diagnostic.also(used, "needed here");
+            diagnostic = diagnostic.also(used, "needed by this");
         }
         self.report_in(poison.site.expansion, diagnostic)
     }

@@ -58,7 +58,11 @@ impl Evaluator<'_> {
             {
                 match self.object(token, word)? {
                     Value::Object(object) => self.place(object),
-                    Value::Poison(poison) => return Err(self.not_supported(poison, None)),
+                    Value::Poison(poison) => {
+                        let from = poison.site.span;
+                        let elsewhere = from.file != token.span.file || from.start < token.span.start;
+                        return Err(self.not_supported(poison, elsewhere.then_some(token.span)));
+                    }
                     _ => {}
                 }
                 Ok(())
