@@ -132,10 +132,14 @@ impl Evaluator<'_> {
                 Err(self
                     .not_supported(Poison { word: *mode, site: here.site(directive.head) }, None))
             }
-            DirectiveKind::Fclose(_) | DirectiveKind::Read { .. } | DirectiveKind::Write { .. } => {
-                // `#fopen` has said it.
+            DirectiveKind::Read { targets, .. } => {
+                // `#fopen` has said that files are not read yet; what they would set says nothing more.
+                for target in targets {
+                    self.scopes.assign(here.symbol(target.name), Value::Broken);
+                }
                 Ok(())
             }
+            DirectiveKind::Fclose(_) | DirectiveKind::Write { .. } => Ok(()),
             DirectiveKind::Ignored(text) => self.expression(here, *text).map(drop),
             DirectiveKind::Malformed => Err(Reported),
         }
@@ -409,11 +413,20 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Evaluates an expression for what it does. Its vectors may have any number of components: those
+    /// of shapes that are not built do.
+    pub(super) fn run_expression(&mut self, here: &Here, id: ExpressionId) {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Vector(components) => self.run_arguments(here, components),
+            _ => drop(self.expression(here, id)),
+        }
+    }
+
     /// Runs what is left of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
         while let Some(Token { kind, here, .. }) = self.next() {
             match kind {
-                TokenKind::Expression(id) => drop(self.expression(&here, id)),
+                TokenKind::Expression(id) => self.run_expression(&here, id),
                 TokenKind::Block(items) | TokenKind::Entry(items) => {
                     self.inside(&here, items, Self::run_items)
                 }

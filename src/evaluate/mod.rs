@@ -209,6 +209,8 @@ struct Evaluator<'a> {
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// How often something was reported, repetitions included.
+    reports: u64,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
     /// What `trace` and its kin have looked at.
@@ -278,6 +280,7 @@ impl<'a> Evaluator<'a> {
             poison: None,
             halted: false,
             macro_depth: 0,
+            reports: 0,
             openers: Vec::new(),
             probes: HashMap::new(),
         }

@@ -25,6 +25,7 @@ impl Evaluator<'_> {
             let site = crate::source::Site { span, expansion };
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
         }
+        self.reports += 1;
         self.diagnostics.push(diagnostic);
         Reported
     }

@@ -14,6 +14,9 @@ use super::scope::Symbol;
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
+/// A loop in which mistakes were reported ends after so many turns without another word.
+const FAULTY_TURNS: u64 = 1_000;
+
 /// Items being walked.
 #[derive(Debug)]
 pub(super) struct Frame {
@@ -38,6 +41,8 @@ enum FrameKind {
         body: Items,
         turns: u64,
         directive: DirectiveId,
+        /// How much had been reported when it started.
+        reports: u64,
     },
     For {
         symbol: Symbol,
@@ -135,7 +140,8 @@ impl Evaluator<'_> {
         directive: DirectiveId,
     ) {
         let empty = Items { start: body.end, end: body.end };
-        self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive });
+        let reports = self.reports;
+        self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive, reports });
     }
 
     pub(super) fn push_for(
@@ -314,11 +320,15 @@ impl Evaluator<'_> {
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
         match kind {
-            FrameKind::While { condition, body, turns, directive } => {
+            FrameKind::While { condition, body, turns, directive, reports } => {
                 *turns += 1;
+                let reports = *reports;
                 let (here, condition, body, turns, directive) =
                     (here.clone(), *condition, *body, *turns, *directive);
-                let goes_on = turns <= limit || self.loop_limit(&here, directive).is_ok();
+                // What a mistake in it keeps from being computed may be what ends the loop.
+                let faulty = turns > FAULTY_TURNS && self.reports > reports;
+                let goes_on =
+                    !faulty && (turns <= limit || self.loop_limit(&here, directive).is_ok());
                 if goes_on && self.condition(&here, condition) == Ok(true) {
                     if let Some(frame) = self.frames.last_mut() {
                         (frame.at, frame.end) = (body.start, body.end);

@@ -13,8 +13,10 @@ use super::transform::{Affine, Transforms};
 use super::{Fault, Lowering};
 use crate::color::Color;
 use crate::diagnostic::Code;
+use crate::math::UnitVector;
 use crate::math::double::Double;
 use crate::math::placement::Map;
+use crate::pattern::Pattern;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
 use crate::source::Site;
 use crate::world::{FaceCoordinates, Finish, Material, Pigment, Sky, World};
@@ -227,7 +229,7 @@ fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pig
                 Pigment::Color(*first)
             }
             entries => Pigment::Patterned {
-                pattern: *pattern,
+                pattern: canonical(*pattern),
                 pattern_from_texture: map,
                 map: entries.to_vec(),
             },
@@ -268,4 +270,14 @@ fn telling_numbers(material: &Material) -> [u64; 6] {
     let [red, green, blue] = color.rgb.components();
     let Finish { glow, diffuse, ref lobes, .. } = material.finish;
     [red, green, blue, glow.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)].map(bits)
+}
+
+/// A gradient runs along a unit vector: POV-Ray, too, takes only the direction of the written one.
+fn canonical(pattern: Pattern) -> Pattern {
+    match pattern {
+        Pattern::Checker => Pattern::Checker,
+        Pattern::Gradient { direction } => Pattern::Gradient {
+            direction: UnitVector::from_direction(direction).map_or(direction, UnitVector::get),
+        },
+    }
 }

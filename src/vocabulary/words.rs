@@ -172,7 +172,7 @@ vocabulary! {
         DensityFile "density_file" statement later "values from a file of a grid";
         Dents "dents" statement later "noise as dents";
         Facets "facets" statement later "a surface of flat facets";
-        Gradient "gradient" statement built "`gradient <v>`: rises from 0 to 1 along v, again in each unit";
+        Gradient "gradient" statement built "`gradient <v>`: rises from 0 to 1 in each unit along the direction of v, however long v is";
         Granite "granite" statement later "rough noise";
         Hexagon "hexagon" statement later "hexagons in three colours";
         ImageMap "image_map" statement later "colours from a picture";

@@ -95,7 +95,7 @@ impl Evaluator<'_> {
         if given.value <= 0.0 {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
         }
-        if given.value >= 180.0 && kind == CameraKind::Perspective {
+        if given.value >= 180.0 && kind == CameraKind::Perspective && self.poison.is_none() {
             return Err(self.out_of_range(
                 &given,
                 Word::Angle,

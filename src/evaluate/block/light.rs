@@ -23,6 +23,10 @@ impl Evaluator<'_> {
                 let outcome = evaluator.light_modifiers(&mut modifiers, None);
                 return outcome.map(|()| (ObjectKind::Use(declared), modifiers));
             }
+            if evaluator.takes_poison() {
+                let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None);
+                return Err(Reported);
+            }
             let mut light = evaluator.light_parts(&opener);
             let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok());
             let light = light?;

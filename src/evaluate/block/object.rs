@@ -111,6 +111,21 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Takes a name that stands for something not built, and remembers it.
+    pub(super) fn takes_poison(&mut self) -> bool {
+        let Some(Token { kind: TokenKind::Expression(id), .. }) = self.peek() else { return false };
+        let id = *id;
+        let Some(token) = self.peek().cloned() else { return false };
+        match self.named(&token, id) {
+            Some(Value::Poison(poison)) => {
+                self.next();
+                self.set_poison(poison);
+                true
+            }
+            _ => false,
+        }
+    }
+
     fn is_lone(&self, token: &Token) -> bool {
         matches!(token.kind, TokenKind::Expression(_))
     }

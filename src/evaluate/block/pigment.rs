@@ -25,15 +25,41 @@ impl Evaluator<'_> {
         pigment.site = token.here.site(token.span);
         let pigment = self.block(token, Word::Pigment, |evaluator| {
             let mut failed = false;
+            // A map may stand before its pattern.
+            let mut map = None;
             while let Some(token) = evaluator.next() {
-                if evaluator.pigment_item(&token, &mut pigment) == Err(Reported) {
+                if evaluator.pigment_item(&token, &mut pigment, &mut map) == Err(Reported) {
                     failed = true;
                     evaluator.skip_values();
                 }
             }
+            if let Some((given, token)) = map {
+                failed |= evaluator.paint(&mut pigment, given, &token) == Err(Reported);
+            }
             if failed { Err(Reported) } else { Ok(pigment) }
         })?;
         Ok(self.add_pigment(pigment))
+    }
+
+    /// Puts the colours of a map over the values of the pigment's pattern.
+    fn paint(&mut self, pigment: &mut Pigment, given: ColorMap, token: &Token) -> Outcome<()> {
+        match &mut pigment.kind {
+            PigmentKind::Patterned { map, .. } => {
+                *map = given;
+                Ok(())
+            }
+            // The pattern is one that is not built.
+            PigmentKind::Color(_) if self.poison.is_some() => Ok(()),
+            PigmentKind::Color(_) => {
+                let diagnostic = Diagnostic::new(
+                    Code::MissingPart,
+                    "a `color_map` needs a pattern in its pigment",
+                )
+                .at(token.span, "colours over the values of which pattern?")
+                .help("name one: `gradient y color_map { … }`");
+                Err(self.report(&token.here, diagnostic))
+            }
+        }
     }
 
     fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
@@ -41,7 +67,12 @@ impl Evaluator<'_> {
         PigmentId(self.scene.pigments.len() as u32 - 1)
     }
 
-    fn pigment_item(&mut self, token: &Token, pigment: &mut Pigment) -> Outcome<()> {
+    fn pigment_item(
+        &mut self,
+        token: &Token,
+        pigment: &mut Pigment,
+        map: &mut Option<(ColorMap, Token)>,
+    ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
             pigment.transforms.push(transform?);
             return Ok(());
@@ -60,18 +91,7 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
-                match &mut pigment.kind {
-                    PigmentKind::Patterned { map, .. } => *map = given.as_ref().clone(),
-                    PigmentKind::Color(_) => {
-                        let diagnostic = Diagnostic::new(
-                            Code::MissingPart,
-                            "a `color_map` needs a pattern before it",
-                        )
-                        .at(token.span, "colours over the values of which pattern?")
-                        .help("write the pattern first: `gradient y color_map { … }`");
-                        return Err(self.report(&token.here, diagnostic));
-                    }
-                }
+                *map = Some((given.as_ref().clone(), token.clone()));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 pigment.kind = PigmentKind::Color(self.color_from(token)?);

@@ -5,9 +5,9 @@ use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Family, Role, Word};
 
+use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
-use super::super::{Evaluator, Reported};
 
 /// A kind of block, and the families of words that may stand in it.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +15,8 @@ pub(in crate::evaluate) struct Place {
     /// The word that opens it; `None` is the scene itself.
     pub word: Option<Word>,
     pub families: &'static [Family],
+    /// Words of other families that may stand in it, too.
+    pub others: &'static [Word],
 }
 
 impl Place {
@@ -29,6 +31,7 @@ impl Place {
             Family::Setting,
             Family::Directive,
         ],
+        others: &[],
     };
     pub const PIGMENT: Self = Self {
         word: Some(Word::Pigment),
@@ -39,36 +42,51 @@ impl Place {
             Family::Transform,
             Family::Texture,
         ],
+        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Function, Word::Df3],
     };
-    pub const COLOR_MAP: Self = Self { word: Some(Word::ColorMap), families: &[Family::Color] };
-    pub const FINISH: Self = Self { word: Some(Word::Finish), families: &[Family::FinishItem] };
-    pub const REFLECTION: Self =
-        Self { word: Some(Word::Reflection), families: &[Family::FinishItem, Family::Color] };
+    pub const COLOR_MAP: Self =
+        Self { word: Some(Word::ColorMap), families: &[Family::Color], others: &[] };
+    pub const FINISH: Self =
+        Self { word: Some(Word::Finish), families: &[Family::FinishItem], others: &[] };
+    pub const REFLECTION: Self = Self {
+        word: Some(Word::Reflection),
+        families: &[Family::FinishItem, Family::Color],
+        others: &[],
+    };
     pub const TEXTURE: Self = Self {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],
+        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent],
     };
     pub const DEFAULT: Self = Self {
         word: Some(Word::Default),
         families: &[Family::Texture, Family::Setting, Family::Camera],
+        others: &[],
     };
     pub const TRANSFORM: Self =
-        Self { word: Some(Word::TransformWord), families: &[Family::Transform] };
+        Self { word: Some(Word::TransformWord), families: &[Family::Transform], others: &[] };
     pub const CAMERA: Self = Self {
         word: Some(Word::Camera),
         families: &[Family::Camera, Family::Transform, Family::PatternItem, Family::Texture],
+        others: &[Word::Cylinder],
     };
     pub const LIGHT: Self = Self {
         word: Some(Word::LightSource),
         families: &[Family::Light, Family::Transform, Family::Color, Family::Interior],
+        others: &[Word::Falloff, Word::Orient, Word::NoImage, Word::NoShadow, Word::NoReflection],
     };
-    pub const BACKGROUND: Self = Self { word: Some(Word::Background), families: &[Family::Color] };
+    pub const BACKGROUND: Self =
+        Self { word: Some(Word::Background), families: &[Family::Color], others: &[] };
     pub const SKY_SPHERE: Self = Self {
         word: Some(Word::SkySphere),
         families: &[Family::Texture, Family::Transform, Family::FinishItem],
+        others: &[],
     };
-    pub const SETTINGS: Self =
-        Self { word: Some(Word::GlobalSettings), families: &[Family::Setting, Family::Interior] };
+    pub const SETTINGS: Self = Self {
+        word: Some(Word::GlobalSettings),
+        families: &[Family::Setting, Family::Interior],
+        others: &[Word::Subsurface, Word::NoiseGenerator],
+    };
 
     /// The block of a shape.
     pub fn shape(word: Word) -> Self {
@@ -79,7 +97,7 @@ impl Place {
             Family::Interior,
             Family::ShapeItem,
         ];
-        Self { word: Some(word), families: FAMILIES }
+        Self { word: Some(word), families: FAMILIES, others: &[] }
     }
 
     /// The block of a union and its kin: shapes and modifiers.
@@ -93,7 +111,7 @@ impl Place {
             Family::Texture,
             Family::Interior,
         ];
-        Self { word: Some(word), families: FAMILIES }
+        Self { word: Some(word), families: FAMILIES, others: &[] }
     }
 
     fn name(self) -> String {
@@ -105,7 +123,7 @@ impl Place {
 
     /// Whether a word fits: by its family, and by its block if it has one.
     fn holds(self, word: Word) -> bool {
-        self.families.contains(&word.family())
+        (self.families.contains(&word.family()) || self.others.contains(&word))
             && matches!(word.role(), Role::Statement)
             && word.block().is_none_or(|block| Some(block) == self.word)
     }
@@ -118,8 +136,15 @@ impl Place {
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
+        // Behind a word that is not built, what stands here may belong to it.
+        let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma | TokenKind::Semicolon => {}
+            TokenKind::Word(word) if of_poison => self.skip_arguments(*word),
+            TokenKind::Literal(_) if of_poison => {}
+            TokenKind::Block(items) | TokenKind::Entry(items) if of_poison => {
+                self.inside(&token.here, *items, Self::run_items);
+            }
             TokenKind::Word(word) => self.unexpected_word(token, *word, place),
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -224,7 +249,7 @@ impl Evaluator<'_> {
     }
 
     fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
-        if !word.is_built() && place.holds(word) {
+        if place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
             self.skip_arguments(word);
             self.set_poison(poison);
@@ -341,7 +366,7 @@ impl Evaluator<'_> {
                 Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
                 Some(TokenKind::Expression(_)) => {
                     if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() {
-                        let _: Result<Value, Reported> = self.expression(&here, id);
+                        self.run_expression(&here, id);
                     }
                 }
                 Some(TokenKind::Entry(_)) => {

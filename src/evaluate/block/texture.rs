@@ -1,7 +1,7 @@
 //! `texture` and `#default`.
 
 use crate::scene::{Texture, TextureId};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
@@ -18,14 +18,14 @@ impl Evaluator<'_> {
                 failed |= evaluator.texture_item(&token, &mut texture) == Err(Reported);
             }
             if failed { Err(Reported) } else { Ok(texture) }
-        })?;
+        });
         // Several in a row are layers, which are not built yet.
         while let Some(next) = self.take_word(Word::Texture) {
             let poison = Poison { word: Word::Texture, site: next.here.site(next.span) };
             self.skip_arguments(Word::Texture);
             self.set_poison(poison);
         }
-        Ok(self.add_texture(texture))
+        Ok(self.add_texture(texture?))
     }
 
     pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
@@ -44,6 +44,11 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::Finish) => {
                 texture.finish = self.finish_from(token, texture.finish)?
+            }
+            // A texture of a pattern of textures.
+            TokenKind::Word(word) if word.family() == Family::Pattern => {
+                self.set_poison(Poison { word, site: token.here.site(token.span) });
+                self.skip_arguments(word);
             }
             TokenKind::Expression(id) => match self.named(token, id) {
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
