@@ -60,7 +60,8 @@ impl Evaluator<'_> {
                     Value::Object(object) => self.place(object),
                     Value::Poison(poison) => {
                         let from = poison.site.span;
-                        let elsewhere = from.file != token.span.file || from.start < token.span.start;
+                        let elsewhere =
+                            from.file != token.span.file || from.start < token.span.start;
                         return Err(self.not_supported(poison, elsewhere.then_some(token.span)));
                     }
                     _ => {}
