@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::{Diagnostics, Severity};
 use lucarne::scene::Dialect;
-use lucarne::source::{Source, Sources, decode};
-use lucarne::syntax::{ParseOptions, parse};
+use lucarne::source::{FileId, Source, Sources, decode};
+use lucarne::syntax::{ParseOptions, dump, parse, print};
 
 const SCENES: &str = "/usr/share/doc/povray/examples";
 const INCLUDES: &str = "/usr/share/povray-3.7/include";
@@ -95,4 +95,95 @@ fn every_include_of_the_examples_is_read_without_an_error() {
 #[test]
 fn every_standard_include_is_read_without_an_error() {
     check("povray-includes", INCLUDES, &["inc", "map"], 40);
+}
+
+/// The tree of a text and the text printed from it.
+fn printed(text: String) -> (String, String, bool) {
+    let mut sources = Sources::default();
+    let file = sources.add(Source::new("a.pov", text));
+    let source = sources.get(file);
+    let mut diagnostics = Diagnostics::new(false);
+    let options = ParseOptions { dialect: Dialect::Pov, ..ParseOptions::default() };
+    let ast = parse(source, file, &options, &mut diagnostics);
+    (dump(&ast, source), print(&ast, source), diagnostics.has_errors())
+}
+
+#[test]
+fn a_printed_example_is_read_as_the_same_tree() {
+    let mut paths = Vec::new();
+    files(Path::new(SCENES), &["pov", "inc"], &mut paths);
+    files(Path::new(INCLUDES), &["inc"], &mut paths);
+    if paths.is_empty() {
+        println!("not checked: the packages are not installed");
+        return;
+    }
+    let mut faults = 0;
+    for path in &paths {
+        let Ok(bytes) = std::fs::read(path) else { continue };
+        let (tree, text, errors) = printed(decode(bytes).0);
+        if errors {
+            continue;
+        }
+        let (again, _, errors) = printed(text);
+        // A comma that print adds to `<1 2>` can make a run of numbers out of single ones.
+        let runs = |tree: &str| tree.contains("numbers ");
+        if errors || (tree != again && !runs(&tree) && !runs(&again)) {
+            println!("{}", path.display());
+            faults += 1;
+        }
+    }
+    println!("{} of {} files printed and read again", paths.len() - faults, paths.len());
+    assert_eq!(faults, 0);
+}
+
+/// The speed of reading `texts`, each `times` times, in megabytes per second of processor time.
+#[cfg(unix)]
+fn speed(texts: &[String], times: usize) -> f64 {
+    let bytes: usize = texts.iter().map(String::len).sum();
+    let sources: Vec<Source> = texts.iter().map(|text| Source::new("a", text.clone())).collect();
+    let mut diagnostics = Diagnostics::new(false);
+    let start = cpu_seconds();
+    for source in sources.iter().cycle().take(sources.len() * times) {
+        parse(source, FileId(0), &ParseOptions::default(), &mut diagnostics);
+    }
+    (bytes * times) as f64 / 1e6 / (cpu_seconds() - start)
+}
+
+/// The processor time this process has used: the machine may be busy with others.
+#[cfg(unix)]
+fn cpu_seconds() -> f64 {
+    use nix::sys::resource::{UsageWho, getrusage};
+    let time = |usage: nix::sys::resource::Usage| {
+        let time = usage.user_time();
+        time.tv_sec() as f64 + time.tv_usec() as f64 * 1e-6
+    };
+    getrusage(UsageWho::RUSAGE_SELF).map_or(0.0, time)
+}
+
+/// `cargo test --release --test conformance_syntax -- --ignored --nocapture`
+#[cfg(unix)]
+#[test]
+#[ignore = "measures; meaningful only in release"]
+fn the_speed_of_reading() {
+    let mut paths = Vec::new();
+    files(Path::new(SCENES), &["pov", "inc"], &mut paths);
+    files(Path::new(INCLUDES), &["inc"], &mut paths);
+    let texts: Vec<String> =
+        paths.iter().flat_map(std::fs::read).map(|bytes| decode(bytes).0).collect();
+    if !texts.is_empty() {
+        println!("examples and includes: {:.1} MB/s", speed(&texts, 3));
+    }
+    let vector = |n: usize| format!("<{}.125, -{}.5, {}e-3>, ", n, n % 97, n % 13);
+    let vectors: String = (0..200_000).map(vector).collect();
+    println!("a run of vectors: {:.1} MB/s", speed(&[format!("mesh2 {{ {vectors} }}")], 3));
+    let numbers: String = (0..400_000).map(|n| format!("{}, ", n % 1000)).collect();
+    println!("a run of numbers: {:.1} MB/s", speed(&[format!("array {{ {numbers} }}")], 3));
+    for opener in ["{", "(", "<", "sphere { <1, (", "#if (a) {", "f(", "a[", "}", "#end", "<1,2"] {
+        let text = opener.repeat(1000);
+        let source = Source::new("a", text);
+        let mut diagnostics = Diagnostics::new(true);
+        let start = std::time::Instant::now();
+        parse(&source, FileId(0), &ParseOptions::default(), &mut diagnostics);
+        println!("1000 × `{opener}`: {:?}, {} messages", start.elapsed(), diagnostics.len());
+    }
 }

@@ -82,16 +82,9 @@ pub(super) fn pairs(tokens: &[Token]) -> bool {
         match turn(token.kind) {
             None => {}
             Some(Turn::Open(opener)) => open.push(opener),
-            Some(Turn::Close(closer)) => {
-                if open.pop() != Some(closer) {
-                    return false;
-                }
-            }
-            Some(Turn::Divide) => {
-                if open.last() != Some(&Opener::Directive) {
-                    return false;
-                }
-            }
+            Some(Turn::Close(closer)) if open.pop() != Some(closer) => return false,
+            Some(Turn::Divide) if open.last() != Some(&Opener::Directive) => return false,
+            Some(Turn::Close(_) | Turn::Divide) => {}
         }
     }
     open.is_empty()

@@ -6,17 +6,23 @@
 
 pub mod ast;
 mod balance;
+mod bracket;
 mod comment;
 mod directive;
 mod dump;
 mod expression;
+mod head;
 mod layout;
+mod list;
+mod mark;
 mod nest;
 mod numbers;
+mod operand;
 mod print;
 mod raw;
 mod repair;
 mod spelling;
+mod target;
 mod token;
 
 pub use self::dump::dump;

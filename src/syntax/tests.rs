@@ -204,8 +204,8 @@ sphere { 0, 2 & 3 }
 "#;
     misspelt_directives: r#"
 #delcare A = 1;
-#fi (A > 0) sphere { 0, 1 } #endif
-#while (A) #declare A = 0; #edn
+#iff (A > 0) sphere { 0, 1 } #endif
+#wihle (A) #declare A = 0; #edn
 #frobnicate 3
 "#;
     stray_characters: "sphere { “a” 2^3 5 % 2 ' $ é\u{a0}1 } #\n";

@@ -1,0 +1,217 @@
+//! Brackets open and close: blocks, entries, groups, calls, indices, vectors.
+
+use super::ast::{Argument, Callee, ExpressionId, ExpressionKind, Item, ItemKind};
+use super::nest::{Frame, FrameKind, Nest, State};
+use super::token::Bracket;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+impl<'a> Nest<'a> {
+    pub(super) fn open_bracket(&mut self, bracket: Bracket, span: Span) {
+        match bracket {
+            Bracket::Brace => {
+                self.leave_vectors(span);
+                self.finish_expression();
+                let formula = std::mem::take(&mut self.top().function_ahead);
+                let base = self.top().items;
+                let block = match self.items[base..].last() {
+                    Some(Item { kind: ItemKind::Word(word), .. }) => Some(*word),
+                    _ => None,
+                };
+                self.open(FrameKind::Block, span, formula);
+                let top = self.top();
+                (top.block, top.formula) = (block, formula);
+            }
+            Bracket::Round => {
+                self.before_operand();
+                self.open(FrameKind::Group, span, true);
+            }
+            Bracket::Square => {
+                if self.top().state == (State::Holding { indexable: true })
+                    && let Some(of) = self.stacks.operands.pop()
+                {
+                    return self.open(FrameKind::Index(of), span, false);
+                }
+                self.leave_vectors(span);
+                self.finish_expression();
+                self.open(FrameKind::Entry, span, false);
+            }
+        }
+    }
+
+    /// Closes the innermost frame, which `balance` has made sure fits.
+    pub(super) fn close_bracket(&mut self, bracket: Bracket, span: Span) {
+        let fits = match &self.top().kind {
+            FrameKind::Block | FrameKind::Default(_) => bracket == Bracket::Brace,
+            FrameKind::Entry | FrameKind::Index(_) => bracket == Bracket::Square,
+            FrameKind::Group
+            | FrameKind::Call(_)
+            | FrameKind::Condition(..)
+            | FrameKind::List(..) => bracket == Bracket::Round,
+            FrameKind::File | FrameKind::Vector | FrameKind::Head(_) | FrameKind::Body(_) => false,
+        };
+        if !fits {
+            return;
+        }
+        let Some(frame) = self.pop() else { return };
+        let whole = frame.open.to(span);
+        match frame.kind {
+            FrameKind::Block => {
+                let items = self.take_items(frame.items);
+                self.items.push(Item { kind: ItemKind::Block(items), span: whole });
+            }
+            FrameKind::Entry => {
+                let items = self.take_items(frame.items);
+                self.items.push(Item { kind: ItemKind::Entry(items), span: whole });
+            }
+            FrameKind::Group => {
+                let kind = match self.items[frame.items..] {
+                    [Item { kind: ItemKind::Expression(inner), .. }] => {
+                        self.items.truncate(frame.items);
+                        ExpressionKind::Group(inner)
+                    }
+                    _ => ExpressionKind::GroupItems(self.take_items(frame.items)),
+                };
+                self.operand(kind, whole, false);
+            }
+            FrameKind::Index(of) => {
+                let index = self.one_expression(frame.items, span, "an index");
+                let whole = self.ast.expression(of).span.to(span);
+                self.operand(ExpressionKind::Index(of, index), whole, true);
+            }
+            FrameKind::Call(callee) => {
+                self.end_last_argument(&frame, span);
+                let arguments = self.take_arguments(frame.arguments);
+                self.operand(ExpressionKind::Call(callee, arguments), whole, true);
+            }
+            FrameKind::Default(head) => self.default_directive(head, frame.items, span),
+            FrameKind::Condition(head, place) => {
+                let condition = self.one_expression(frame.items, span, "a condition");
+                self.conditioned(head, place, condition, span);
+            }
+            FrameKind::List(head, place) => {
+                self.end_last_argument(&frame, span);
+                let arguments = self.arguments.split_off(frame.arguments);
+                self.listed(head, place, arguments, span);
+            }
+            FrameKind::File | FrameKind::Vector | FrameKind::Head(_) | FrameKind::Body(_) => {}
+        }
+    }
+
+    /// The pending items from `base` on as one expression.
+    pub(super) fn one_expression(&mut self, base: usize, close: Span, what: &str) -> ExpressionId {
+        match self.items[base..] {
+            [Item { kind: ItemKind::Expression(id), .. }] => {
+                self.items.truncate(base);
+                id
+            }
+            [] => {
+                let text = self.slice(close);
+                let message = format!("expected {what} before `{text}`");
+                self.report(
+                    Diagnostic::new(Code::ExpectedExpression, message)
+                        .at(close, "nothing stands before it"),
+                );
+                self.add(ExpressionKind::Missing, Span { end: close.start, ..close })
+            }
+            [first, .., last] | [first @ last] => {
+                let span = first.span.to(last.span);
+                let items = self.take_items(base);
+                self.add(ExpressionKind::GroupItems(items), span)
+            }
+        }
+    }
+
+    /// Makes arguments of the items since the last comma.
+    pub(super) fn end_argument(&mut self) {
+        let base = self.top().items;
+        self.arguments_from(base);
+    }
+
+    pub(super) fn end_last_argument(&mut self, frame: &Frame, close: Span) {
+        let empty = self.items.len() == frame.items;
+        // A macro's call and a directive's list may end with a comma, a function's may not.
+        if let FrameKind::Call(Callee::Word(..)) = frame.kind
+            && empty
+            && self.arguments.len() > frame.arguments
+        {
+            let text = self.slice(close);
+            self.report(
+                Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
+                    .at(close, format!("`{text}` follows the comma")),
+            );
+        }
+        self.arguments_from(frame.items);
+    }
+
+    pub(super) fn arguments_from(&mut self, base: usize) {
+        let plain = |item: &Item| matches!(item.kind, ItemKind::Expression(_));
+        if self.items[base..].iter().all(plain) {
+            for item in self.items.drain(base..) {
+                if let ItemKind::Expression(id) = item.kind {
+                    self.arguments.push(Argument::Expression(id));
+                }
+            }
+        } else {
+            let items = self.take_items(base);
+            self.arguments.push(Argument::Items(items));
+        }
+    }
+
+    pub(super) fn in_vector(&mut self) -> bool {
+        matches!(self.top().kind, FrameKind::Vector)
+    }
+
+    pub(super) fn open_vector(&mut self, span: Span) {
+        self.before_operand();
+        if self.frames.len() > self.nesting_limit {
+            return self.too_deep(span);
+        }
+        self.open(FrameKind::Vector, span, false);
+    }
+
+    pub(super) fn close_vector(&mut self, span: Span) {
+        let base = self.top().arguments;
+        // A comma may stand before the `>`.
+        if self.top().state == State::Idle && self.arguments.len() == base {
+            self.missing_before(span, "a component");
+        }
+        self.finish_expression();
+        let Some(frame) = self.pop() else { return };
+        let components = self.take_arguments(frame.arguments);
+        self.operand(ExpressionKind::Vector(components), frame.open.to(span), false);
+    }
+
+    /// Something that no vector can hold: the open ones are not closed. One message for all.
+    pub(super) fn leave_vectors(&mut self, before: Span) {
+        let mut told = false;
+        while self.in_vector() {
+            if self.top().state == State::Wanting {
+                self.operand(ExpressionKind::Missing, Span { end: before.start, ..before }, false);
+            }
+            self.finish_expression();
+            let Some(frame) = self.pop() else { return };
+            if !told {
+                told = true;
+                let last = self.arguments[frame.arguments..].last();
+                let end = match last {
+                    Some(&Argument::Expression(id)) => self.ast.expression(id).span.after(),
+                    _ => frame.open.after(),
+                };
+                let text = self.slice(before);
+                let found = match text {
+                    "" => "the file ends first".to_owned(),
+                    text => format!("expected `>` before `{text}`"),
+                };
+                let diagnostic = Diagnostic::new(Code::UnclosedBlock, "this `<` is never closed")
+                    .at(frame.open, "the vector opened here")
+                    .also(before, found)
+                    .fix(Span { end: end.start, ..end }, ">");
+                self.report(diagnostic);
+            }
+            let components = self.take_arguments(frame.arguments);
+            let whole = Span { end: before.start.max(frame.open.end), ..frame.open };
+            self.operand(ExpressionKind::Vector(components), whole, false);
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! Heads of directives without parentheses: `#declare A =`, `#include "name"`, `#macro M(a, b)`.
+
+use super::ast::{
+    Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Parameter,
+    Target,
+};
+use super::directive::Body;
+use super::nest::{Frame, FrameKind, Nest, State};
+use super::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::source::Span;
+use crate::vocabulary::{Role, Word};
+
+impl<'a> Nest<'a> {
+    /// Looks at a token while a head is open. True if the token was the head's own.
+    pub(super) fn head_takes(&mut self, token: Token) -> bool {
+        loop {
+            let top = self.top();
+            let FrameKind::Head(head) = top.kind else { return false };
+            let first = self.items.len() == self.frames[self.frames.len() - 1].items;
+            let (state, full) = (self.top().state, self.top().full);
+            let names = names_something(head);
+            let span = self.span(token);
+            match token.kind {
+                TokenKind::Mark(Mark::Equal) if matches!(head, Head::Declare | Head::Local) => {
+                    self.finish_expression();
+                    self.close_head(Some(span));
+                    return true;
+                }
+                TokenKind::Word(word)
+                    if head == Head::Fopen && !(first && state == State::Idle) =>
+                {
+                    if let Word::Read | Word::Write | Word::Append = word {
+                        self.item(ItemKind::Word(word), span);
+                        self.close_head(None);
+                        return true;
+                    }
+                }
+                TokenKind::Word(Word::Deprecated)
+                    if matches!(head, Head::Declare | Head::Local) && first =>
+                {
+                    self.skip_deprecation();
+                    return true;
+                }
+                // A reserved word where a name is wanted: told when the head is read.
+                TokenKind::Word(word)
+                    if names && first && state == State::Idle && word.role() != Role::Value =>
+                {
+                    if self.next_opens_parenthesis() {
+                        self.call(Callee::Word(word, span), span, false);
+                    } else {
+                        self.operand(ExpressionKind::Word(word), span, false);
+                    }
+                    return true;
+                }
+                _ => {}
+            }
+            let holding = matches!(state, State::Holding { .. });
+            let ends = match token.kind {
+                TokenKind::Number
+                | TokenKind::String
+                | TokenKind::Name
+                | TokenKind::Numbers
+                | TokenKind::Vectors => holding && !(head == Head::Fopen && first),
+                TokenKind::Word(word) => match word.role() {
+                    Role::Statement => true,
+                    Role::Value | Role::Function { .. } => {
+                        holding && !(head == Head::Fopen && first)
+                    }
+                },
+                TokenKind::Mark(mark) => match mark {
+                    Mark::Open(Bracket::Round) | Mark::Not => holding,
+                    Mark::Less => holding && !full,
+                    Mark::Open(Bracket::Square) => state != State::Holding { indexable: true },
+                    Mark::Plus | Mark::Minus => false,
+                    Mark::Star | Mark::Slash | Mark::Dot => !holding && state != State::Wanting,
+                    Mark::Open(Bracket::Brace) | Mark::Close(_) | Mark::Comma | Mark::Semicolon => {
+                        true
+                    }
+                    Mark::LessOrEqual
+                    | Mark::Equal
+                    | Mark::NotEqual
+                    | Mark::GreaterOrEqual
+                    | Mark::Greater
+                    | Mark::And
+                    | Mark::Or
+                    | Mark::Question
+                    | Mark::Colon => !full,
+                },
+                TokenKind::Directive(_) | TokenKind::Raw => true,
+                TokenKind::Stray => false,
+            };
+            if !ends {
+                return false;
+            }
+            self.complete_head();
+        }
+    }
+
+    /// `deprecated once "why"` before the name: a note to readers, without effect here.
+    pub(super) fn skip_deprecation(&mut self) {
+        for kind in [TokenKind::Word(Word::Once), TokenKind::String] {
+            if self.tokens.get(self.at + 1).is_some_and(|next| next.kind == kind) {
+                self.at += 1;
+            }
+        }
+    }
+
+    pub(super) fn next_opens_parenthesis(&self) -> bool {
+        let round = TokenKind::Mark(Mark::Open(Bracket::Round));
+        self.tokens.get(self.at + 1).is_some_and(|next| next.kind == round)
+    }
+
+    /// Ends the head under way, if the innermost frame is one.
+    pub(super) fn complete_head(&mut self) -> bool {
+        if !matches!(self.top().kind, FrameKind::Head(_)) {
+            return false;
+        }
+        self.finish_expression();
+        self.close_head(None);
+        true
+    }
+
+    pub(super) fn close_head(&mut self, equals: Option<Span>) {
+        let Some(Frame { kind: FrameKind::Head(head), open, items: base, full, .. }) = self.pop()
+        else {
+            return;
+        };
+        let parts = self.items.split_off(base);
+        let last = equals.or(parts.last().map(|item| item.span)).unwrap_or(open);
+        let first = parts.first().and_then(|item| match item.kind {
+            ItemKind::Expression(id) => Some(id),
+            _ => None,
+        });
+        let Some(first) = first else {
+            let what = if names_something(head) { "a name" } else { "a value" };
+            if full {
+                // That it has no parentheses either has been told.
+                let missing = self.add(ExpressionKind::Missing, open.after());
+                return self.conditioned(head, open, missing, open);
+            }
+            let message = format!("`#{}` takes {what}", head.word());
+            self.expected_in_head(open, &message, &format!("expected {what} after it"));
+            return self.add_directive(DirectiveKind::Malformed, open, open);
+        };
+        let kind = match head {
+            Head::Declare | Head::Local => {
+                let span = self.ast.expression(first).span;
+                let told = self.target(first);
+                if equals.is_none() && told.is_some() {
+                    let message = format!("`#{}` gives a name a value", head.word());
+                    let label = "expected `=` and a value after this";
+                    self.expected_in_head(span, &message, label);
+                }
+                // Whatever was meant, the items that follow are its value.
+                let nameless = Target { name: self.name(""), indices: Vec::new(), span };
+                let target = told.unwrap_or(nameless);
+                Some(DirectiveKind::Declare { local: head == Head::Local, target })
+            }
+            Head::Undef => self.target(first).map(DirectiveKind::Undef),
+            Head::Include => Some(DirectiveKind::Include(first)),
+            Head::Version => Some(DirectiveKind::Version(first)),
+            Head::Debug => Some(DirectiveKind::Debug(first)),
+            Head::Warning => Some(DirectiveKind::Warning(first)),
+            Head::Error => Some(DirectiveKind::Error(first)),
+            Head::Render | Head::Statistics => Some(DirectiveKind::Ignored(first)),
+            Head::Fclose => self.name_of(first).map(|(name, _)| DirectiveKind::Fclose(name)),
+            Head::Fopen => self.fopen(first, &parts, open),
+            Head::Macro => return self.open_macro(first, open),
+            Head::If | Head::Elseif | Head::While | Head::Switch | Head::Case => {
+                return self.conditioned(head, open, first, last);
+            }
+            Head::Ifdef
+            | Head::Ifndef
+            | Head::Else
+            | Head::End
+            | Head::For
+            | Head::Range
+            | Head::Break
+            | Head::Default
+            | Head::Read
+            | Head::Write
+            | Head::Unknown => None,
+        };
+        self.add_directive(kind.unwrap_or(DirectiveKind::Malformed), open, last);
+    }
+
+    pub(super) fn fopen(
+        &mut self,
+        first: ExpressionId,
+        parts: &[Item],
+        open: Span,
+    ) -> Option<DirectiveKind> {
+        let (name, _) = self.name_of(first)?;
+        match parts {
+            [
+                _,
+                Item { kind: ItemKind::Expression(file), .. },
+                Item { kind: ItemKind::Word(mode), .. },
+            ] => Some(DirectiveKind::Fopen { name, file: *file, mode: *mode }),
+            _ => {
+                let message = "`#fopen` takes a handle, a file name and a mode";
+                self.expected_in_head(
+                    open,
+                    message,
+                    "expected `read`, `write` or `append` at its end",
+                );
+                None
+            }
+        }
+    }
+
+    pub(super) fn open_macro(&mut self, head: ExpressionId, open: Span) {
+        let span = self.ast.expression(head).span;
+        let (callee, arguments) = match self.ast.expression(head).kind {
+            ExpressionKind::Call(callee, arguments) => {
+                (callee, self.ast.arguments(arguments).to_vec())
+            }
+            kind => {
+                let message = "`#macro` takes a name and its parameters in parentheses";
+                self.expected_in_head(span, message, "expected `(` after the name");
+                let callee = match kind {
+                    ExpressionKind::Word(word) => Callee::Word(word, span),
+                    ExpressionKind::Name(name) => Callee::Name(name, span),
+                    _ => Callee::Name(self.name(""), span),
+                };
+                (callee, Vec::new())
+            }
+        };
+        let (name, name_span) = match callee {
+            Callee::Name(name, span) => (name, span),
+            Callee::Word(_, span) => (self.reserved(span), span),
+        };
+        let parameters = self.parameters(arguments);
+        let body = Body::Macro { name, name_span, parameters, raw: None };
+        self.open(FrameKind::Body(body), open, false);
+    }
+
+    pub(super) fn parameters(&mut self, arguments: Vec<Argument>) -> Vec<Parameter> {
+        let mut parameters: Vec<Parameter> = Vec::new();
+        let mut optional: Option<Span> = None;
+        for argument in arguments {
+            let named = match argument {
+                Argument::Expression(id) => self.name_of(id),
+                Argument::Items(items) => self.name_of_items(items),
+            };
+            let Some((name, span)) = named else { continue };
+            // `optional b` comes as two names side by side.
+            let between = optional.map(|word| &self.text[word.end as usize..span.start as usize]);
+            match between {
+                Some(between) if !between.contains(',') => {
+                    if let Some(last) = parameters.last_mut() {
+                        *last = Parameter { name, span, optional: true };
+                    }
+                    optional = None;
+                }
+                _ => {
+                    optional = (self.slice(span) == "optional").then_some(span);
+                    parameters.push(Parameter { name, span, optional: false });
+                }
+            }
+        }
+        parameters
+    }
+}
+
+/// True for a directive whose head starts with a name.
+fn names_something(head: Head) -> bool {
+    matches!(
+        head,
+        Head::Declare | Head::Local | Head::Undef | Head::Macro | Head::Fopen | Head::Fclose
+    )
+}

@@ -1,0 +1,190 @@
+//! Heads of directives in parentheses: `#if (…)`, `#for (…)`, `#write (…)`.
+
+use super::ast::{
+    Argument, CaseKind, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, NameId,
+    Target, Test,
+};
+use super::directive::Body;
+use super::nest::{FrameKind, Nest, State};
+use super::token::Head;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+impl<'a> Nest<'a> {
+    /// `#if (…)` and its like, with their one expression.
+    pub(super) fn conditioned(&mut self, head: Head, at: Span, value: ExpressionId, close: Span) {
+        let body = match head {
+            Head::If => Body::If { done: Vec::new(), test: Some((at, Test::Condition(value))) },
+            Head::While => Body::While { condition: value },
+            Head::Switch => Body::Switch { value, cases: Vec::new(), open: None },
+            Head::Elseif => return self.elseif(at, value),
+            Head::Case => return self.case(at, CaseKind::Value(value)),
+            Head::Range => return self.case(at, CaseKind::Range(value, value)),
+            // Only without its parenthesis, which has been told.
+            Head::Ifdef | Head::Ifndef => {
+                Body::If { done: Vec::new(), test: Some((at, Test::Condition(value))) }
+            }
+            Head::For => {
+                let name = self.name("");
+                Body::For { name, name_span: at.after(), from: value, to: value, step: None }
+            }
+            Head::Read
+            | Head::Write
+            | Head::Declare
+            | Head::Local
+            | Head::Undef
+            | Head::Else
+            | Head::End
+            | Head::Break
+            | Head::Macro
+            | Head::Include
+            | Head::Default
+            | Head::Version
+            | Head::Debug
+            | Head::Warning
+            | Head::Error
+            | Head::Fopen
+            | Head::Fclose
+            | Head::Render
+            | Head::Statistics
+            | Head::Unknown => return self.add_directive(DirectiveKind::Malformed, at, close),
+        };
+        self.open(FrameKind::Body(body), at, false);
+    }
+
+    /// `#for (…)` and its like, with their arguments.
+    pub(super) fn listed(&mut self, head: Head, at: Span, arguments: Vec<Argument>, close: Span) {
+        let values: Option<Vec<ExpressionId>> = arguments
+            .iter()
+            .map(|argument| match argument {
+                Argument::Expression(id) => Some(*id),
+                Argument::Items(_) => None,
+            })
+            .collect();
+        let first = arguments.first().copied();
+        match (head, values.as_deref()) {
+            (Head::Ifdef | Head::Ifndef, _) => {
+                let target = match (first, arguments.len()) {
+                    (Some(Argument::Expression(id)), 1) => self.target(id),
+                    (Some(Argument::Items(items)), 1) => self.name_of_items(items).map(named),
+                    _ => {
+                        let message = format!("`#{}` takes one name", head.word());
+                        self.expected_in_head(
+                            at.to(close),
+                            &message,
+                            "expected one name in parentheses",
+                        );
+                        None
+                    }
+                };
+                let missing = at.after();
+                let test = match target {
+                    Some(target) if head == Head::Ifdef => Test::Defined(target),
+                    Some(target) => Test::NotDefined(target),
+                    None => Test::Condition(self.add(ExpressionKind::Missing, missing)),
+                };
+                let body = Body::If { done: Vec::new(), test: Some((at, test)) };
+                self.open(FrameKind::Body(body), at, false);
+            }
+            (Head::For, Some([counter, from, to, step @ ..])) if step.len() < 2 => {
+                let (name, name_span) =
+                    self.name_of(*counter).unwrap_or_else(|| (self.name(""), at.after()));
+                let step = step.first().copied();
+                let body = Body::For { name, name_span, from: *from, to: *to, step };
+                self.open(FrameKind::Body(body), at, false);
+            }
+            (Head::For, _) => {
+                self.expected_in_head(
+                    at.to(close),
+                    "`#for` takes a name, a start and an end",
+                    "expected `(Name, from, to)` or `(Name, from, to, step)`",
+                );
+                let missing = self.add(ExpressionKind::Missing, at.after());
+                self.conditioned(head, at, missing, close);
+            }
+            (Head::Range, Some([from, to])) => self.case(at, CaseKind::Range(*from, *to)),
+            (Head::Range, _) => {
+                let message = "`#range` takes two numbers";
+                self.expected_in_head(at.to(close), message, "expected `(low, high)`");
+                let missing = self.add(ExpressionKind::Missing, at.after());
+                self.case(at, CaseKind::Range(missing, missing));
+            }
+            (_, _) => {
+                let handle = match first {
+                    Some(Argument::Expression(id)) => self.name_of(id),
+                    Some(Argument::Items(items)) => self.name_of_items(items),
+                    None => {
+                        let message = format!("`#{}` takes a file's handle first", head.word());
+                        self.expected_in_head(at.to(close), &message, "expected a name");
+                        None
+                    }
+                };
+                let kind = match handle {
+                    None => DirectiveKind::Malformed,
+                    Some((name, _)) if head == Head::Read => {
+                        let targets = arguments[1..].iter().filter_map(|argument| match argument {
+                            Argument::Expression(id) => self.target(*id),
+                            Argument::Items(items) => self.name_of_items(*items).map(named),
+                        });
+                        DirectiveKind::Read { name, targets: targets.collect() }
+                    }
+                    Some((name, _)) => {
+                        let base = self.arguments.len();
+                        self.arguments.extend_from_slice(&arguments[1..]);
+                        DirectiveKind::Write { name, arguments: self.take_arguments(base) }
+                    }
+                };
+                self.add_directive(kind, at, close);
+            }
+        }
+    }
+
+    pub(super) fn default_directive(&mut self, head: Span, base: usize, close: Span) {
+        let items = self.take_items(base);
+        self.add_directive(DirectiveKind::Default(items), head, close);
+    }
+
+    /// `Name =` without `#declare` before it. True if that is what stands here.
+    pub(super) fn declares(&mut self, equals: Span) -> bool {
+        let list = match &self.top().kind {
+            FrameKind::File | FrameKind::Block | FrameKind::Body(_) => true,
+            FrameKind::Entry
+            | FrameKind::Group
+            | FrameKind::Vector
+            | FrameKind::Call(_)
+            | FrameKind::Index(_)
+            | FrameKind::Head(_)
+            | FrameKind::Condition(..)
+            | FrameKind::List(..)
+            | FrameKind::Default(_) => false,
+        };
+        if !list || self.top().state != (State::Holding { indexable: true }) {
+            return false;
+        }
+        self.finish_expression();
+        let Some(&Item { kind: ItemKind::Expression(id), span }) = self.items.last() else {
+            return true;
+        };
+        let Some(target) = self.target_if_any(id) else {
+            self.report(
+                Diagnostic::new(Code::UnexpectedCharacter, "`=` stands only inside parentheses")
+                    .at(equals, "a value was already complete before it"),
+            );
+            return true;
+        };
+        self.items.pop();
+        let name = self.slice(target.span);
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, "a name gets its value in a `#declare`")
+                .at(equals, "`=` has no meaning here")
+                .help(format!("write `#declare {name} = …`"))
+                .fix(Span { end: span.start, ..span }, "#declare "),
+        );
+        self.add_directive(DirectiveKind::Declare { local: false, target }, span, equals);
+        true
+    }
+}
+
+fn named((name, span): (NameId, Span)) -> Target {
+    Target { name, indices: Vec::new(), span }
+}

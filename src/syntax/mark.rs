@@ -1,0 +1,202 @@
+//! Operators and separators.
+
+use super::ast::{Component, ExpressionKind, ItemKind, UnaryOperator};
+use super::expression::{self, Operator, OperatorKind};
+use super::nest::{FrameKind, Nest, State};
+use super::token::{Mark, Token, TokenKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+impl<'a> Nest<'a> {
+    pub(super) fn mark(&mut self, mark: Mark, token: Token) {
+        let span = self.span(token);
+        let (state, full) = (self.top().state, self.top().full);
+        let holding = matches!(state, State::Holding { .. });
+        match mark {
+            Mark::Open(bracket) => self.open_bracket(bracket, span),
+            Mark::Close(bracket) => {
+                self.leave_vectors(span);
+                self.finish_expression();
+                self.close_bracket(bracket, span);
+            }
+            Mark::Comma => self.comma(span),
+            Mark::Semicolon => {
+                self.leave_vectors(span);
+                self.item(ItemKind::Semicolon, span);
+            }
+            Mark::Dot => self.component(span),
+            Mark::Not => self.unary(UnaryOperator::Not, span),
+            Mark::Plus if !holding => self.unary(UnaryOperator::Plus, span),
+            Mark::Minus if !holding => self.unary(UnaryOperator::Minus, span),
+            Mark::Less if !(holding && full) => self.open_vector(span),
+            Mark::Greater if self.in_vector() => self.close_vector(span),
+            Mark::GreaterOrEqual if self.in_vector() => {
+                // `<1, 2>=V`: the vector ends before the comparison.
+                self.close_vector(Span { end: span.start + 1, ..span });
+                self.mark(Mark::Equal, Token { start: token.start + 1, ..token });
+            }
+            Mark::Greater if !full => self.report(
+                Diagnostic::new(Code::StrayCloser, "this `>` closes nothing")
+                    .at(span, "no `<` is open here")
+                    .help("comparisons stand in parentheses: `(a > b)`"),
+            ),
+            Mark::Equal if holding && !full && self.declares(span) => {}
+            Mark::Question | Mark::Colon => self.conditional(mark, span),
+            Mark::Plus
+            | Mark::Minus
+            | Mark::Star
+            | Mark::Slash
+            | Mark::Less
+            | Mark::LessOrEqual
+            | Mark::Equal
+            | Mark::NotEqual
+            | Mark::GreaterOrEqual
+            | Mark::Greater
+            | Mark::And
+            | Mark::Or => {
+                let Some((operator, in_sums)) = expression::binary(mark) else { return };
+                self.before_operator(span);
+                if !in_sums && !full {
+                    self.only_in_parentheses(span);
+                }
+                self.operator(OperatorKind::Binary(operator), span);
+            }
+        }
+    }
+
+    /// An operator that needs an operand before it.
+    pub(super) fn before_operator(&mut self, span: Span) {
+        if matches!(self.top().state, State::Holding { .. }) {
+            return;
+        }
+        let text = self.slice(span);
+        self.report(
+            Diagnostic::new(Code::ExpectedExpression, format!("expected a value before `{text}`"))
+                .at(span, "this operator stands between two values"),
+        );
+        self.operand(ExpressionKind::Missing, Span { end: span.start, ..span }, false);
+    }
+
+    /// Told once an expression.
+    pub(super) fn only_in_parentheses(&mut self, span: Span) {
+        if std::mem::replace(&mut self.top().level_told, true) {
+            return;
+        }
+        let text = self.slice(span);
+        let message = format!("`{text}` stands only inside parentheses");
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "outside, a `<` or `>` would be a vector's")
+                .help("put the whole comparison in parentheses: `(a < b)`"),
+        );
+    }
+
+    pub(super) fn operator(&mut self, kind: OperatorKind, span: Span) {
+        let base = self.top().operators;
+        self.stacks.operator(base, &mut self.ast.expressions, Operator { kind, span });
+        self.top().state = State::Wanting;
+    }
+
+    pub(super) fn unary(&mut self, operator: UnaryOperator, span: Span) {
+        self.before_operand();
+        let base = self.top().operators;
+        if self.stacks.operators.len() - base > self.nesting_limit {
+            return self.too_deep(span);
+        }
+        self.stacks.operators.push(Operator { kind: OperatorKind::Unary(operator), span });
+        self.top().state = State::Wanting;
+    }
+
+    pub(super) fn conditional(&mut self, mark: Mark, span: Span) {
+        let (base, full) = (self.top().operators, self.top().full);
+        if mark == Mark::Question {
+            if self.stacks.operators.len() - base > self.nesting_limit {
+                return self.too_deep(span);
+            }
+            self.before_operator(span);
+            if !full {
+                self.only_in_parentheses(span);
+            }
+            return self.operator(OperatorKind::Question, span);
+        }
+        if self.stacks.open_question(base).is_none() {
+            return self.report(
+                Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`")
+                    .at(span, "expected `condition ? one : other`"),
+            );
+        }
+        self.before_operator(span);
+        self.stacks.colon(base, &mut self.ast.expressions);
+        self.top().state = State::Wanting;
+    }
+
+    pub(super) fn component(&mut self, dot: Span) {
+        let next = self.tokens.get(self.at + 1).copied();
+        let component = next.and_then(|next| {
+            let span = self.span(next);
+            match next.kind {
+                TokenKind::Word(word) => Some((Component::Word(word, span), span)),
+                TokenKind::Name => {
+                    let name = self.name(self.slice(span));
+                    Some((Component::Name(name, span), span))
+                }
+                _ => None,
+            }
+        });
+        let holding = matches!(self.top().state, State::Holding { .. });
+        let (Some((component, span)), true) = (component, holding) else {
+            return self.report(
+                Diagnostic::new(Code::UnexpectedCharacter, "this `.` has no meaning here")
+                    .at(dot, "expected a value before it and a component's name after it"),
+            );
+        };
+        self.at += 1;
+        if let Some(of) = self.stacks.operands.pop() {
+            let whole = self.ast.expression(of).span.to(span);
+            let id = self.add(ExpressionKind::Component(of, component), whole);
+            self.stacks.operands.push(id);
+            self.top().state = State::Holding { indexable: false };
+        }
+    }
+
+    pub(super) fn comma(&mut self, span: Span) {
+        let idle = self.top().state == State::Idle;
+        match self.top().kind {
+            FrameKind::Vector => {
+                if idle {
+                    self.missing_before(span, "a component");
+                }
+                self.finish_expression();
+            }
+            FrameKind::Call(_) | FrameKind::List(..) => {
+                let empty = self.items.len() == self.frames[self.frames.len() - 1].items;
+                if idle
+                    && empty
+                    && let FrameKind::Call(_) = self.top().kind
+                {
+                    self.missing_before(span, "an argument");
+                }
+                self.finish_expression();
+                self.end_argument();
+            }
+            FrameKind::File
+            | FrameKind::Block
+            | FrameKind::Entry
+            | FrameKind::Group
+            | FrameKind::Index(_)
+            | FrameKind::Head(_)
+            | FrameKind::Condition(..)
+            | FrameKind::Default(_)
+            | FrameKind::Body(_) => self.item(ItemKind::Comma, span),
+        }
+    }
+
+    pub(super) fn missing_before(&mut self, span: Span, what: &str) {
+        let text = self.slice(span);
+        self.report(
+            Diagnostic::new(Code::ExpectedExpression, format!("expected {what} before `{text}`"))
+                .at(span, "nothing stands before it"),
+        );
+        self.operand(ExpressionKind::Missing, Span { end: span.start, ..span }, false);
+    }
+}

@@ -1,0 +1,200 @@
+//! Operands: literals, names, words, calls, and runs of numbers.
+
+use super::ast::{Callee, ExpressionKind, Item, ItemKind};
+use super::nest::{FrameKind, Nest, State};
+use super::numbers::{self, Piece, Pieces};
+use super::token::{Bracket, Mark, Token, TokenKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::Dialect;
+use crate::source::Span;
+use crate::vocabulary::{Role, Word};
+
+impl<'a> Nest<'a> {
+    /// An operand begins: whatever was complete before it is a value of its own.
+    pub(super) fn before_operand(&mut self) {
+        if let State::Holding { .. } = self.top().state {
+            self.finish_expression();
+        }
+    }
+
+    pub(super) fn operand(&mut self, kind: ExpressionKind, span: Span, indexable: bool) {
+        self.before_operand();
+        let id = self.add(kind, span);
+        self.stacks.operands.push(id);
+        self.top().state = State::Holding { indexable };
+    }
+
+    pub(super) fn named(&mut self, span: Span, after_contextual: bool) {
+        let text = self.slice(span);
+        let top = self.top();
+        if let Some(block) = top.block
+            && top.state != State::Wanting
+            && !after_contextual
+            && self.dialect == Dialect::Scene
+            && let Some(word) = Word::contextual(text, block)
+        {
+            self.item(ItemKind::Word(word), span);
+            self.top().after_contextual = true;
+            return;
+        }
+        let name = self.name(text);
+        if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Round))) {
+            self.call(Callee::Name(name, span), span, false);
+        } else {
+            self.operand(ExpressionKind::Name(name), span, true);
+        }
+    }
+
+    /// A name or function and the parenthesis after it.
+    pub(super) fn call(&mut self, callee: Callee, span: Span, full: bool) {
+        self.before_operand();
+        self.at += 1;
+        self.open(FrameKind::Call(callee), span, full);
+    }
+
+    pub(super) fn word(&mut self, word: Word, span: Span) {
+        match word.role() {
+            Role::Value => self.operand(ExpressionKind::Word(word), span, false),
+            Role::Function { one_argument } => {
+                if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Round))) {
+                    return self.call(Callee::Word(word, span), span, one_argument);
+                }
+                if self.lists_items() && self.top().state != State::Wanting {
+                    // The functions of a `julia_fractal` stand alone.
+                    return self.item(ItemKind::Word(word), span);
+                }
+                let name = word.name();
+                self.report(
+                    Diagnostic::new(
+                        Code::ExpectedExpression,
+                        format!("`{name}` takes its arguments in parentheses"),
+                    )
+                    .at(span, format!("expected `(` after `{name}`"))
+                    .help(word.sentence()),
+                );
+                self.operand(ExpressionKind::Missing, span, false);
+            }
+            Role::Statement => {
+                self.leave_vectors(span);
+                self.item(ItemKind::Word(word), span);
+                if word == Word::Function {
+                    self.top().function_ahead = true;
+                }
+            }
+        }
+    }
+
+    pub(super) fn number(&mut self, token: Token) {
+        let mut span = self.span(token);
+        // `1.2.3` and `1e+` come as two tokens that touch.
+        while let Some(&next) = self.tokens.get(self.at + 1) {
+            let text = self.slice(self.span(next));
+            let continues = match next.kind {
+                TokenKind::Number => text.starts_with('.'),
+                TokenKind::Name => text == "e" || text == "E",
+                _ => false,
+            };
+            if next.start != span.end || !continues {
+                break;
+            }
+            span.end = next.end;
+            self.at += 1;
+        }
+        let text = self.slice(span);
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => {
+                self.operand(ExpressionKind::Number(number), span, false);
+            }
+            parsed => {
+                let why = match parsed {
+                    Ok(_) => "larger than any number that can be stored",
+                    Err(_) if text.ends_with(['e', 'E']) => "expected digits after the exponent",
+                    Err(_) => "expected one decimal point at most",
+                };
+                let message = format!("`{text}` is not a number");
+                self.report(Diagnostic::new(Code::MalformedNumber, message).at(span, why));
+                self.operand(ExpressionKind::Missing, span, false);
+            }
+        }
+    }
+
+    /// True where values stand side by side as items.
+    pub(super) fn lists_items(&mut self) -> bool {
+        let top = self.top();
+        match &top.kind {
+            FrameKind::File | FrameKind::Entry | FrameKind::Default(_) | FrameKind::Body(_) => true,
+            FrameKind::Block => !top.formula,
+            FrameKind::Group
+            | FrameKind::Vector
+            | FrameKind::Call(_)
+            | FrameKind::Index(_)
+            | FrameKind::Head(_)
+            | FrameKind::Condition(..)
+            | FrameKind::List(..) => false,
+        }
+    }
+
+    /// Literals with their commas: one item where values stand side by side, else token by token.
+    pub(super) fn run(&mut self, token: Token) {
+        let mut span = self.span(token);
+        loop {
+            if self.lists_items() && self.top().state != State::Wanting {
+                break;
+            }
+            span.start += self.first_of_run(span) as u32;
+            if span.start >= span.end {
+                return;
+            }
+        }
+        self.finish_expression();
+        let start = self.ast.numbers.len() as u32;
+        let mut next = start;
+        for row in numbers::decode(self.slice(span), &mut self.ast.numbers) {
+            let kind = ItemKind::Numbers { start: next, count: row.count, width: row.width };
+            next += row.count * row.width;
+            let place = Span {
+                start: span.start + row.start as u32,
+                end: span.start + row.end as u32,
+                ..span
+            };
+            self.items.push(Item { kind, span: place });
+        }
+    }
+
+    /// Takes the first element of a run and its comma as tokens. Returns their length.
+    pub(super) fn first_of_run(&mut self, run: Span) -> usize {
+        let text = self.slice(run);
+        let part = |from: usize, to: usize| (run.start + from as u32, run.start + to as u32);
+        let mut inside = false;
+        for (at, piece) in Pieces::of(text) {
+            let (kind, (start, end)) = match piece {
+                Piece::Open => (TokenKind::Mark(Mark::Less), part(at, at + 1)),
+                Piece::Close => (TokenKind::Mark(Mark::Greater), part(at, at + 1)),
+                Piece::Comma => (TokenKind::Mark(Mark::Comma), part(at, at + 1)),
+                Piece::Number { mut start, end } => {
+                    let sign = match text.as_bytes()[start] {
+                        b'-' => Some(Mark::Minus),
+                        b'+' => Some(Mark::Plus),
+                        _ => None,
+                    };
+                    if let Some(sign) = sign {
+                        let (from, to) = part(start, start + 1);
+                        self.token(Token { kind: TokenKind::Mark(sign), start: from, end: to });
+                        start += 1;
+                    }
+                    (TokenKind::Number, part(start, end))
+                }
+            };
+            match piece {
+                Piece::Open => inside = true,
+                Piece::Close => inside = false,
+                Piece::Comma | Piece::Number { .. } => {}
+            }
+            self.token(Token { kind, start, end });
+            if piece == Piece::Comma && !inside {
+                return (end - run.start) as usize;
+            }
+        }
+        text.len()
+    }
+}
