@@ -14,7 +14,9 @@ use super::{Fault, Lowering};
 use crate::color::Color;
 use crate::diagnostic::Code;
 use crate::math::double::Double;
+use crate::math::UnitVector;
 use crate::math::placement::Map;
+use crate::pattern::Pattern;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
 use crate::source::Site;
 use crate::world::{FaceCoordinates, Finish, Material, Pigment, Sky, World};
@@ -217,6 +219,16 @@ fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates
     }))
 }
 
+/// A gradient's direction has no length (checked on POV-Ray 3.7: `gradient 2*x` is `gradient x`).
+fn lower_pattern(pattern: Pattern) -> Pattern {
+    match pattern {
+        Pattern::Checker => Pattern::Checker,
+        Pattern::Gradient { direction } => Pattern::Gradient {
+            direction: UnitVector::from_direction(direction).map_or(direction, UnitVector::get),
+        },
+    }
+}
+
 /// A pigment all of one colour has no pattern.
 fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pigment, Fault> {
     let pigment = match kind {
@@ -227,7 +239,7 @@ fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pig
                 Pigment::Color(*first)
             }
             entries => Pigment::Patterned {
-                pattern: *pattern,
+                pattern: lower_pattern(*pattern),
                 pattern_from_texture: map,
                 map: entries.to_vec(),
             },
