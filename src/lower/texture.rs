@@ -13,8 +13,8 @@ use super::transform::{Affine, Transforms};
 use super::{Fault, Lowering};
 use crate::color::Color;
 use crate::diagnostic::Code;
-use crate::math::UnitVector;
 use crate::math::double::Double;
+use crate::math::UnitVector;
 use crate::math::placement::Map;
 use crate::pattern::Pattern;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
@@ -219,6 +219,16 @@ fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates
     }))
 }
 
+/// A gradient's direction has no length (checked on POV-Ray 3.7: `gradient 2*x` is `gradient x`).
+fn lower_pattern(pattern: Pattern) -> Pattern {
+    match pattern {
+        Pattern::Checker => Pattern::Checker,
+        Pattern::Gradient { direction } => Pattern::Gradient {
+            direction: UnitVector::from_direction(direction).map_or(direction, UnitVector::get),
+        },
+    }
+}
+
 /// A pigment all of one colour has no pattern.
 fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pigment, Fault> {
     let pigment = match kind {
@@ -229,7 +239,7 @@ fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pig
                 Pigment::Color(*first)
             }
             entries => Pigment::Patterned {
-                pattern: canonical(*pattern),
+                pattern: lower_pattern(*pattern),
                 pattern_from_texture: map,
                 map: entries.to_vec(),
             },
@@ -270,14 +280,4 @@ fn telling_numbers(material: &Material) -> [u64; 6] {
     let [red, green, blue] = color.rgb.components();
     let Finish { glow, diffuse, ref lobes, .. } = material.finish;
     [red, green, blue, glow.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)].map(bits)
-}
-
-/// A gradient runs along a unit vector: POV-Ray, too, takes only the direction of the written one.
-fn canonical(pattern: Pattern) -> Pattern {
-    match pattern {
-        Pattern::Checker => Pattern::Checker,
-        Pattern::Gradient { direction } => Pattern::Gradient {
-            direction: UnitVector::from_direction(direction).map_or(direction, UnitVector::get),
-        },
-    }
 }

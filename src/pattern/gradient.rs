@@ -2,7 +2,8 @@
 
 use crate::math::Vector;
 
-/// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded).
+/// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded); `direction` has
+/// length 1.
 ///
 /// **Source:** POV-Ray manual, section "Gradient".
 #[inline]

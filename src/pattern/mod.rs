@@ -11,7 +11,7 @@ use crate::math::Vector;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pattern {
     Checker,
-    /// `direction` is as written in the Scene (any length but zero), of length 1 in the World.
+    /// `direction`: as written in a Scene (any length but zero), of length 1 in a World.
     Gradient {
         direction: Vector,
     },

@@ -274,6 +274,25 @@ fn textures_and_finishes() {
         "sphere { 0, 1 finish { phong 0 specular 0.01 reflection 0 } }",
     );
     law(
+        "a gradient's direction has no length",
+        "box { 0, 1 pigment { gradient 4*y } }",
+        "box { 0, 1 pigment { gradient y } }",
+        "box { 0, 1 pigment { gradient -y } }",
+    );
+    law(
+        "a finish keeps what is not said again",
+        "#declare F = finish { phong 1 reflection { 0.1, 0.5 falloff 2 metallic } }
+         sphere { 0, 1 finish { F reflection 0.7 } }",
+        "sphere { 0, 1 finish { phong 1 reflection { 0.7 falloff 2 metallic } } }",
+        "sphere { 0, 1 finish { phong 1 reflection 0.7 } }",
+    );
+    law(
+        "a pigment alone leaves a declared object its finish",
+        "#declare A = sphere { 0, 1 finish { phong 1 } } object { A pigment { rgb x } }",
+        "sphere { 0, 1 pigment { rgb x } finish { phong 1 } }",
+        "#declare A = sphere { 0, 1 } object { A pigment { rgb x } }",
+    );
+    law(
         "a pattern moves with what it is on",
         "plane { y, 0 pigment { checker rgb 0 rgb 1 } translate <1, 0, 2> }",
         "plane { y, 0 pigment { checker rgb 0 rgb 1 translate <1, 0, 2> } }",

@@ -165,7 +165,10 @@ impl Evaluator<'_> {
             Word::Specular => finish.specular = self.number_after(token, "a number")?.value,
             Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
-            Word::Reflection => finish.reflection = Some(self.reflection(token)?),
+            Word::Reflection => {
+                let before = finish.reflection.take();
+                finish.reflection = Some(self.reflection(token, before)?);
+            }
             _ => {
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::FINISH);
@@ -180,14 +183,13 @@ impl Evaluator<'_> {
         Ok(self.color_after(token, "a number or a colour")?.value.rgb)
     }
 
-    /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`.
-    fn reflection(&mut self, token: &Token) -> Outcome<Reflection> {
-        let plain = |color: Rgb| Reflection {
-            minimum: color,
-            maximum: color,
-            falloff: 1.0,
-            exponent: 1.0,
-            metallic: 0.0,
+    /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. What a finish had
+    /// `before` says how its reflection behaves until it is said again, as in POV-Ray.
+    fn reflection(&mut self, token: &Token, before: Option<Reflection>) -> Outcome<Reflection> {
+        let plain = |color: Rgb| {
+            let (falloff, exponent, metallic) =
+                before.as_ref().map_or((1.0, 1.0, 0.0), |r| (r.falloff, r.exponent, r.metallic));
+            Reflection { minimum: color, maximum: color, falloff, exponent, metallic }
         };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
             return Ok(plain(self.intensity_after(token)?));
