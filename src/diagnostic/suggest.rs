@@ -11,8 +11,8 @@
 /// long words are only matched case-blind.
 pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase();
-    let letters = lower.chars().count();
-    let bound = match letters {
+    let (count, set) = letters(&lower);
+    let bound = match count {
         0..3 => 0,
         3..6 => 1,
         6..10 => 2,
@@ -23,18 +23,30 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(|candidate| *candidate != word)
         .filter_map(|candidate| {
-            let other = candidate.to_lowercase();
-            let distance = match other == lower {
-                true => 0,
-                false if other.chars().count().abs_diff(letters) > bound => return None,
-                false => strsim::osa_distance(&lower, &other),
-            };
+            // One edit changes the length by one at most, and the set of letters by two.
+            let (other_count, other_set) = letters(candidate);
+            let far = other_count.abs_diff(count) > bound
+                || (other_set ^ set).count_ones() as usize > 2 * bound;
+            let other = (!far).then(|| candidate.to_lowercase())?;
+            let distance =
+                if other == lower { 0 } else { strsim::osa_distance(&lower, &other).max(1) };
             // Of two equally near, the one with the same first letter, then the alphabet's first.
             let first = lower.chars().next() != other.chars().next();
             (distance <= bound).then_some((distance, first, candidate))
         })
         .min()
         .map(|(_, _, candidate)| candidate)
+}
+
+/// How many letters a word has in lower case, and which (one bit for each, some sharing one).
+fn letters(word: &str) -> (usize, u32) {
+    if word.is_ascii() {
+        // The low five bits of a letter do not know its case.
+        return (word.len(), word.bytes().fold(0, |set, b| set | 1 << (b % 32)));
+    }
+    word.chars()
+        .flat_map(char::to_lowercase)
+        .fold((0, 0), |(count, set), c| (count + 1, set | 1 << (c as u32 % 32)))
 }
 
 /// Our word for `word` as other tools, or people, call the same thing.

@@ -302,7 +302,6 @@ impl Evaluator<'_> {
                 ItemKind::Semicolon => return token(TokenKind::Semicolon),
                 ItemKind::Numbers { .. } => {}
                 ItemKind::Expression(id) => match here.unit.expression(id).kind {
-                    ExpressionKind::Missing => {}
                     ExpressionKind::Call(..) | ExpressionKind::Name(_)
                         if self.splices_macro(&here, id).unwrap_or(true) => {}
                     _ => return token(TokenKind::Expression(id)),
