@@ -236,9 +236,9 @@ impl Bins {
             Self { low, density, counts: [[0; BINS]; 3], extents: [[Extent::NOTHING; BINS]; 3] };
         for thing in things {
             let places = bins_of(thing, low, density);
-            for axis in 0..3 {
-                bins.counts[axis][places[axis]] += 1;
-                let extent = &mut bins.extents[axis][places[axis]];
+            for (axis, bin) in places.into_iter().enumerate() {
+                bins.counts[axis][bin] += 1;
+                let extent = &mut bins.extents[axis][bin];
                 *extent = extent.with(thing.extent);
             }
         }
