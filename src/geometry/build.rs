@@ -12,7 +12,10 @@ use super::tree::{Child, DEPTH, LEAF, Node, Space, Tree};
 use crate::math::{Lanes, Vector, reciprocal_power_of_two};
 use crate::shape::Bounds;
 
+/// Bins along an axis, for many things and for few.
 const BINS: usize = 16;
+const FEW_BINS: usize = 6;
+const FEW: usize = 24;
 /// The price of testing a node's boxes, in tests of one thing.
 const NODE_COST: f32 = 1.0;
 
@@ -147,7 +150,13 @@ impl Node {
 /// Divides a part in two, or `None` when it is better as a leaf.
 fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
     let all = &mut things[part.range.clone()];
-    let by_cost = if part.depth < DEPTH / 2 { Bins::fill(all).best() } else { None };
+    let by_cost = if part.depth >= DEPTH / 2 {
+        None
+    } else if all.len() > FEW {
+        Bins::<BINS>::fill(all).best()
+    } else {
+        Bins::<FEW_BINS>::fill(all).best()
+    };
     let parts = |things: &[Thing], middle: usize| {
         let middle_at = part.range.start + middle;
         [
@@ -193,12 +202,12 @@ fn partition(things: &mut [Thing], left: impl Fn(&Thing) -> bool) -> usize {
 }
 
 /// The things of a part, sorted coarsely along each axis by their centres.
-struct Bins {
+struct Bins<const N: usize> {
     low: Lanes,
     /// Bins for each unit of length; 0 along an axis on which all centres coincide.
     density: Lanes,
-    counts: [[u32; BINS]; 3],
-    extents: [[Extent; BINS]; 3],
+    counts: [[u32; N]; 3],
+    extents: [[Extent; N]; 3],
 }
 
 struct Best {
@@ -211,34 +220,34 @@ struct Best {
     cost: f32,
 }
 
-fn bins_of(thing: &Thing, low: Lanes, density: Lanes) -> [usize; 3] {
+fn bins_of<const N: usize>(thing: &Thing, low: Lanes, density: Lanes) -> [usize; 3] {
     let [x, y, z, _] = ((thing.centre() - low) * density).to_array();
-    [x, y, z].map(|place| (place as usize).min(BINS - 1))
+    [x, y, z].map(|place| (place as usize).min(N - 1))
 }
 
 impl Best {
     fn is_left(&self, thing: &Thing) -> bool {
-        bins_of(thing, self.low, self.density)[self.axis] < self.bin
+        bins_of::<BINS>(thing, self.low, self.density)[self.axis] < self.bin
     }
 }
 
-impl Bins {
+impl<const N: usize> Bins<N> {
     fn fill(things: &[Thing]) -> Self {
         let centres = things.iter().map(Thing::centre);
         let low = centres.clone().fold(Lanes::INFINITY, Lanes::min);
         let high = centres.fold(Lanes::NEG_INFINITY, Lanes::max);
         let size = high - low;
         let density = Lanes::from_array(size.to_array().map(|size| {
-            let density = BINS as f32 / size;
+            let density = N as f32 / size;
             if density.is_finite() { density } else { 0.0 }
         }));
         let mut bins =
-            Self { low, density, counts: [[0; BINS]; 3], extents: [[Extent::NOTHING; BINS]; 3] };
+            Self { low, density, counts: [[0; N]; 3], extents: [[Extent::NOTHING; N]; 3] };
         for thing in things {
-            let places = bins_of(thing, low, density);
-            for axis in 0..3 {
-                bins.counts[axis][places[axis]] += 1;
-                let extent = &mut bins.extents[axis][places[axis]];
+            let places = bins_of::<N>(thing, low, density);
+            for (axis, bin) in places.into_iter().enumerate() {
+                bins.counts[axis][bin] += 1;
+                let extent = &mut bins.extents[axis][bin];
                 *extent = extent.with(thing.extent);
             }
         }
@@ -253,16 +262,16 @@ impl Bins {
                 continue;
             }
             let (counts, extents) = (&self.counts[axis], &self.extents[axis]);
-            let mut right_costs = [0.0; BINS];
+            let mut right_costs = [0.0; N];
             let (mut extent, mut count) = (Extent::NOTHING, 0);
-            for bin in (1..BINS).rev() {
+            for bin in (1..N).rev() {
                 extent = extent.with(extents[bin]);
                 count += counts[bin];
                 right_costs[bin] =
                     if count == 0 { f32::INFINITY } else { extent.area() * count as f32 };
             }
             let (mut extent, mut count) = (Extent::NOTHING, 0);
-            for bin in 1..BINS {
+            for bin in 1..N {
                 extent = extent.with(extents[bin - 1]);
                 count += counts[bin - 1];
                 let cost = extent.area() * count as f32 + right_costs[bin];

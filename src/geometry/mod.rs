@@ -29,20 +29,28 @@ pub struct Geometry {
     /// How many are unbounded.
     unbounded: usize,
     tree: Option<Tree>,
-    spheres: Vec<Sphere>,
-    planes: Vec<Plane>,
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
 }
 
-/// An object, as far as rays ask. `shape` counts in the lists of [`Geometry`].
+/// An object, as far as rays ask.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Entry {
-    shape: Shape,
+    solid: Solid,
     object: u32,
     sides: Sides,
     casts_shadow: bool,
+}
+
+/// What is small stands in the entry itself, so that a leaf is one run of memory; what is not, in
+/// a list of [`Geometry`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Solid {
+    Sphere(Sphere),
+    Plane(Plane),
+    Box(u32),
+    Ellipsoid(u32),
 }
 
 /// Which crossings of a solid are seen.
@@ -80,8 +88,6 @@ impl Geometry {
             entries: Vec::with_capacity(world.objects.len()),
             unbounded: unbounded.len(),
             tree,
-            spheres: Vec::with_capacity(world.spheres.len()),
-            planes: Vec::with_capacity(world.planes.len()),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
         };
@@ -97,15 +103,15 @@ impl Geometry {
             list.len() as u32 - 1
         }
         let object = &world.objects[number as usize];
-        let shape = match object.shape {
-            Shape::Sphere(i) => Shape::Sphere(copy(&mut self.spheres, world.spheres[i as usize])),
-            Shape::Plane(i) => Shape::Plane(copy(&mut self.planes, world.planes[i as usize])),
+        let solid = match object.shape {
+            Shape::Sphere(i) => Solid::Sphere(world.spheres[i as usize]),
+            Shape::Plane(i) => Solid::Plane(world.planes[i as usize]),
             Shape::Box(i) => {
                 let box_ = world.boxes[i as usize];
-                Shape::Box(copy(&mut self.boxes, (box_, box_.reach_squared())))
+                Solid::Box(copy(&mut self.boxes, (box_, box_.reach_squared())))
             }
             Shape::Ellipsoid(i) => {
-                Shape::Ellipsoid(copy(&mut self.ellipsoids, world.ellipsoids[i as usize]))
+                Solid::Ellipsoid(copy(&mut self.ellipsoids, world.ellipsoids[i as usize]))
             }
         };
         let sides = if !world.materials[object.material as usize].finish.seed {
@@ -116,7 +122,7 @@ impl Geometry {
             Sides::Outside
         };
         let casts_shadow = object.casts_shadow;
-        self.entries.push(Entry { shape, object: number, sides, casts_shadow });
+        self.entries.push(Entry { solid, object: number, sides, casts_shadow });
     }
 
     /// The first surface ahead of the ray's start. Of crossings that their error bounds cannot
@@ -188,25 +194,24 @@ impl Geometry {
     /// Where the ray first meets a side of the object that is seen, at `limit` or before.
     #[inline(always)]
     fn first_crossing(&self, entry: &Entry, ray: &Ray, limit: f64) -> Option<Hit> {
-        let chord = match entry.shape {
-            Shape::Sphere(i) => {
-                let Sphere { centre, radius } = self.spheres[i as usize];
-                let roots = sphere::roots_ahead(centre, radius, ray)?;
+        let chord = match &entry.solid {
+            Solid::Sphere(Sphere { centre, radius }) => {
+                let roots = sphere::roots_ahead(*centre, *radius, ray)?;
                 // Behind the start or too far: no error bounds are needed.
                 if roots.leave() <= 0.0 || roots.enter() > limit {
                     return None;
                 }
                 roots.chord()
             }
-            Shape::Plane(i) => self.planes[i as usize].chord_ahead(ray)?,
-            Shape::Box(i) => {
-                let (box_, reach_squared) = &self.boxes[i as usize];
+            Solid::Plane(plane) => plane.chord_ahead(ray)?,
+            Solid::Box(i) => {
+                let (box_, reach_squared) = &self.boxes[*i as usize];
                 if box_.is_out_of_reach(*reach_squared, ray) {
                     return None;
                 }
                 box_.chord(ray)?
             }
-            Shape::Ellipsoid(i) => self.ellipsoids[i as usize].chord(ray)?,
+            Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;
         (crossing.t <= limit).then_some(Hit { object: entry.object, crossing, leaving })

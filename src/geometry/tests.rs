@@ -140,3 +140,197 @@ fn the_tree_finds_what_trying_every_object_finds() {
         assert_tree_agrees(&world, &mut random, reach, 500 * long());
     }
 }
+
+/// Grids, equal centres, flat boxes, one giant among specks, far from the origin.
+fn structured_worlds() -> Vec<World> {
+    let mut grid = empty();
+    let mut flat = empty();
+    for x in 0..8 {
+        for y in 0..8 {
+            for z in 0..3 {
+                let centre = Vector::new(f64::from(x), f64::from(y), f64::from(z));
+                add_sphere(&mut grid, centre, 0.5);
+                add_box(&mut flat, aligned_box(centre, [0.5, 0.5, 0.0]));
+            }
+        }
+    }
+    let mut nested = empty();
+    let mut giant = empty();
+    add_sphere(&mut giant, Vector::splat(1e12), 1.7e12);
+    let mut far = empty();
+    for i in 0..60 {
+        let i = f64::from(i);
+        add_sphere(&mut nested, Vector::splat(3.0), 0.1 * (1.0 + i));
+        add_sphere(&mut giant, Vector::new(i, -i, 0.5 * i) * 0.1, 0.01 * (i + 1.0));
+        add_box(&mut far, aligned_box(Vector::new(1e10, -1e10, i), [0.3; 3]));
+    }
+    vec![grid, flat, nested, giant, far]
+}
+
+#[test]
+fn the_tree_agrees_on_structured_scenes() {
+    let mut random = Random(2);
+    for world in structured_worlds() {
+        assert_tree_agrees(&world, &mut random, 10.0, 3_000 * long());
+    }
+}
+
+#[test]
+fn something_is_in_the_way_exactly_when_a_first_hit_of_the_casters_is_certainly_nearer() {
+    let mut random = Random(3);
+    let mut shadowed = 0;
+    for _ in 0..40 {
+        let world = random_world(&mut random, 30, 1.0);
+        let casters = World {
+            objects: world.objects.iter().copied().filter(|object| object.casts_shadow).collect(),
+            ..world.clone()
+        };
+        let (all, casters) = (Geometry::build(&world), Geometry::build(&casters));
+        for _ in 0..500 * long() {
+            let ray = random_ray(&mut random, &world, 1.0);
+            let distance = random.size(-2.0, 2.0);
+            let first = casters.nearest(&ray).map(|hit| hit.crossing);
+            let nearer = first.is_some_and(|first| first.t + first.error < distance);
+            assert_eq!(all.occluded(&ray, distance), nearer, "{ray:?} {distance}");
+            shadowed += usize::from(nearer);
+        }
+    }
+    assert!(shadowed > 1_000, "{shadowed}");
+}
+
+#[test]
+fn the_order_of_objects_decides_nothing_but_ties() {
+    let mut random = Random(4);
+    let mut hits = 0;
+    for _ in 0..40 {
+        let world = random_world(&mut random, 60, 1.0);
+        let mut order: Vec<u32> = (0..world.objects.len() as u32).collect();
+        for last in (1..order.len()).rev() {
+            order.swap(last, random.below(last + 1));
+        }
+        let objects = order.iter().map(|&object| world.objects[object as usize]).collect();
+        let shuffled = World { objects, ..world.clone() };
+        let (one, other) = (Geometry::build(&world), Geometry::build(&shuffled));
+        for _ in 0..500 * long() {
+            let ray = random_ray(&mut random, &world, 1.0);
+            let found = other.nearest(&ray).map(|hit| (order[hit.object as usize], hit.crossing));
+            let expected = one.nearest(&ray).map(|hit| (hit.object, hit.crossing));
+            assert_eq!(found, expected, "{ray:?}");
+            hits += usize::from(expected.is_some());
+        }
+    }
+    assert!(hits > 2_000, "{hits}");
+}
+
+#[test]
+fn of_coinciding_faces_the_first_declared_wins_everywhere() {
+    let mut random = Random(5);
+    let normals = [random.direction(), random.direction(), random.direction()];
+    let tall = Box_ { centre: random.point(1.0), normals, half_widths: [1.0, 2.0, 2.0] };
+    let face = tall.face(0).centre;
+    // Another box with its face in the same plane, found by another rounding.
+    let deep =
+        Box_ { centre: face - (face - tall.centre) * 3.0, normals, half_widths: [3.0, 1.0, 1.0] };
+    for (first, second) in [(tall, deep), (deep, tall)] {
+        for crowd in [0, 20] {
+            let mut world = empty();
+            add_box(&mut world, first);
+            add_box(&mut world, second);
+            for _ in 0..crowd {
+                add_sphere(&mut world, face - normals[0].get() * 50.0, 1.0);
+            }
+            let geometry = Geometry::build(&world);
+            for _ in 0..2_000 {
+                let edges = [1, 2].map(|axis| tall.face(axis).centre - tall.centre);
+                let target = face
+                    + edges[0] * random.number(-0.2, 0.2)
+                    + edges[1] * random.number(-0.2, 0.2);
+                let origin = target + (normals[0].get() + random.point(0.5)) * 10.0;
+                let direction =
+                    UnitVector::from_direction(target - origin).unwrap_or(UnitVector::X);
+                let hit = geometry.nearest(&Ray { origin, direction: direction.get() });
+                assert_eq!(hit.map(|hit| hit.object), Some(0));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_surface_with_the_seeds_finish_is_seen_from_outside_only() {
+    let mut world = empty();
+    add_sphere(&mut world, Vector::ZERO, 1.0);
+    let hits = |material, inverse| {
+        let mut world = world.clone();
+        (world.objects[0].material, world.objects[0].inverse) = (material, inverse);
+        let geometry = Geometry::build(&world);
+        [-3.0, 0.0].map(|x| {
+            let ray = Ray { origin: Vector::X * x, direction: Vector::X };
+            assert_eq!(geometry.occluded(&ray, 10.0), geometry.nearest(&ray).is_some());
+            geometry.nearest(&ray).map(|hit| (hit.crossing.t, hit.leaving))
+        })
+    };
+    assert_eq!(hits(0, false), [Some((2.0, false)), Some((1.0, true))]);
+    assert_eq!(hits(0, true), hits(0, false));
+    assert_eq!(hits(1, false), [Some((2.0, false)), None]);
+    assert_eq!(hits(1, true), [Some((4.0, true)), Some((1.0, true))]);
+}
+
+#[test]
+fn many_coinciding_spheres_make_no_deep_tree_and_the_first_is_hit() {
+    let mut world = empty();
+    for _ in 0..10_000 * long() {
+        add_sphere(&mut world, Vector::new(1.0, 2.0, 3.0), 0.5);
+    }
+    let geometry = Geometry::build(&world);
+    assert!(geometry.tree.as_ref().is_some_and(|tree| tree.depth <= tree::DEPTH));
+    let ray = Ray { origin: Vector::new(1.0, 2.0, 9.0), direction: -Vector::Z };
+    assert_eq!(geometry.nearest(&ray).map(|hit| (hit.object, hit.crossing.t)), Some((0, 5.5)));
+}
+
+#[test]
+fn a_scene_scaled_by_a_power_of_two_or_mirrored_is_hit_alike_to_the_last_bit() {
+    let mut random = Random(6);
+    for exponent in [-200, -37, 1, 200] {
+        let k = f64::from_bits(((1023 + exponent) as u64) << 52);
+        let world = random_world(&mut random, 40, 1.0);
+        let moved = |map: fn(Vector) -> Vector, k: f64| {
+            let mut moved = world.clone();
+            let unit = |n: UnitVector| UnitVector::from_unit(map(n.get()));
+            for sphere in &mut moved.spheres {
+                (sphere.centre, sphere.radius) = (map(sphere.centre) * k, sphere.radius * k);
+            }
+            for plane in &mut moved.planes {
+                (plane.normal, plane.distance) = (unit(plane.normal), plane.distance * k);
+            }
+            for box_ in &mut moved.boxes {
+                box_.centre = map(box_.centre) * k;
+                box_.normals = box_.normals.map(unit);
+                box_.half_widths = box_.half_widths.map(|l| l * k);
+            }
+            for Ellipsoid { placement } in &mut moved.ellipsoids {
+                let Placement { centre, world_from_local: w, local_from_world: l } = *placement;
+                let mirror = Matrix::from_cols(map(Vector::X), map(Vector::Y), map(Vector::Z));
+                placement.centre = map(centre) * k;
+                placement.world_from_local = mirror * w * k;
+                placement.local_from_world = l * mirror * (1.0 / k);
+            }
+            Geometry::build(&moved)
+        };
+        let maps: [fn(Vector) -> Vector; 3] =
+            [|v| v, |v| Vector::new(-v.x, v.y, v.z), |v| Vector::new(v.x, v.y, -v.z)];
+        for map in maps {
+            let (plain, other) = (Geometry::build(&world), moved(map, k));
+            for _ in 0..300 {
+                let ray = random_ray(&mut random, &world, 1.0);
+                let there = Ray { origin: map(ray.origin) * k, direction: map(ray.direction) };
+                let expected =
+                    plain.nearest(&ray).map(|hit| (hit.object, hit.leaving, hit.crossing));
+                let found = other.nearest(&there).map(|hit| {
+                    let Crossing { t, error } = hit.crossing;
+                    (hit.object, hit.leaving, Crossing { t: t / k, error: error / k })
+                });
+                assert_eq!(found, expected, "2^{exponent}: {ray:?}");
+            }
+        }
+    }
+}

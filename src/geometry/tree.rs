@@ -82,9 +82,9 @@ impl Node {
         let mut exit = Lanes::splat(limit);
         for axis in 0..3 {
             let Axis { near, near_start, far_start, reciprocal } = ray.axes[axis];
-            let [near, far] = [self.planes[axis][near], self.planes[axis][1 - near]];
-            entry = entry.max((near - Lanes::splat(near_start)) * reciprocal);
-            exit = exit.min((far - Lanes::splat(far_start)) * reciprocal);
+            let [near, far] = [self.planes[axis][near & 1], self.planes[axis][1 - (near & 1)]];
+            entry = entry.max((near - near_start) * reciprocal);
+            exit = exit.min((far - far_start) * reciprocal);
         }
         (entry, entry.cmple(exit * OUTWARD).bitmask())
     }
@@ -100,9 +100,9 @@ struct Axis {
     /// 0 or 1: which of the two planes comes first.
     near: usize,
     /// The start, padded so that the near plane is met sooner, the far plane later.
-    near_start: f32,
-    far_start: f32,
-    reciprocal: f32,
+    near_start: Lanes,
+    far_start: Lanes,
+    reciprocal: Lanes,
 }
 
 impl Slanted {
@@ -111,7 +111,8 @@ impl Slanted {
     fn new(ray: &Ray, space: &Space) -> Option<Self> {
         let start = (ray.origin - space.origin) * space.scale;
         let size = start.abs().max_element();
-        if !(size < FAR) {
+        let in_range = size < FAR;
+        if !in_range {
             return None;
         }
         // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
@@ -122,9 +123,9 @@ impl Slanted {
             let padding = padding.copysign(reciprocal);
             Axis {
                 near: usize::from(reciprocal < 0.0),
-                near_start: (start[axis] + padding) as f32,
-                far_start: (start[axis] - padding) as f32,
-                reciprocal: reciprocal as f32,
+                near_start: Lanes::splat((start[axis] + padding) as f32),
+                far_start: Lanes::splat((start[axis] - padding) as f32),
+                reciprocal: Lanes::splat(reciprocal as f32),
             }
         });
         Some(Self { axes })
@@ -180,19 +181,30 @@ impl Tree {
             if child.0 & Child::IS_LEAF == 0 {
                 let node = &self.nodes[child.0 as usize];
                 let (entry, mut mask) = node.entries(&slanted, limit);
-                let entry = entry.to_array();
-                let bottom = waiting;
-                while mask != 0 {
+                if mask != 0 {
+                    // The nearest is next, the others wait, the nearest of them on top.
+                    let entry = entry.to_array();
                     let lane = (mask.trailing_zeros() & 3) as usize;
+                    let mut next = (entry[lane], node.children[lane]);
+                    let bottom = waiting;
                     mask &= mask - 1;
-                    // The nearest ends on top.
-                    let mut place = waiting;
-                    while place > bottom && stack[place - 1].0 < entry[lane] {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
+                    while mask != 0 {
+                        let lane = (mask.trailing_zeros() & 3) as usize;
+                        mask &= mask - 1;
+                        let mut other = (entry[lane], node.children[lane]);
+                        if other.0 < next.0 {
+                            (next, other) = (other, next);
+                        }
+                        let mut place = waiting;
+                        while place > bottom && stack[place - 1].0 < other.0 {
+                            stack[place] = stack[place - 1];
+                            place -= 1;
+                        }
+                        stack[place] = other;
+                        waiting += 1;
                     }
-                    stack[place] = (entry[lane], node.children[lane]);
-                    waiting += 1;
+                    child = next.1;
+                    continue;
                 }
             } else {
                 let start = ((child.0 & !Child::IS_LEAF) >> 4) as usize;

@@ -50,7 +50,7 @@ impl Box_ {
             None => 0, // Not a crossing of this box.
         };
         let axis = (face / 2) as usize;
-        let normal = if face % 2 == 0 { normals[axis] } else { -normals[axis] };
+        let normal = if face.is_multiple_of(2) { normals[axis] } else { -normals[axis] };
         let half_width = self.half_widths[axis];
         let rough = (ray.origin - self.centre) + ray.direction * crossing.t;
         let local = rough - normal * (normal.dot(rough) - half_width);

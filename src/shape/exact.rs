@@ -172,7 +172,7 @@ pub(super) fn slabs(box_: &Box_, ray: &Ray) -> [Double; 2] {
 pub(super) fn above_face(box_: &Box_, face: u32, point: Vector) -> f64 {
     let axis = (face / 2) as usize;
     let place = dot(triple(box_.normals[axis].get()), minus(triple(point), triple(box_.centre)));
-    let place = if face % 2 == 0 { place } else { -place };
+    let place = if face.is_multiple_of(2) { place } else { -place };
     (place - Double::of(box_.half_widths[axis])).0
 }
 

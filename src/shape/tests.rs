@@ -372,3 +372,115 @@ fn a_spawned_ray_does_not_meet_the_ellipsoid_it_leaves() {
         assert_leaves_for_good(&mut random, &surface, false, |ray| ellipsoid.chord(ray), ellipsoid);
     }
 }
+
+#[test]
+fn a_ray_that_starts_on_a_surface_does_not_meet_it_there() {
+    let mut random = Random(11);
+    for _ in 0..20_000 * long() {
+        let radius = random.size(-8.0, 8.0);
+        let sphere = Sphere { centre: Vector::ZERO, radius };
+        let axis = [Vector::X, -Vector::Y, Vector::Z][random.below(3)];
+        let direction = random.direction().get();
+        let ray = Ray { origin: axis * radius, direction };
+        let Some(Chord { enter, leave }) = sphere.chord(&ray) else { continue };
+        assert!(!enter.is_ahead(), "{ray:?} {enter:?}");
+        // Inward the far side is met; outward nothing.
+        let slope = -direction.dot(axis);
+        if slope.abs() > 1e-12 {
+            assert_eq!(leave.is_ahead(), slope > 0.0, "{ray:?} {leave:?}");
+        }
+    }
+}
+
+#[test]
+fn a_moved_ray_hits_a_moved_shape_at_the_same_distance() {
+    let mut random = Random(12);
+    for _ in 0..5_000 * long() {
+        let a = random.direction().get();
+        let Some(b) = UnitVector::from_direction(a.cross(random.direction().get())) else {
+            continue;
+        };
+        let turn = Matrix::from_cols(a, b.get(), a.cross(b.get()));
+        let shift = random.point(10.0);
+        let place = |p: Vector| turn * p + shift;
+        let sphere = Sphere { centre: random.point(1.0), radius: 0.7 };
+        let box_ = Box_ {
+            half_widths: [0.7, 0.5, 0.3],
+            centre: random.point(1.0),
+            ..random_box(&mut random)
+        };
+        let ray = ray_at(&mut random, box_.centre, 0.5, 5.0);
+        let moved = Ray { origin: place(ray.origin), direction: turn * ray.direction };
+        let moved_sphere = Sphere { centre: place(sphere.centre), ..sphere };
+        let unit = |n: UnitVector| UnitVector::from_unit((turn * n.get()).normalize());
+        let moved_box =
+            Box_ { centre: place(box_.centre), normals: box_.normals.map(unit), ..box_ };
+        for (here, there) in [
+            (sphere.chord(&ray), moved_sphere.chord(&moved)),
+            (box_.chord(&ray), moved_box.chord(&moved)),
+        ] {
+            if let (Some(here), Some(there)) = (here, there) {
+                // The move itself rounds: as much as a start some 20 units off.
+                let off = (here.enter.t - there.enter.t).abs();
+                let slack = 100.0 * (here.enter.error + there.enter.error) + 1e-13;
+                assert!(off <= slack, "{off:e}: {ray:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_face_is_told_in_the_seeds_terms() {
+    let box_ = Box_ {
+        centre: Vector::new(1.0, 2.0, 3.0),
+        normals: [UnitVector::X, UnitVector::Y, UnitVector::Z],
+        half_widths: [0.5, 1.0, 2.0],
+    };
+    let face = box_.face(1);
+    assert_eq!(face.normal, UnitVector::Y);
+    assert_eq!((face.centre, face.distance), (Vector::new(1.0, 3.0, 3.0), 3.0));
+    assert_eq!((face.opposite_centre, face.opposite_distance), (Vector::new(1.0, 1.0, 3.0), -1.0));
+    assert_eq!(face.half_width, 1.0);
+    let low = box_.corners().into_iter().fold(Vector::INFINITY, Vector::min);
+    assert_eq!(low, Vector::new(0.5, 1.0, 1.0));
+    assert_eq!(box_.signed_distance(Vector::new(1.25, 2.0, 3.0)), 0.25);
+    assert_eq!(box_.signed_distance(Vector::new(3.0, 2.0, 3.0)), -1.5);
+    assert!(box_.contains(box_.centre) && !box_.contains(box_.face(2).centre));
+}
+
+#[test]
+fn distances_are_positive_inside() {
+    let plane = Plane { normal: UnitVector::Y, distance: 2.0 };
+    assert_eq!([0.0, 2.0, 5.0].map(|y| plane.signed_distance(Vector::Y * y)), [2.0, 0.0, -3.0]);
+    let sphere = Sphere { centre: Vector::X, radius: 2.0 };
+    assert_eq!([1.0, 3.0, 6.0].map(|x| sphere.signed_distance(Vector::X * x)), [2.0, 0.0, -3.0]);
+}
+
+#[test]
+fn single_precision_kernels_keep_their_own_bounds() {
+    let mut random = Random(13);
+    let mut hits = 0;
+    for _ in 0..20_000 * long() {
+        let sphere = Sphere { centre: random.point(10.0), radius: random.size(-1.0, 1.0) };
+        let far = random.size(0.0, 3.0);
+        let ray = ray_at(&mut random, sphere.centre, sphere.radius, far);
+        let single = Ray::<f32> {
+            origin: Vector3::from_vector(ray.origin),
+            direction: Vector3::from_vector(ray.direction),
+        };
+        let wide =
+            Ray { origin: single.origin.to_vector(), direction: single.direction.to_vector() };
+        let centre = <<f32 as Real>::Vector as Vector3<f32>>::from_vector(sphere.centre);
+        let radius = sphere.radius as f32;
+        let (_, roots) = exact::sphere(centre.to_vector(), f64::from(radius), &wide);
+        if let (Some(chord), Some([enter, leave])) = (sphere::chord(centre, radius, &single), roots)
+        {
+            hits += 1;
+            for (crossing, exact) in [(chord.enter, enter), (chord.leave, leave)] {
+                let off = (f64::from(crossing.t) - exact.0).abs();
+                assert!(off <= f64::from(crossing.error), "{off:e} {crossing:?} {single:?}");
+            }
+        }
+    }
+    assert!(hits > 5_000, "{hits}");
+}

@@ -14,8 +14,8 @@ fn main() {
     divan::main();
 }
 
-const WIDTH: u32 = 480;
-const HEIGHT: u32 = 270;
+const WIDTH: u32 = 1920;
+const HEIGHT: u32 = 1080;
 const LIGHTS: [Vector; 2] = [Vector::new(50.0, 80.0, 60.0), Vector::new(-60.0, 50.0, 30.0)];
 
 fn empty() -> World {
@@ -82,14 +82,14 @@ fn spheres(count: usize) -> (World, Vector) {
     (world, Vector::new(0.0, 0.0, 30.0))
 }
 
-/// What a picture asks for: camera rays, from each hit a ray to each light and a mirrored ray, and
-/// rays to the lights from where that one hits. In the order a tracer would ask.
+/// What a picture asks for, in the order a tracer would ask: camera rays, from each hit a ray to
+/// each light and a mirrored ray.
 struct Questions {
     nearest: Vec<Ray>,
     occluded: Vec<(Ray, f64)>,
 }
 
-fn questions(world: &World, eye: Vector) -> Questions {
+fn questions(world: &World, eye: Vector, depth: usize) -> Questions {
     let geometry = Geometry::build(world);
     let mut asked = Questions { nearest: Vec::new(), occluded: Vec::new() };
     let towards = |v: Vector| UnitVector::from_direction(v).map_or(Vector::Z, UnitVector::get);
@@ -99,7 +99,7 @@ fn questions(world: &World, eye: Vector) -> Questions {
             let v = (f64::from(HEIGHT) - f64::from(2 * y + 1)) / f64::from(HEIGHT);
             let mut ray =
                 Ray { origin: eye, direction: towards(Vector::new(0.414 * u, 0.414 * v, -1.0)) };
-            for _ in 0..2 {
+            for _ in 0..depth {
                 asked.nearest.push(ray);
                 let Some(hit) = geometry.nearest(&ray) else { break };
                 let point = surface(world, &ray, &hit);
@@ -120,34 +120,36 @@ fn questions(world: &World, eye: Vector) -> Questions {
     asked
 }
 
-fn scene(name: &str) -> (World, Vector) {
-    match name {
-        "3 spheres, box, plane" => few(),
-        count => spheres(count.parse().expect("a number of spheres")),
-    }
+/// A World, the camera's place, and how many surfaces deep its rays go.
+fn scene(name: &str) -> (World, Vector, usize) {
+    let ((world, eye), depth) = match name {
+        "3 spheres, box, plane" => (few(), 5),
+        count => (spheres(count.parse().expect("a number of spheres")), 1),
+    };
+    (world, eye, depth)
 }
 
-#[divan::bench(args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
+#[divan::bench(sample_count = 10, args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
 fn nearest(bencher: divan::Bencher, name: &str) {
-    let (world, eye) = scene(name);
+    let (world, eye, depth) = scene(name);
     let geometry = Geometry::build(&world);
-    let Questions { nearest, .. } = questions(&world, eye);
+    let Questions { nearest, .. } = questions(&world, eye, depth);
     bencher
         .counter(ItemsCount::new(nearest.len()))
         .bench(|| nearest.iter().filter(|ray| geometry.nearest(ray).is_some()).count());
 }
 
-#[divan::bench(args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
+#[divan::bench(sample_count = 10, args = ["3 spheres, box, plane", "6", "8", "12", "16", "100000"])]
 fn occluded(bencher: divan::Bencher, name: &str) {
-    let (world, eye) = scene(name);
+    let (world, eye, depth) = scene(name);
     let geometry = Geometry::build(&world);
-    let Questions { occluded, .. } = questions(&world, eye);
+    let Questions { occluded, .. } = questions(&world, eye, depth);
     bencher.counter(ItemsCount::new(occluded.len())).bench(|| {
         occluded.iter().filter(|(ray, distance)| geometry.occluded(ray, *distance)).count()
     });
 }
 
-#[divan::bench(args = [1000, 100_000])]
+#[divan::bench(sample_count = 20, args = [1000, 100_000])]
 fn build(bencher: divan::Bencher, count: usize) {
     let (world, _) = spheres(count);
     bencher.counter(ItemsCount::new(count)).bench(|| Geometry::build(&world));
