@@ -29,7 +29,7 @@ impl Evaluator<'_> {
                 continue;
             }
             // A word of the language cannot be declared; that has been told.
-            if Word::from_name(&name).is_some() {
+            if Word::from_name(name).is_some() {
                 continue;
             }
             let site = declared.site;
