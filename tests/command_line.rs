@@ -232,7 +232,7 @@ fn a_full_disk_is_an_error() {
 fn an_interrupted_render_leaves_what_is_done() {
     let place = Place::new();
     let mut command =
-        place.command("a.scene -o big.png --size 8000x8000 --antialias 32 --threads 1");
+        place.command("a.scene -o big.png --size 2000x2000 --antialias 16 --threads 1");
     let child = command.stderr(Stdio::piped()).spawn().expect("runs");
     std::thread::sleep(std::time::Duration::from_millis(1500));
     let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();

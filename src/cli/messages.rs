@@ -35,23 +35,13 @@ pub struct Messages {
     errors: usize,
     warnings: usize,
     limits: usize,
-    notes: usize,
 }
 
 impl Messages {
     pub fn new(format: Format, deny_warnings: bool) -> Self {
         let style = style();
-        let (errors, warnings, limits, notes) = (0, 0, 0, 0);
-        Self {
-            format,
-            deny_warnings,
-            picture_on_stdout: false,
-            style,
-            errors,
-            warnings,
-            limits,
-            notes,
-        }
+        let (errors, warnings, limits) = (0, 0, 0);
+        Self { format, deny_warnings, picture_on_stdout: false, style, errors, warnings, limits }
     }
 
     /// Prints them all.
@@ -66,7 +56,7 @@ impl Messages {
                 Severity::Error if is_limit(diagnostic.code) => self.limits += 1,
                 Severity::Error => self.errors += 1,
                 Severity::Warning => self.warnings += 1,
-                Severity::Note => self.notes += 1,
+                Severity::Note => {}
             }
             shown += 1;
             match self.format {
@@ -100,18 +90,9 @@ impl Messages {
 
     /// `2 errors, 1 warning`, where people read it.
     pub fn summarize(&self) {
-        let errors = self.errors + self.limits;
-        let count = |n: usize, what: &str| match n {
-            0 => None,
-            1 => Some(format!("1 {what}")),
-            n => Some(format!("{n} {what}s")),
-        };
-        let parts: Vec<String> = [count(errors, "error"), count(self.warnings, "warning")]
-            .into_iter()
-            .flatten()
-            .collect();
-        if self.format == Format::Human && !parts.is_empty() {
-            eprint(&format!("{}\n", parts.join(", ")));
+        let summary = render::summary(self.errors + self.limits, self.warnings);
+        if let (Format::Human, Some(summary)) = (self.format, summary) {
+            eprint(&format!("{summary}\n"));
         }
     }
 

@@ -64,15 +64,7 @@ pub fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
 }
 
 /// `2 errors, 1 warning`; nothing when there is neither.
-pub fn summary<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Option<String> {
-    let (mut errors, mut warnings) = (0, 0);
-    for diagnostic in diagnostics {
-        match diagnostic.severity {
-            Severity::Error => errors += 1,
-            Severity::Warning => warnings += 1,
-            Severity::Note => {}
-        }
-    }
+pub fn summary(errors: usize, warnings: usize) -> Option<String> {
     let count = |n: usize, what: &str| match n {
         0 => None,
         1 => Some(format!("1 {what}")),

@@ -175,13 +175,7 @@ fn colour_comes_only_when_asked_for() {
 
 #[test]
 fn the_summary_counts_errors_and_warnings() {
-    let of = |codes: &[Code]| {
-        let list: Vec<Diagnostic> = codes.iter().map(|&code| Diagnostic::new(code, "m")).collect();
-        summary(&list)
-    };
-    assert_eq!(of(&[]), None);
-    assert_eq!(of(&[Code::AuthorDebug]), None);
-    assert_eq!(of(&[Code::NoLight]).as_deref(), Some("1 warning"));
-    let three = [Code::UnknownWord, Code::NoLight, Code::ZeroSize];
-    assert_eq!(of(&three).as_deref(), Some("2 errors, 1 warning"));
+    assert_eq!(summary(0, 0), None);
+    assert_eq!(summary(0, 1).as_deref(), Some("1 warning"));
+    assert_eq!(summary(2, 1).as_deref(), Some("2 errors, 1 warning"));
 }
