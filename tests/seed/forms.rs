@@ -60,6 +60,7 @@ impl Pair {
 pub struct Faces(pub [Pair; 3]);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "plain values, and few of them")]
 pub enum Form {
     Sphere(Sphere),
     Plane(Plane),
