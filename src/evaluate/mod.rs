@@ -2,7 +2,7 @@
 //!
 //! **In:** the main file's Ast, and `Files` for what it includes. **Out:** a Scene without macro, loop,
 //! include or name; always one, also from a broken input. **Invariant:** evaluation *pulls* items:
-//! whoever needs the next item asks [`stream`] for it, and directives, macro calls and includes
+//! whoever needs the next item asks the stream for it, and directives, macro calls and includes
 //! run in place, wherever they stand.
 
 mod block;

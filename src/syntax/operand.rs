@@ -5,7 +5,7 @@ use super::nest::{FrameKind, Nest, State};
 use super::numbers::{self, Piece, Pieces};
 use super::token::{Bracket, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::Dialect;
+use crate::vocabulary::Dialect;
 use crate::source::Span;
 use crate::vocabulary::{Role, Word};
 
