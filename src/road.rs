@@ -4,7 +4,7 @@
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
-use crate::evaluate::{EvaluateOptions, Limits, evaluate};
+use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::lower;
 use crate::scene::{Dialect, Scene};
 use crate::source::{FileId, Files, Source, Sources, Span, decode};
@@ -15,32 +15,16 @@ use crate::world::{Origins, World};
 /// What the caller may choose about a scene.
 #[derive(Debug, Clone)]
 pub struct Options {
-    pub dialect: Dialect,
     /// Keep lints.
     pub lints: bool,
-    /// The picture's size, as the scene may ask for it.
-    pub width: u32,
-    pub height: u32,
-    /// Names declared before the scene starts.
-    pub declares: Vec<(String, f64)>,
-    pub clock: f64,
-    pub frame_number: f64,
-    pub limits: Limits,
+    pub evaluate: EvaluateOptions,
 }
 
 impl Options {
     /// The defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
-        Self {
-            dialect,
-            lints: dialect == Dialect::Scene,
-            width: 640,
-            height: 480,
-            declares: Vec::new(),
-            clock: 0.0,
-            frame_number: 0.0,
-            limits: Limits::default(),
-        }
+        let evaluate = EvaluateOptions { dialect, ..EvaluateOptions::default() };
+        Self { lints: dialect == Dialect::Scene, evaluate }
     }
 }
 
@@ -98,23 +82,15 @@ impl<'a> Road<'a> {
     }
 
     pub fn parse(&mut self, file: FileId) -> Ast {
-        let Options { dialect, limits, .. } = self.options;
+        let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
         let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
         parse(self.sources.get(file), file, &options, &mut self.diagnostics)
     }
 
     pub fn evaluate(&mut self, ast: &Ast) -> Scene {
-        let options = EvaluateOptions {
-            dialect: self.options.dialect,
-            width: self.options.width,
-            height: self.options.height,
-            declares: self.options.declares.clone(),
-            clock: self.options.clock,
-            frame_number: self.options.frame_number,
-            limits: self.options.limits,
-        };
+        let options = &self.options.evaluate;
         let before = self.diagnostics.len();
-        let scene = evaluate(ast, &mut self.sources, self.files, &options, &mut self.diagnostics);
+        let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
         self.drop_echoes(before);
         scene
     }

@@ -188,18 +188,22 @@ impl SceneArguments {
         let dialect = dialect(&file.to_string_lossy());
         let mut options = Options::new(dialect);
         options.lints = self.lint || dialect == Dialect::Scene;
-        options.declares = self.declares.clone();
+        options.evaluate.declares = self.declares.clone();
+        // `clock` is a word of the language, not a name.
+        if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {
+            options.evaluate.clock = *clock;
+        }
         if let Some(frame) = frame {
-            (options.width, options.height) = (frame.width, frame.height);
+            (options.evaluate.width, options.evaluate.height) = (frame.width, frame.height);
         }
         for &(limit, n) in &self.limits {
             let small = u32::try_from(n).unwrap_or(u32::MAX);
             match limit {
-                Limit::LoopTurns => options.limits.loop_turns = n,
-                Limit::MacroDepth => options.limits.macro_depth = small,
-                Limit::IncludeDepth => options.limits.include_depth = small,
-                Limit::Nesting => options.limits.nesting = small,
-                Limit::Objects => options.limits.objects = n,
+                Limit::LoopTurns => options.evaluate.limits.loop_turns = n,
+                Limit::MacroDepth => options.evaluate.limits.macro_depth = small,
+                Limit::IncludeDepth => options.evaluate.limits.include_depth = small,
+                Limit::Nesting => options.evaluate.limits.nesting = small,
+                Limit::Objects => options.evaluate.limits.objects = n,
                 Limit::Pixels => {}
             }
         }

@@ -5,8 +5,8 @@ use super::nest::{FrameKind, Nest, State};
 use super::numbers::{self, Piece, Pieces};
 use super::token::{Bracket, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::vocabulary::Dialect;
 use crate::source::Span;
+use crate::vocabulary::Dialect;
 use crate::vocabulary::{Role, Word};
 
 impl<'a> Nest<'a> {
