@@ -11,6 +11,7 @@ mod comment;
 mod directive;
 mod dump;
 mod expression;
+mod habits;
 mod head;
 mod layout;
 mod list;
@@ -60,6 +61,7 @@ pub fn parse(
     let quiet = comment::quiet(&source.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
+    let tokens = habits::translate(tokens, &quiet.text, file, &mut found);
     let (tokens, cut) = balance::balance(tokens, &quiet.text, file, options, &mut found);
     let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
     // Each pass found its own; the author reads from the top.
