@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use lucarne::vocabulary::{Family, Word};
+use lucarne::vocabulary::{Family, PREDECLARED, Word};
 
 const MARK: &str =
     "<!-- From here on this page is made from src/vocabulary by tests/language_page.rs. -->\n";
@@ -43,11 +43,17 @@ fn words() -> String {
     families.dedup();
     families.sort();
     families.dedup();
-    let mut page = String::from("\n## The words\n");
+    let mut page = String::from(
+        "\n## The words\n\n### Names that have a value from the start\n\n| name | means |\n|---|---|\n",
+    );
+    for (name, sentence) in PREDECLARED {
+        let _ = writeln!(page, "| `{name}` | {sentence} |");
+    }
     for family in families {
         let words = || Word::ALL.iter().filter(move |word| word.family() == family);
         let _ = write!(page, "\n### {}\n\n", title(family));
-        if words().any(|word| word.is_built()) {
+        let built = words().any(|word| word.is_built());
+        if built {
             page.push_str("| word | means |\n|---|---|\n");
             for word in words().filter(|word| word.is_built()) {
                 let _ = writeln!(
@@ -63,7 +69,8 @@ fn words() -> String {
             .map(|word| format!("`{}`", word.name()))
             .collect();
         if !later.is_empty() {
-            let _ = write!(page, "\nKnown, and not built yet: {}.\n", later.join(", "));
+            let gap = if built { "\n" } else { "" };
+            let _ = write!(page, "{gap}Known, and not built yet: {}.\n", later.join(", "));
         }
     }
     page

@@ -38,7 +38,9 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
 
 fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Result<(), Failure> {
     let bytes = read_main(file)?;
-    compiled(file, bytes, arguments, |road| messages.print(road.diagnostics.iter(), &road.sources))
+    compiled(file, bytes, arguments, |road| {
+        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)
+    })
 }
 
 /// Takes the file as far as the messages come from, and hands it to `then`.

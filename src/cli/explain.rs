@@ -22,6 +22,23 @@ pub fn run(arguments: &ExplainArguments) -> Outcome {
         };
         return Err(failure.help(help));
     };
-    messages::print(code.page())?;
+    messages::print(&plain(code.page()))?;
     Ok(Exit::Done)
+}
+
+/// A page as it reads in a terminal: its examples indented, not fenced.
+fn plain(page: &str) -> String {
+    let mut fenced = false;
+    let mut text = String::new();
+    for line in page.lines() {
+        if line.starts_with("```") {
+            fenced = !fenced;
+            continue;
+        }
+        let line =
+            if fenced { format!("    {line}") } else { line.trim_start_matches("# ").to_owned() };
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
 }

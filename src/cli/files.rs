@@ -186,10 +186,21 @@ pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     }
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
-    match bytes.len() as u64 > LARGEST {
-        true => Err(wrong("it is larger than 1 GiB")),
-        false => Ok(bytes),
+    if bytes.len() as u64 > LARGEST {
+        return Err(wrong("it is larger than 1 GiB"));
     }
+    if is_binary(&bytes) {
+        return Err(wrong("it is not a text").help("a scene is a text file: `.scene`, or `.pov`"));
+    }
+    Ok(bytes)
+}
+
+/// Whether this is a picture, a program or the like: no text has several zero bytes near its start, but
+/// for UTF-16, which is told where it is read.
+fn is_binary(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(4096)];
+    let wide = matches!(start, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+    !wide && start.iter().filter(|byte| **byte == 0).count() > 2
 }
 
 /// A name like this one in the same folder.

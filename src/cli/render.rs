@@ -44,7 +44,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
 
     let mut messages = arguments.scene.messages();
     messages.picture_on_stdout = output == Output::Stdout;
-    messages.print(road.diagnostics.iter(), &road.sources)?;
+    messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
     match messages.exit() {
         Exit::Done => {}
@@ -80,7 +80,12 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
 
     if !traced.complete {
         messages::eprint(&match written {
-            Some(place) => format!("interrupted: what is done is in {}\n", place.name()),
+            Some(place) => {
+                let samples = &traced.film.samples;
+                let done = samples.iter().filter(|samples| **samples > 0).count();
+                let share = 100 * done / samples.len().max(1);
+                format!("interrupted: the {share} % that are done are in {}\n", place.name())
+            }
             None => "interrupted: nothing was written\n".to_owned(),
         });
         return Ok(Exit::Interrupted);

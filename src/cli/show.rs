@@ -49,7 +49,7 @@ pub fn show(
     let mut messages = arguments.messages();
     // The stage takes standard output.
     messages.picture_on_stdout = true;
-    messages.print(road.diagnostics.iter(), &road.sources)?;
+    messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())

@@ -161,6 +161,20 @@ impl Diagnostics {
         self.list.iter()
     }
 
+    /// As an author reads them: notes first, as they were said; then file by file, from top to bottom.
+    pub fn in_text_order(&self) -> Vec<&Diagnostic> {
+        let mut list: Vec<&Diagnostic> = self.list.iter().collect();
+        list.sort_by_key(|diagnostic| {
+            let place = diagnostic.primary().map(|label| (label.span.file, label.span.start));
+            match diagnostic.severity {
+                Severity::Note => (0, None),
+                Severity::Warning | Severity::Error if place.is_some() => (1, place),
+                Severity::Warning | Severity::Error => (2, None),
+            }
+        });
+        list
+    }
+
     pub fn len(&self) -> usize {
         self.list.len()
     }

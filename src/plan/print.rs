@@ -53,7 +53,7 @@ fn callers(called: &Called, sources: &Sources) -> String {
     let mut places: Vec<String> = called.by.iter().map(|&site| place(site, sources)).collect();
     places.dedup();
     match places.len() {
-        0 => "the command line".to_owned(),
+        0 => "the options, or their defaults".to_owned(),
         1..=PLACES_SHOWN => places.join(", "),
         more => format!("{} and {} more", places[..PLACES_SHOWN].join(", "), more - PLACES_SHOWN),
     }
