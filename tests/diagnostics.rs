@@ -19,7 +19,6 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use lucarne::diagnostic::Diagnostic;
 use lucarne::road::{Options, Road};

@@ -142,14 +142,7 @@ impl Evaluator<'_> {
         match self.scopes.read(symbol) {
             Some(Value::Broken) => Err(Reported),
             Some(Value::Macro(_)) => {
-                let name = self.scopes.name(symbol).to_owned();
-                let diagnostic = Diagnostic::new(
-                    Code::WrongType,
-                    format!("`{name}` is a macro, and is called with parentheses"),
-                )
-                .at(span, "expected `(` after this")
-                .help(format!("write `{name}()`"));
-                Err(self.report(here, diagnostic))
+                Err(self.macro_not_called(here, symbol, span))
             }
             Some(value) => Ok(value.clone()),
             None => Err(self.undeclared(here, symbol, span)),
@@ -195,6 +188,12 @@ impl Evaluator<'_> {
         }
     }
 
+    /// As [`Self::raw_string`]; `None` when the string was never closed, which has been told.
+    pub(super) fn whole_string(&self, span: Span) -> Option<String> {
+        let text = self.sources.text(span);
+        (text.len() >= 2 && text.ends_with('"')).then(|| self.raw_string(span))
+    }
+
     /// A string's text between its quotes, escapes as written.
     pub(super) fn raw_string(&self, span: Span) -> String {
         let text = self.sources.text(span);
@@ -223,10 +222,10 @@ impl Evaluator<'_> {
                         format!("a component of a vector is a number, this is {}", other.kind()),
                     )
                     .at(span, "expected a number");
-                    let diagnostic = match other {
-                        Value::Vector(_) => {
-                            diagnostic.help("write its components: `V.x, V.y, V.z`")
-                        }
+                    let text = self.sources.text(span);
+                    let diagnostic = match (&other, unit.expression(id).kind) {
+                        (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
+                            .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
                         _ => diagnostic,
                     };
                     self.report(here, diagnostic);
@@ -253,8 +252,9 @@ impl Evaluator<'_> {
             (None, many) => {
                 let message =
                     format!("a vector has two to five components, this one has {}", many.len());
-                let diagnostic =
-                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(span, "too many components")
+                    .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
                 Err(self.report(here, diagnostic))
             }
         }
@@ -465,11 +465,19 @@ impl Evaluator<'_> {
                 }
             }
             OperationError::DivisionByZero => {
-                let label = match here.unit.expression(operands[1]).kind {
-                    ExpressionKind::Number(_) => "this is zero".to_owned(),
-                    _ => "this is zero here".to_owned(),
-                };
-                Diagnostic::new(Code::DivisionByZero, "division by zero").at(spans[1], label)
+                let diagnostic = Diagnostic::new(Code::DivisionByZero, "division by zero");
+                match here.unit.expression(operands[1]).kind {
+                    ExpressionKind::Number(_) => diagnostic.at(spans[1], "this is zero"),
+                    ExpressionKind::Name(name) => {
+                        let text = self.sources.text(spans[1]);
+                        let diagnostic = diagnostic.at(spans[1], format!("`{text}` is zero here"));
+                        match self.scopes.declared(here.symbol(name)) {
+                            Some(declared) => diagnostic.also(declared.site.span, "declared here"),
+                            None => diagnostic,
+                        }
+                    }
+                    _ => diagnostic.at(spans[1], "this is zero here"),
+                }
             }
             OperationError::NotFinite => {
                 Diagnostic::new(Code::NotANumber, "this calculation has no finite result")

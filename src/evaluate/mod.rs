@@ -8,6 +8,7 @@
 mod block;
 mod builtin;
 mod directive;
+mod endless;
 mod expression;
 mod lint;
 mod probe;
@@ -66,7 +67,8 @@ impl Default for EvaluateOptions {
 /// What stops a scene that would never end, or not in this machine's memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Turns of one loop.
+    /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
+    /// macros be called.
     pub loop_turns: u64,
     /// Macro calls inside each other.
     pub macro_depth: u32,
@@ -78,10 +80,14 @@ pub struct Limits {
     pub objects: u64,
 }
 
+impl Limits {
+    pub const TOGETHER: u64 = 4;
+}
+
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            loop_turns: 5_000_000,
+            loop_turns: 1_000_000,
             macro_depth: 1_000,
             include_depth: 64,
             nesting: 1_000,
@@ -206,9 +212,15 @@ struct Evaluator<'a> {
     says_gamma: bool,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
+    /// An include was not found: what is missing now may have been declared there.
+    lacks_include: bool,
+    /// Where a part was last found missing: what else is missing there says no more.
+    missing_at: Option<Site>,
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// Turns of all loops so far.
+    turns: u64,
     /// How often something was reported, repetitions included.
     reports: u64,
     /// The words that opened the blocks being read, outermost first.
@@ -278,8 +290,11 @@ impl<'a> Evaluator<'a> {
             says_version: false,
             says_gamma: false,
             poison: None,
+            lacks_include: false,
+            missing_at: None,
             halted: false,
             macro_depth: 0,
+            turns: 0,
             reports: 0,
             openers: Vec::new(),
             probes: HashMap::new(),
@@ -293,6 +308,10 @@ impl<'a> Evaluator<'a> {
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
+        if self.halted {
+            // Nobody looks at what there is of it.
+            self.scene.roots.clear();
+        }
         // What a mistake kept from being run may be the use that is missing.
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations();

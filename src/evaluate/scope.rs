@@ -29,6 +29,8 @@ pub struct Declared {
     pub used: bool,
     /// Declared in the main file itself, not in an include or a macro.
     pub global_in_main: bool,
+    /// Where `#undef` forgot it last.
+    pub undone: Option<Site>,
 }
 
 #[derive(Debug, Default)]
@@ -188,7 +190,19 @@ impl Scopes {
     /// Remembers where a name was first declared, for messages and lints.
     pub fn note_declaration(&mut self, symbol: Symbol, site: Site, global_in_main: bool) {
         let state = &mut self.states[symbol.0 as usize];
-        state.declared.get_or_insert(Declared { site, used: false, global_in_main });
+        state.declared.get_or_insert(Declared {
+            site,
+            used: false,
+            global_in_main,
+            undone: None,
+        });
+    }
+
+    /// Remembers where a name was forgotten, for messages.
+    pub fn note_undone(&mut self, symbol: Symbol, site: Site) {
+        if let Some(declared) = &mut self.states[symbol.0 as usize].declared {
+            declared.undone = Some(site);
+        }
     }
 
     pub fn declared(&self, symbol: Symbol) -> Option<&Declared> {

@@ -12,7 +12,7 @@ use crate::vocabulary::Word;
 
 use super::scope::Symbol;
 use super::value::{Components, Value};
-use super::{Evaluator, Here, Outcome, Reported, Unit};
+use super::{Evaluator, Here, Limits, Outcome, Unit, endless};
 
 /// A loop in which mistakes were reported ends after so many turns without another word.
 const FAULTY_TURNS: u64 = 1_000;
@@ -318,6 +318,18 @@ impl Evaluator<'_> {
     fn turn(&mut self) {
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
+        self.turns += 1;
+        if self.turns > limit.saturating_mul(Limits::TOGETHER) {
+            let directive = match kind {
+                FrameKind::While { directive, .. } | FrameKind::For { directive, .. } => *directive,
+                _ => return,
+            };
+            let here = here.clone();
+            let message = format!("the loops of this scene have turned {} times", self.turns - 1);
+            let _: Outcome<()> =
+                self.loop_limit(&here, directive, message, "in this one as the last");
+            return;
+        }
         match kind {
             FrameKind::While { condition, body, turns, directive, reports } => {
                 *turns += 1;
@@ -326,15 +338,24 @@ impl Evaluator<'_> {
                     (here.clone(), *condition, *body, *turns, *directive);
                 // What a mistake in it keeps from being computed may be what ends the loop.
                 let faulty = turns > FAULTY_TURNS && self.reports > reports;
-                let goes_on =
-                    !faulty && (turns <= limit || self.loop_limit(&here, directive).is_ok());
-                if goes_on && self.condition(&here, condition) == Ok(true) {
+                if !faulty && self.condition(&here, condition) == Ok(true) {
+                    if turns > limit {
+                        let message =
+                            format!("this loop does not end: it has turned {limit} times");
+                        let label = "its condition stays true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
+                        return;
+                    }
                     if let Some(frame) = self.frames.last_mut() {
                         (frame.at, frame.end) = (body.start, body.end);
                     }
-                    if body.is_empty() {
+                    let ast = &here.unit.ast;
+                    let constant = turns == 1 && endless::is_constant(ast, condition);
+                    if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
                         // Nothing can change: this would only run into the limit.
-                        let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                        let message = "this loop does not end".to_owned();
+                        let label = "its condition is always true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                     }
                 } else {
                     self.pop_frame();
@@ -346,10 +367,18 @@ impl Evaluator<'_> {
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (now - *to).abs() <= 1e-9 * step.abs();
                 let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
+                let left = ((*to - now) / *step).max(0.0);
+                // Without a way out it need not turn to be known.
+                let known = *turns == 0
+                    && left >= limit as f64
+                    && !endless::may_leave(&here.unit.ast, *body);
                 *turns += 1;
-                if *turns > limit {
+                if goes_on && (*turns > limit || known) {
                     let (here, directive) = (here.clone(), *directive);
-                    let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                    let all = *turns as f64 + left.floor();
+                    let message = format!("this loop has {all} turns; the limit is {limit}");
+                    let label = "it turns too often";
+                    let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                 } else if goes_on {
                     *value = now + *step;
                     (*at, *end) = (body.start, body.end);

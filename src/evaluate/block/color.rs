@@ -24,7 +24,11 @@ impl Evaluator<'_> {
                         None => Color::BLACK,
                     }
                 }
-                Some(TokenKind::Word(next)) if is_component(*next) => Color::BLACK,
+                Some(TokenKind::Word(next)) if is_component(*next) => {
+                    let first = self.peek().cloned();
+                    let first = first.as_ref().unwrap_or(token);
+                    return self.color_of_components(first, Color::BLACK);
+                }
                 _ => {
                     let given = self.given(token, "a colour")?;
                     match given.value.as_color() {
@@ -44,7 +48,7 @@ impl Evaluator<'_> {
             component if is_component(component) => {
                 let mut color = Color::BLACK;
                 self.color_component(token, component, &mut color)?;
-                color
+                return self.color_of_components(token, color);
             }
             _ => {
                 let outcome = self.word_not_built(token, word);
@@ -114,6 +118,14 @@ impl Evaluator<'_> {
                 self.color_component(&token, word, &mut color)?;
             }
         }
+        Ok(color)
+    }
+
+    /// A colour that is written by its components alone.
+    fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
+        let color = self.color_components(color)?;
+        let rgb = [color.rgb.red, color.rgb.green, color.rgb.blue];
+        self.lint_color_range(&first.here, first.span, rgb);
         Ok(color)
     }
 

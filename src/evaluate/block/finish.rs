@@ -41,6 +41,10 @@ impl Evaluator<'_> {
                     evaluator.skip_values();
                 }
             }
+            // What failed may be what is missing.
+            if failed && written.classic.is_none() {
+                return Err(Reported);
+            }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
             if failed { Err(Reported) } else { Ok(finish) }
         })?;

@@ -94,7 +94,10 @@ impl Evaluator<'_> {
                     .at(token.span, "a declared object")
                     .help(format!("write `object {{ {text} }}`"))
                     .fix(token.span, format!("object {{ {text} }}"));
-                    return Some(Err(self.report(&token.here, diagnostic)));
+                    let reported = self.report(&token.here, diagnostic);
+                    // The others are read for their own mistakes.
+                    let _: Outcome<ObjectKind> = self.union(&token);
+                    return Some(Err(reported));
                 }
                 Some(Ok(ObjectKind::Use(object)))
             }

@@ -52,8 +52,10 @@ impl Evaluator<'_> {
                     )
                     .at(given.span, "expected factors other than zero");
                     if !uniform {
-                        diagnostic = diagnostic
-                            .help("a direction that is to stay as it is takes the factor 1");
+                        let [x, y, z] = factors.to_array().map(|f| if f == 0.0 { 1.0 } else { f });
+                        diagnostic = diagnostic.help(format!(
+                            "a direction that is to stay as it is takes the factor 1: `<{x}, {y}, {z}>`"
+                        ));
                     }
                     return Err(self.report(&given.here, diagnostic));
                 }
