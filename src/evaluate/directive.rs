@@ -189,7 +189,7 @@ impl Evaluator<'_> {
             }
             None => Err(self.expected("a value", None, (here, target.span.after()))),
         };
-        if matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
+        if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }
         self.hold = outer_hold;

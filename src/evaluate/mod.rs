@@ -201,6 +201,8 @@ struct Evaluator<'a> {
     /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
     /// past its end runs nothing there, since that may already ask for the value.
     hold: Option<usize>,
+    /// Within [`Self::peek_on`].
+    calls_wait: bool,
     /// Files already read and parsed, by the name they were found under.
     parsed: HashMap<String, Rc<Unit>>,
     /// The names of the files that include each other now.
@@ -283,6 +285,7 @@ impl<'a> Evaluator<'a> {
             frames: Vec::new(),
             peeked: None,
             hold: None,
+            calls_wait: false,
             parsed: HashMap::new(),
             including: Vec::new(),
             default_texture: TextureId(0),

@@ -129,17 +129,10 @@ impl Scopes {
         }
     }
 
-    /// `#declare`: where the newest table has the name, there (so a parameter passes the value out);
+    /// `#declare`: where the name is found, be it local in a caller (so a parameter passes the value out);
     /// else in the main file's table.
     pub fn assign(&mut self, symbol: Symbol, value: Value) {
-        let depth = self.tables.len() as u32 - 1;
-        let bindings = &self.states[symbol.0 as usize].bindings;
-        let slot = match (bindings.last(), bindings.first()) {
-            (Some(&(at, slot)), _) if at == depth => Some(slot),
-            (_, Some(&(0, slot))) => Some(slot),
-            _ => None,
-        };
-        match slot {
+        match self.slot(symbol) {
             Some(slot) => self.slots[slot.0 as usize] = value,
             None => {
                 let slot = self.new_slot(value);

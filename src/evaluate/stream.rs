@@ -221,6 +221,15 @@ impl Evaluator<'_> {
         self.peeked.as_ref()
     }
 
+    /// As [`Self::peek`], where a value could end: past the end of a `#declare` no macro is called, since
+    /// its arguments may already ask for the value.
+    pub(super) fn peek_on(&mut self) -> Option<&Token> {
+        self.calls_wait = true;
+        self.peek();
+        self.calls_wait = false;
+        self.peeked.as_ref()
+    }
+
     /// Takes the next item; `None` at the end of the block.
     pub(super) fn next(&mut self) -> Option<Token> {
         match self.peeked.take() {
@@ -255,11 +264,17 @@ impl Evaluator<'_> {
             }
             let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
             let frame = self.frames.last_mut()?;
-            let waits = frame.at == frame.end
-                || matches!(
-                    frame.here.unit.ast.items[frame.at as usize].kind,
-                    ItemKind::Directive(_)
-                );
+            let waits = frame.at == frame.end || {
+                let ast = &frame.here.unit.ast;
+                match ast.items[frame.at as usize].kind {
+                    ItemKind::Directive(_) => true,
+                    ItemKind::Expression(id) => {
+                        self.calls_wait
+                            && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
+                    }
+                    _ => false,
+                }
+            };
             if held && waits {
                 return None;
             }

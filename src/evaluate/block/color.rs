@@ -109,7 +109,7 @@ impl Evaluator<'_> {
 
     /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
     pub(super) fn color_components(&mut self, mut color: Color) -> Outcome<Color> {
-        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() {
+        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on() {
             let word = *word;
             if !is_component(word) {
                 break;
