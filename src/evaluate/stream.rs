@@ -377,7 +377,13 @@ impl Evaluator<'_> {
                 }
             }
             FrameKind::For { symbol, value, to, step, body, turns, directive } => {
-                let now = *value;
+                // The body may have set the counter.
+                let set = match *turns {
+                    0 => None,
+                    _ => self.scopes.read(*symbol).and_then(Value::as_number),
+                };
+                let now = set.map_or(*value, |set| set + *step);
+                *value = now;
                 let reached = super::value::same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (now - *to).abs() <= 1e-9 * step.abs();
@@ -395,7 +401,6 @@ impl Evaluator<'_> {
                     let label = "it turns too often";
                     let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                 } else if goes_on {
-                    *value = now + *step;
                     (*at, *end) = (body.start, body.end);
                     let symbol = *symbol;
                     self.scopes.assign_local(symbol, Value::Number(now));
