@@ -307,3 +307,81 @@ fn a_right_scene_gets_no_message() {
         assert!(found.is_empty(), "{}: {found:#?}", path.display());
     }
 }
+
+/// Scenes to break: much of the language in few lines.
+const WHOLE: [&str; 3] = [
+    "#declare A = 2; #macro Ball(P, R) sphere { P, R texture { Paint } } #end
+     #declare Paint = texture { pigment { checker rgb <1, 0, 0>, color rgb 1 } finish { phong .5 } }
+     camera { location <0, 1, 5> look_at 0 angle 40 } light_source { <4, 8, 6>, rgb 1 }
+     #for (I, 1, A) Ball(<I, 0, 0>, .5 + I/4) #end
+     union { box { -1, 1 rotate <0, 45, 0> } object { Ball(0, 1) scale <-1, 1, 1> } no_shadow }",
+    "#local T = transform { rotate 30*y translate <1, 2, 3> inverse } #switch (3) #case (1) #break
+     #range (2, 4) plane { y, -1 pigment { gradient x color_map { [0 rgb 0] [1 rgb <1, .5, 0>] } } }
+     #else #error \"no\" #end #while (0) #end
+     sphere { 0, (1 > 0 ? 1 : 2) transform { T } finish { kd .5 ks .5 phong_exponent 5 } }",
+    "global_settings { ambient_light rgb 1 max_trace_level 5 } background { color rgb <.1, .2, .3> }
+     #ifndef (X) #declare X = concat(\"a\", str(3, 0, 2)); #end #debug X
+     sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb <0, 0, 1>] } } }
+     #declare V = <1, 2, 3> * 2 - y; sphere { V, vlength(V)/4 matrix <1,0,0,0,1,0,0,0,1,0,0,0> }",
+];
+
+/// Words, numbers and signs, with the blanks between them.
+fn tokens(text: &str) -> Vec<String> {
+    let mut tokens: Vec<String> = Vec::new();
+    for c in text.chars() {
+        let joins = |last: &String| {
+            let before = last.chars().next_back();
+            let word = |c: char| c.is_alphanumeric() || c == '_';
+            before.is_some_and(|before| word(before) == word(c) && (word(c) || c.is_whitespace()))
+        };
+        match tokens.last_mut().filter(|last| joins(last)) {
+            Some(last) => last.push(c),
+            None => tokens.push(c.to_string()),
+        }
+    }
+    tokens
+}
+
+/// Compiles a text and looks at every place that is spoken of.
+fn survives(text: &str) {
+    let (found, sources) = messages("a.scene", text.as_bytes().to_vec(), &Includes::default());
+    for one in &found {
+        let spans = one.labels.iter().map(|label| label.span);
+        let spans = spans.chain(one.fixes.iter().map(|fix| fix.span));
+        for span in spans.chain(one.trace.iter().map(|step| step.span)) {
+            let whole = &sources.get(span.file).text;
+            assert!(span.start <= span.end, "{one:?} in {text}");
+            assert!(whole.get(span.range()).is_some(), "{one:?} in {text}");
+        }
+    }
+}
+
+#[test]
+fn every_beginning_of_a_scene_is_read_without_a_panic() {
+    for text in WHOLE {
+        (0..text.len()).filter(|&end| text.is_char_boundary(end)).for_each(|end| survives(&text[..end]));
+    }
+}
+
+#[test]
+fn scenes_with_parts_left_out_doubled_or_swapped_are_read_without_a_panic() {
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % below
+    };
+    for text in WHOLE {
+        for _ in 0..400 {
+            let mut tokens = tokens(text);
+            for _ in 0..=random(3) {
+                let (one, other) = (random(tokens.len()), random(tokens.len()));
+                match random(3) {
+                    0 => drop(tokens.remove(one)),
+                    1 => tokens.insert(other, tokens[one].clone()),
+                    _ => tokens.swap(one, other),
+                }
+            }
+            survives(&tokens.concat());
+        }
+    }
+}

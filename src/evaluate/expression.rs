@@ -31,7 +31,7 @@ impl Evaluator<'_> {
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
-            // Sums of many terms lean to the left as deep as they are long.
+            // Brackets in brackets.
             _ => stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id)),
         }
     }
@@ -55,28 +55,7 @@ impl Evaluator<'_> {
                     )
                 })
             }
-            ExpressionKind::Binary(operator, left, right) => {
-                // Both sides are evaluated before either fails: each may report, and both draw from streams.
-                let (a, b) = (self.expression(here, left), self.expression(here, right));
-                let (a, b) = (a?, b?);
-                if let Value::Poison(_) = a {
-                    return Ok(a);
-                }
-                if let Value::Poison(_) = b {
-                    return Ok(b);
-                }
-                value::binary(operator, &a, &b).map_err(|error| {
-                    let symbol = format!("`{}`", symbol(operator));
-                    self.operation_error(
-                        here,
-                        error,
-                        &symbol,
-                        expression.span,
-                        [left, right],
-                        [&a, &b],
-                    )
-                })
-            }
+            ExpressionKind::Binary(..) => self.sum(here, id),
             ExpressionKind::Conditional(condition, then, otherwise) => {
                 let condition = self.expression(here, condition);
                 let truth = condition.as_ref().ok().and_then(Value::as_truth);
@@ -127,6 +106,30 @@ impl Evaluator<'_> {
             | ExpressionKind::Word(_)
             | ExpressionKind::Missing => self.expression(here, id),
         }
+    }
+
+    /// Operations lean to the left as deep as they are long: from the leftmost operand on, one by one.
+    fn sum(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let mut operations = Vec::new();
+        let mut first = id;
+        while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
+            operations.push((operator, left, right, here.unit.expression(first).span));
+            first = left;
+        }
+        let mut value = self.expression(here, first);
+        for (operator, left, right, span) in operations.into_iter().rev() {
+            // Both sides are evaluated before either fails: each may report, and both draw from streams.
+            let operand = self.expression(here, right);
+            value = match (value, operand) {
+                (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
+                (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
+                (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
+                    let symbol = format!("`{}`", symbol(operator));
+                    self.operation_error(here, error, &symbol, span, [left, right], [&a, &b])
+                }),
+            };
+        }
+        value
     }
 
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {

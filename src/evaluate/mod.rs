@@ -15,6 +15,8 @@ mod probe;
 mod report;
 mod scope;
 mod stream;
+#[cfg(test)]
+mod tests;
 pub mod value;
 
 use std::collections::HashMap;
