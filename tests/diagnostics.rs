@@ -82,8 +82,11 @@ impl Expected {
             line.find(": ").map_or((line, ""), |at| (&line[..at], &line[at + 2..]))
         });
         let (place, code) = head.trim().split_once(' ').expect("a place and a code");
-        let mut expected =
-            Self { place: place.to_owned(), code: code.trim_end_matches(':').to_owned(), ..Self::default() };
+        let mut expected = Self {
+            place: place.to_owned(),
+            code: code.trim_end_matches(':').to_owned(),
+            ..Self::default()
+        };
         for part in rest.split('|').map(str::trim).filter(|part| !part.is_empty()) {
             let list = if let Some(text) = part.strip_prefix("fix") {
                 expected.fixes.push(text.trim().to_owned());
@@ -244,13 +247,19 @@ fn failures(case: &Case) -> String {
     for one in &found {
         wrong += &format!("  + {}\n", shown(one));
     }
-    if wrong.is_empty() { wrong } else { format!("{}:{} {}\n{wrong}", case.file, case.line, case.title) }
+    if wrong.is_empty() {
+        wrong
+    } else {
+        format!("{}:{} {}\n{wrong}", case.file, case.line, case.title)
+    }
 }
 
 fn corpus() -> Vec<Case> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
     paths.sort();
     paths.iter().flat_map(|path| cases(path)).collect()
 }
@@ -261,7 +270,13 @@ fn every_broken_scene_is_told_what_is_wrong_with_it_and_nothing_else() {
     assert!(corpus.len() >= 80, "{} cases", corpus.len());
     let failures: Vec<String> =
         corpus.iter().map(failures).filter(|failure| !failure.is_empty()).collect();
-    assert!(failures.is_empty(), "{} of {} cases\n{}", failures.len(), corpus.len(), failures.concat());
+    assert!(
+        failures.is_empty(),
+        "{} of {} cases\n{}",
+        failures.len(),
+        corpus.len(),
+        failures.concat()
+    );
 }
 
 fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -359,7 +374,9 @@ fn survives(text: &str) {
 #[test]
 fn every_beginning_of_a_scene_is_read_without_a_panic() {
     for text in WHOLE {
-        (0..text.len()).filter(|&end| text.is_char_boundary(end)).for_each(|end| survives(&text[..end]));
+        (0..text.len())
+            .filter(|&end| text.is_char_boundary(end))
+            .for_each(|end| survives(&text[..end]));
     }
 }
 
@@ -383,5 +400,64 @@ fn scenes_with_parts_left_out_doubled_or_swapped_are_read_without_a_panic() {
             }
             survives(&tokens.concat());
         }
+    }
+}
+
+/// What is said of a text, as places and codes.
+fn told(text: &str) -> Vec<String> {
+    let (found, sources) = messages("a.scene", text.as_bytes().to_vec(), &Includes::default());
+    found
+        .iter()
+        .map(|one| said(one, &sources))
+        .map(|one| format!("{} {}", one.place, one.code))
+        .collect()
+}
+
+#[test]
+fn one_huge_line_is_told_its_column() {
+    let line = "sphere { 0, 1 } ".repeat(20_000);
+    assert_eq!(told(&format!("{line}shpere {{ 0, 1 }}")), ["1:320001 unknown-word"]);
+}
+
+#[test]
+fn fifty_thousand_nested_brackets_are_one_mistake() {
+    for open in ["{", "[", "(", "<", "union {", "#if (1) ", "{[(<"] {
+        let found = told(&open.repeat(50_000));
+        assert_eq!(found.len(), 1, "{open}: {found:?}");
+        assert!(found[0].ends_with(" nesting-limit"), "{open}: {found:?}");
+    }
+}
+
+/// Scenes that would never end, or not in this machine's memory.
+const ENDLESS: [&str; 10] = [
+    "#while (1) sphere { 0, 1 } #end",
+    "#while (1) #end",
+    "#declare I = 0; #while (I < 1) sphere { I, 1 } #end",
+    "#declare I = 0; #while (I < 1) #declare J = I; #end",
+    "#for (I, 0, 1e12) sphere { I, 1 pigment { rgb 1 } translate x } #end",
+    "#for (I, 1, 1000000) #for (J, 1, 1000000) #end #end",
+    "#macro F(N) sphere { 0, 1 } F(N) #end F(1)",
+    "#macro F(N) G(N) #end #macro G(N) F(N) #end F(1)",
+    "#macro F(N) (1 + F(N)) #end sphere { 0, F(1) }",
+    "#include \"endless.scene\"",
+];
+
+#[test]
+fn what_would_never_end_is_stopped_soon_with_one_message_and_code_four() {
+    for text in ENDLESS {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("endless.scene"), text).expect("written");
+        let start = std::time::Instant::now();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_lucarne"))
+            .args(["check", "--message-format", "short", "endless.scene"])
+            .current_dir(folder.path())
+            .output()
+            .expect("runs");
+        let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+        let circular = text.contains("#include");
+        assert_eq!(output.status.code(), Some(if circular { 1 } else { 4 }), "{text}: {messages}");
+        assert_eq!(messages.lines().count(), 1, "{text}: {messages}");
+        // Far more than it takes, for a machine that does other things too.
+        assert!(start.elapsed().as_secs() < 20, "{text}: {:?}", start.elapsed());
     }
 }

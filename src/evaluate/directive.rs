@@ -288,14 +288,16 @@ impl Evaluator<'_> {
         let diagnostic = if again {
             let message = match (innermost == name, between.as_slice()) {
                 (true, _) => format!("`{name}` includes itself, and never ends"),
-                (false, []) => format!("`{name}` and `{innermost}` include each other, and never end"),
+                (false, []) => {
+                    format!("`{name}` and `{innermost}` include each other, and never end")
+                }
                 (false, [..]) => {
                     format!("`{name}` includes itself by way of `{innermost}`, and never ends")
                 }
             };
-            Diagnostic::new(Code::CircularInclude, message)
-            .at(span, "included again here")
-            .help("guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`")
+            Diagnostic::new(Code::CircularInclude, message).at(span, "included again here").help(
+                "guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`",
+            )
         } else {
             let limit = self.options.limits.include_depth;
             Diagnostic::new(

@@ -122,7 +122,9 @@ impl Evaluator<'_> {
             let operand = self.expression(here, right);
             value = match (value, operand) {
                 (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
-                (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
+                (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => {
+                    Ok(poison)
+                }
                 (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
                     let symbol = format!("`{}`", symbol(operator));
                     self.operation_error(here, error, &symbol, span, [left, right], [&a, &b])
@@ -144,9 +146,7 @@ impl Evaluator<'_> {
     fn name_value(&mut self, here: &Here, symbol: super::Symbol, span: Span) -> Outcome<Value> {
         match self.scopes.read(symbol) {
             Some(Value::Broken) => Err(Reported),
-            Some(Value::Macro(_)) => {
-                Err(self.macro_not_called(here, symbol, span))
-            }
+            Some(Value::Macro(_)) => Err(self.macro_not_called(here, symbol, span)),
             Some(value) => Ok(value.clone()),
             None => Err(self.undeclared(here, symbol, span)),
         }

@@ -120,7 +120,10 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
-        } else if let Some(word) = word_like(&name, value_word) {
+        } else if let Some(word) = word_like(&name, value_word)
+            // A name with a capital is rather one of the author's.
+            && (!name.starts_with(char::is_uppercase) || word.eq_ignore_ascii_case(&name))
+        {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
@@ -194,7 +197,8 @@ impl Evaluator<'_> {
         let directive = here.unit.ast.directive(directive);
         let diagnostic = Diagnostic::new(Code::LoopLimit, message).at(directive.head, label);
         let diagnostic = match directive.kind {
-            DirectiveKind::While { .. } => diagnostic.help("change in its body what its condition asks, or leave it with `#break`"),
+            DirectiveKind::While { .. } => diagnostic
+                .help("change in its body what its condition asks, or leave it with `#break`"),
             _ => diagnostic,
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");

@@ -183,12 +183,7 @@ impl Scopes {
     /// Remembers where a name was first declared, for messages and lints.
     pub fn note_declaration(&mut self, symbol: Symbol, site: Site, global_in_main: bool) {
         let state = &mut self.states[symbol.0 as usize];
-        state.declared.get_or_insert(Declared {
-            site,
-            used: false,
-            global_in_main,
-            undone: None,
-        });
+        state.declared.get_or_insert(Declared { site, used: false, global_in_main, undone: None });
     }
 
     /// Remembers where a name was forgotten, for messages.

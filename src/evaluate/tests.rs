@@ -31,7 +31,8 @@ fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
     let file = road.read("a.pov", format!("{head}{text}").into_bytes());
     let ast = road.parse(file);
     road.evaluate(&ast);
-    let told = road.diagnostics.iter().filter(|one| one.severity != crate::diagnostic::Severity::Warning);
+    let told =
+        road.diagnostics.iter().filter(|one| one.severity != crate::diagnostic::Severity::Warning);
     told.map(|one| one.message.as_str()).collect::<String>().trim_end().to_owned()
 }
 
@@ -189,7 +190,8 @@ fn finish(text: &str) -> Finish {
 
 #[test]
 fn the_seeds_words_are_known_in_macros_that_a_finish_calls() {
-    let called = "#macro F(A) kd A ks 1 - A phong_exponent 10*A #end sphere { 0, 1 finish { F(.5) } }";
+    let called =
+        "#macro F(A) kd A ks 1 - A phong_exponent 10*A #end sphere { 0, 1 finish { F(.5) } }";
     let written = "sphere { 0, 1 finish { kd .5 ks .5 phong_exponent 5 } }";
     assert_eq!(finish(called), finish(written));
 }

@@ -181,6 +181,7 @@ impl Evaluator<'_> {
                 };
                 let reported = self.report(&token.here, diagnostic);
                 self.skip_values();
+                self.skip_color(token);
                 return Err(reported);
             }
         }

@@ -63,6 +63,10 @@ impl Evaluator<'_> {
                 Some(kind) => kind,
                 None => parts(evaluator, token),
             };
+            if kind.is_err() {
+                // What is left of the parts.
+                evaluator.skip_values();
+            }
             let mut modifiers = Vec::new();
             let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.is_textured(used));
             let failed = evaluator.modifiers(word, textured, &mut modifiers);

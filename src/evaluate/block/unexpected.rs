@@ -216,7 +216,8 @@ impl Evaluator<'_> {
         let near = match here {
             Some(word) => Some(word.to_owned()),
             None => word_like(&name, |word| {
-                word.family() != Family::Directive && (dialect == Dialect::Scene || word.block().is_none())
+                word.family() != Family::Directive
+                    && (dialect == Dialect::Scene || word.block().is_none())
             })
             .map(str::to_owned),
         };
@@ -240,12 +241,8 @@ impl Evaluator<'_> {
         };
         self.report(&token.here, diagnostic);
         self.skip_values();
-        let color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(word), .. }) if word.family() == Family::Color);
-        if color && !place.families.contains(&Family::Color) {
-            // It was the value of the word that is not known.
-            let before = self.diagnostics.len();
-            let _ = self.color_after(token, "a colour");
-            self.diagnostics.forget_after(before);
+        if !place.families.contains(&Family::Color) {
+            self.skip_color(token);
         }
         if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
             // What is inside belongs to a word that is not known: run, but not judged.
@@ -293,6 +290,17 @@ impl Evaluator<'_> {
             }
         }
         self.diagnostics.forget_after(before);
+    }
+
+    /// Passes over a colour that was the value of a word that is not known.
+    pub(super) fn skip_color(&mut self, after: &Token) {
+        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == Family::Color
+        {
+            let before = self.diagnostics.len();
+            let _ = self.color_after(after, "a colour");
+            self.diagnostics.forget_after(before);
+        }
     }
 
     /// Passes over the values after a word, running what is in them.
