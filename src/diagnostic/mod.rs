@@ -11,6 +11,8 @@ pub mod suggest;
 
 pub use code::Code;
 
+use std::collections::HashMap;
+
 use crate::source::{Expansion, ExpansionKind, Expansions, Site, Span};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -93,9 +95,22 @@ impl Diagnostic {
         self
     }
 
-    /// Adds the calls and includes that led to `site`.
+    /// Adds the calls and includes that led to `site`; a call that was made again and again stands once.
     pub fn traced(mut self, site: Site, expansions: &Expansions) -> Self {
-        self.trace = expansions.chain(site.expansion).map(TraceStep::of).collect();
+        let mut times: HashMap<Span, usize> = HashMap::new();
+        self.trace.clear();
+        for expansion in expansions.chain(site.expansion) {
+            let times = times.entry(expansion.call).or_default();
+            *times += 1;
+            if *times == 1 {
+                self.trace.push(TraceStep::of(expansion));
+            }
+        }
+        for step in &mut self.trace {
+            if let Some(&times @ 2..) = times.get(&step.span) {
+                step.text += &format!(", {times} times");
+            }
+        }
         self
     }
 

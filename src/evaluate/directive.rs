@@ -13,7 +13,7 @@ use crate::syntax::{self, ParseOptions};
 use super::scope::{MacroId, Slot};
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
-use super::{Evaluator, Here, Macro, MacroBody, Outcome, Reported, Unit};
+use super::{Evaluator, Here, Limits, Macro, MacroBody, Outcome, Reported, Unit};
 
 /// What a parameter is bound to.
 enum Bound {
@@ -30,7 +30,9 @@ impl Evaluator<'_> {
             DirectiveKind::Undef(target) => {
                 let symbol = here.symbol(target.name);
                 self.scopes.mark_used(symbol);
-                self.scopes.undefine(symbol);
+                if self.scopes.undefine(symbol) {
+                    self.scopes.note_undone(symbol, here.site(target.span));
+                }
                 Ok(())
             }
             DirectiveKind::If { test, then, otherwise } => {
@@ -151,7 +153,9 @@ impl Evaluator<'_> {
             Value::Poison(_) => return Ok(()),
             other => {
                 let span = here.unit.expression(text).span;
-                return Err(self.wrong_type(here, span, "a string", &other));
+                let help = matches!(other, Value::Number(_))
+                    .then(|| "a number becomes a string by `str(n, 0, -1)`".to_owned());
+                return Err(self.wrong_type_with(here, span, "a string", &other, help));
             }
         };
         let label = match code.severity() {
@@ -185,7 +189,7 @@ impl Evaluator<'_> {
             }
             None => Err(self.expected("a value", None, (here, target.span.after()))),
         };
-        if matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
+        if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }
         self.hold = outer_hold;
@@ -219,7 +223,13 @@ impl Evaluator<'_> {
         let span = here.unit.expression(file).span;
         let name = match here.unit.expression(file).kind {
             // Paths keep their backslashes.
-            ExpressionKind::String => self.raw_string(span),
+            ExpressionKind::String => match self.whole_string(span) {
+                Some(name) => name,
+                None => {
+                    self.lacks_include = true;
+                    return Err(Reported);
+                }
+            },
             _ => self.string(here, file)?,
         };
         if self.including.len() as u32 > self.options.limits.include_depth {
@@ -230,6 +240,7 @@ impl Evaluator<'_> {
             Ok(found) => found,
             Err(error) => {
                 let diagnostic = missing_file(&name, span, error);
+                self.lacks_include = true;
                 return Err(self.report(here, diagnostic));
             }
         };
@@ -270,14 +281,23 @@ impl Evaluator<'_> {
     fn include_limit(&mut self, here: &Here, name: &str, span: Span) -> Reported {
         self.halted = true;
         let innermost = self.including.last().cloned().unwrap_or_default();
+        // The files between this one and the last time it was included.
+        let since = |file: &&String| file.as_str() != name && **file != innermost;
+        let between: Vec<&String> = self.including.iter().rev().skip(1).take_while(since).collect();
         let again = self.including.iter().filter(|file| **file == innermost).count() > 1;
         let diagnostic = if again {
-            Diagnostic::new(
-                Code::CircularInclude,
-                format!("`{name}` includes itself, and never ends"),
+            let message = match (innermost == name, between.as_slice()) {
+                (true, _) => format!("`{name}` includes itself, and never ends"),
+                (false, []) => {
+                    format!("`{name}` and `{innermost}` include each other, and never end")
+                }
+                (false, [..]) => {
+                    format!("`{name}` includes itself by way of `{innermost}`, and never ends")
+                }
+            };
+            Diagnostic::new(Code::CircularInclude, message).at(span, "included again here").help(
+                "guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`",
             )
-            .at(span, "included again here")
-            .help("guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`")
         } else {
             let limit = self.options.limits.include_depth;
             Diagnostic::new(
@@ -383,6 +403,17 @@ impl Evaluator<'_> {
             call: span,
             kind: ExpansionKind::Macro(name),
         });
+        let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
+        if u64::from(expansion.0) > most {
+            self.halted = true;
+            let name = self.scopes.name(definition.name);
+            let message = format!("macros and includes have been called {most} times");
+            let diagnostic = Diagnostic::new(Code::MacroLimit, message)
+                .at(span, format!("this call of `{name}` is one too many"))
+                .also(definition.defined, "defined here")
+                .help("`--limit loop-turns=N` raises the limit, which is a multiple of it");
+            return Err(self.report(here, diagnostic));
+        }
         self.scopes.open();
         for (&parameter, bound) in definition.parameters.iter().zip(bound) {
             match bound {

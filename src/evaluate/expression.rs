@@ -31,7 +31,7 @@ impl Evaluator<'_> {
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
-            // Sums of many terms lean to the left as deep as they are long.
+            // Brackets in brackets.
             _ => stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id)),
         }
     }
@@ -55,28 +55,7 @@ impl Evaluator<'_> {
                     )
                 })
             }
-            ExpressionKind::Binary(operator, left, right) => {
-                // Both sides are evaluated before either fails: each may report, and both draw from streams.
-                let (a, b) = (self.expression(here, left), self.expression(here, right));
-                let (a, b) = (a?, b?);
-                if let Value::Poison(_) = a {
-                    return Ok(a);
-                }
-                if let Value::Poison(_) = b {
-                    return Ok(b);
-                }
-                value::binary(operator, &a, &b).map_err(|error| {
-                    let symbol = format!("`{}`", symbol(operator));
-                    self.operation_error(
-                        here,
-                        error,
-                        &symbol,
-                        expression.span,
-                        [left, right],
-                        [&a, &b],
-                    )
-                })
-            }
+            ExpressionKind::Binary(..) => self.sum(here, id),
             ExpressionKind::Conditional(condition, then, otherwise) => {
                 let condition = self.expression(here, condition);
                 let truth = condition.as_ref().ok().and_then(Value::as_truth);
@@ -129,6 +108,32 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Operations lean to the left as deep as they are long: from the leftmost operand on, one by one.
+    fn sum(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let mut operations = Vec::new();
+        let mut first = id;
+        while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
+            operations.push((operator, left, right, here.unit.expression(first).span));
+            first = left;
+        }
+        let mut value = self.expression(here, first);
+        for (operator, left, right, span) in operations.into_iter().rev() {
+            // Both sides are evaluated before either fails: each may report, and both draw from streams.
+            let operand = self.expression(here, right);
+            value = match (value, operand) {
+                (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
+                (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => {
+                    Ok(poison)
+                }
+                (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
+                    let symbol = format!("`{}`", symbol(operator));
+                    self.operation_error(here, error, &symbol, span, [left, right], [&a, &b])
+                }),
+            };
+        }
+        value
+    }
+
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {
         let before = self.diagnostics.len();
         let value = self.expression(here, id);
@@ -141,16 +146,7 @@ impl Evaluator<'_> {
     fn name_value(&mut self, here: &Here, symbol: super::Symbol, span: Span) -> Outcome<Value> {
         match self.scopes.read(symbol) {
             Some(Value::Broken) => Err(Reported),
-            Some(Value::Macro(_)) => {
-                let name = self.scopes.name(symbol).to_owned();
-                let diagnostic = Diagnostic::new(
-                    Code::WrongType,
-                    format!("`{name}` is a macro, and is called with parentheses"),
-                )
-                .at(span, "expected `(` after this")
-                .help(format!("write `{name}()`"));
-                Err(self.report(here, diagnostic))
-            }
+            Some(Value::Macro(_)) => Err(self.macro_not_called(here, symbol, span)),
             Some(value) => Ok(value.clone()),
             None => Err(self.undeclared(here, symbol, span)),
         }
@@ -195,6 +191,12 @@ impl Evaluator<'_> {
         }
     }
 
+    /// As [`Self::raw_string`]; `None` when the string was never closed, which has been told.
+    pub(super) fn whole_string(&self, span: Span) -> Option<String> {
+        let text = self.sources.text(span);
+        (text.len() >= 2 && text.ends_with('"')).then(|| self.raw_string(span))
+    }
+
     /// A string's text between its quotes, escapes as written.
     pub(super) fn raw_string(&self, span: Span) -> String {
         let text = self.sources.text(span);
@@ -223,10 +225,10 @@ impl Evaluator<'_> {
                         format!("a component of a vector is a number, this is {}", other.kind()),
                     )
                     .at(span, "expected a number");
-                    let diagnostic = match other {
-                        Value::Vector(_) => {
-                            diagnostic.help("write its components: `V.x, V.y, V.z`")
-                        }
+                    let text = self.sources.text(span);
+                    let diagnostic = match (&other, unit.expression(id).kind) {
+                        (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
+                            .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
                         _ => diagnostic,
                     };
                     self.report(here, diagnostic);
@@ -253,8 +255,9 @@ impl Evaluator<'_> {
             (None, many) => {
                 let message =
                     format!("a vector has two to five components, this one has {}", many.len());
-                let diagnostic =
-                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(span, "too many components")
+                    .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
                 Err(self.report(here, diagnostic))
             }
         }
@@ -465,11 +468,19 @@ impl Evaluator<'_> {
                 }
             }
             OperationError::DivisionByZero => {
-                let label = match here.unit.expression(operands[1]).kind {
-                    ExpressionKind::Number(_) => "this is zero".to_owned(),
-                    _ => "this is zero here".to_owned(),
-                };
-                Diagnostic::new(Code::DivisionByZero, "division by zero").at(spans[1], label)
+                let diagnostic = Diagnostic::new(Code::DivisionByZero, "division by zero");
+                match here.unit.expression(operands[1]).kind {
+                    ExpressionKind::Number(_) => diagnostic.at(spans[1], "this is zero"),
+                    ExpressionKind::Name(name) => {
+                        let text = self.sources.text(spans[1]);
+                        let diagnostic = diagnostic.at(spans[1], format!("`{text}` is zero here"));
+                        match self.scopes.declared(here.symbol(name)) {
+                            Some(declared) => diagnostic.also(declared.site.span, "declared here"),
+                            None => diagnostic,
+                        }
+                    }
+                    _ => diagnostic.at(spans[1], "this is zero here"),
+                }
             }
             OperationError::NotFinite => {
                 Diagnostic::new(Code::NotANumber, "this calculation has no finite result")

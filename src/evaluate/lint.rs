@@ -111,6 +111,14 @@ impl Evaluator<'_> {
             )
             .at(span, "far brighter than white")
             .help(format!("write `<{red}, {green}, {blue}>/255`"));
+            let text = self.sources.text(span);
+            let diagnostic = match text.starts_with('<') && text.ends_with('>') {
+                true => {
+                    let text = format!("{text}/255");
+                    diagnostic.fix(span, text)
+                }
+                false => diagnostic,
+            };
             self.report(here, diagnostic);
         }
     }

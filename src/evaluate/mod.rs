@@ -8,12 +8,15 @@
 mod block;
 mod builtin;
 mod directive;
+mod endless;
 mod expression;
 mod lint;
 mod probe;
 mod report;
 mod scope;
 mod stream;
+#[cfg(test)]
+mod tests;
 pub mod value;
 
 use std::collections::HashMap;
@@ -66,7 +69,8 @@ impl Default for EvaluateOptions {
 /// What stops a scene that would never end, or not in this machine's memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Turns of one loop.
+    /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
+    /// macros be called.
     pub loop_turns: u64,
     /// Macro calls inside each other.
     pub macro_depth: u32,
@@ -78,10 +82,14 @@ pub struct Limits {
     pub objects: u64,
 }
 
+impl Limits {
+    pub const TOGETHER: u64 = 4;
+}
+
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            loop_turns: 5_000_000,
+            loop_turns: 1_000_000,
             macro_depth: 1_000,
             include_depth: 64,
             nesting: 1_000,
@@ -195,6 +203,8 @@ struct Evaluator<'a> {
     /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
     /// past its end runs nothing there, since that may already ask for the value.
     hold: Option<usize>,
+    /// Within [`Self::peek_on`].
+    calls_wait: bool,
     /// Files already read and parsed, by the name they were found under.
     parsed: HashMap<String, Rc<Unit>>,
     /// The names of the files that include each other now.
@@ -206,9 +216,15 @@ struct Evaluator<'a> {
     says_gamma: bool,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
+    /// An include was not found: what is missing now may have been declared there.
+    lacks_include: bool,
+    /// Where a part was last found missing: what else is missing there says no more.
+    missing_at: Option<Site>,
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// Turns of all loops so far.
+    turns: u64,
     /// How often something was reported, repetitions included.
     reports: u64,
     /// The words that opened the blocks being read, outermost first.
@@ -271,6 +287,7 @@ impl<'a> Evaluator<'a> {
             frames: Vec::new(),
             peeked: None,
             hold: None,
+            calls_wait: false,
             parsed: HashMap::new(),
             including: Vec::new(),
             default_texture: TextureId(0),
@@ -278,8 +295,11 @@ impl<'a> Evaluator<'a> {
             says_version: false,
             says_gamma: false,
             poison: None,
+            lacks_include: false,
+            missing_at: None,
             halted: false,
             macro_depth: 0,
+            turns: 0,
             reports: 0,
             openers: Vec::new(),
             probes: HashMap::new(),
@@ -293,6 +313,10 @@ impl<'a> Evaluator<'a> {
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
+        if self.halted {
+            // Nobody looks at what there is of it.
+            self.scene.roots.clear();
+        }
         // What a mistake kept from being run may be the use that is missing.
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations();

@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::geometry::{self, Geometry};
 use crate::lower;
 use crate::math::{UnitVector, Vector};
-use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId};
+use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId};
 use crate::shape::Ray;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionKind};
@@ -168,7 +168,6 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
         textures: scene.textures[..1].to_vec(),
         pigments: scene.pigments[..1].to_vec(),
         finishes: scene.finishes[..1].to_vec(),
-        transforms: scene.transforms.clone(),
         ..Scene::default()
     };
     // Children stand before their parents in the arena: in ascending order each finds its own.
@@ -188,6 +187,12 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
         copy.modifiers.retain(|modifier| {
             matches!(modifier.kind, ModifierKind::Transform(_) | ModifierKind::Inverse)
         });
+        for modifier in &mut copy.modifiers {
+            if let ModifierKind::Transform(id) = &mut modifier.kind {
+                small.transforms.push(scene.transforms[id.index()].clone());
+                *id = TransformId(small.transforms.len() as u32 - 1);
+            }
+        }
         match &mut copy.kind {
             ObjectKind::Union(children) => {
                 children.iter_mut().for_each(|child| *child = renamed[child]);

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionId, Span};
-use crate::syntax::ast::DirectiveId;
+use crate::syntax::ast::{DirectiveId, DirectiveKind};
 use crate::vocabulary::{Role, Word};
 
 use super::stream::{Token, TokenKind};
@@ -37,6 +37,20 @@ impl Evaluator<'_> {
         wanted: &str,
         found: &Value,
     ) -> Reported {
+        self.wrong_type_with(here, span, wanted, found, None)
+    }
+
+    pub(super) fn wrong_type_with(
+        &mut self,
+        here: &Here,
+        span: Span,
+        wanted: &str,
+        found: &Value,
+        help: Option<String>,
+    ) -> Reported {
+        let text = self.sources.text(span);
+        let name = self.scopes.symbol(text);
+        let subject = if name.is_some() { format!("`{text}`") } else { "this".to_owned() };
         let diagnostic = match found {
             Value::Broken => return Reported,
             Value::Poison(poison) => return self.not_supported(*poison, Some(span)),
@@ -44,13 +58,10 @@ impl Evaluator<'_> {
                 Code::WrongType,
                 format!("expected {wanted}, found {}", found.kind()),
             )
-            .at(span, format!("this is {}", found.kind())),
+            .at(span, format!("{subject} is {}", found.kind())),
         };
-        let name = self
-            .scopes
-            .symbol(self.sources.text(span))
-            .and_then(|symbol| self.scopes.declared(symbol));
-        let diagnostic = match name {
+        let diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        let diagnostic = match name.and_then(|symbol| self.scopes.declared(symbol)) {
             Some(declared) if declared.site.span != span => {
                 let site = declared.site;
                 diagnostic.also(site.span, "declared here")
@@ -81,7 +92,16 @@ impl Evaluator<'_> {
         let close = suggest::closest(&name, self.scopes.visible()).map(str::to_owned);
         let value_word = |word: Word| !matches!(word.role(), Role::Statement);
         let later = here.unit.declaration_of(symbol);
-        if let Some(later) = later.filter(|later| later.start > span.start) {
+        let was = self.scopes.declared(symbol).copied();
+        if let Some(was) = was {
+            diagnostic = diagnostic.at(span, "not declared any more");
+            diagnostic = match was.undone {
+                Some(undone) => diagnostic.also(undone.span, "forgotten here, by `#undef`"),
+                None => diagnostic
+                    .also(was.site.span, "declared here")
+                    .help("a `#local` name ends with the macro or the include that it stands in"),
+            };
+        } else if let Some(later) = later.filter(|later| later.start > span.start) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, "declared only here: move it up");
@@ -100,11 +120,18 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
-        } else if let Some(word) = word_like(&name, value_word) {
+        } else if let Some(word) = word_like(&name, value_word)
+            // A name with a capital is rather one of the author's.
+            && (!name.starts_with(char::is_uppercase) || word.eq_ignore_ascii_case(&name))
+        {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
                 .fix(span, word);
+        } else if self.lacks_include {
+            // It may stand in the include that was not found.
+            self.scopes.assign(symbol, Value::Broken);
+            return Reported;
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
             if let Some(include) = standard_include(&name)
@@ -118,6 +145,29 @@ impl Evaluator<'_> {
         // Known from now on, so that it is said once.
         self.scopes.assign(symbol, Value::Broken);
         reported
+    }
+
+    /// A macro's name without its arguments.
+    pub(super) fn macro_not_called(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
+        let name = self.scopes.name(symbol).to_owned();
+        let parameters: Vec<String> = match self.scopes.read(symbol) {
+            Some(&Value::Macro(id)) => {
+                let parameters = &self.macros[id.0 as usize].parameters;
+                parameters.iter().map(|&symbol| self.scopes.name(symbol).to_owned()).collect()
+            }
+            _ => Vec::new(),
+        };
+        let message = format!("`{name}` is a macro, and is called with parentheses");
+        let mut diagnostic =
+            Diagnostic::new(Code::WrongType, message).at(span, "expected `(` after this");
+        if let Some(declared) = self.scopes.declared(symbol) {
+            diagnostic = diagnostic.also(declared.site.span, "defined here");
+        }
+        diagnostic = diagnostic.help(format!("write `{name}({})`", parameters.join(", ")));
+        if parameters.is_empty() {
+            diagnostic = diagnostic.fix(span, format!("{name}()"));
+        }
+        self.report(here, diagnostic)
     }
 
     pub(super) fn wrong_arity(
@@ -136,14 +186,22 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    pub(super) fn loop_limit(&mut self, here: &Here, directive: DirectiveId) -> Outcome<()> {
-        let head = here.unit.ast.directive(directive).head;
-        let diagnostic = Diagnostic::new(
-            Code::LoopLimit,
-            format!("this loop does not end: it has turned {} times", self.options.limits.loop_turns),
-        )
-        .at(head, "its condition stays true")
-        .help("change in its body what its condition asks, or raise the limit with `--limit loop-turns=N`");
+    /// A loop that never ends, or not soon enough: nothing further is evaluated.
+    pub(super) fn loop_limit(
+        &mut self,
+        here: &Here,
+        directive: DirectiveId,
+        message: String,
+        label: &str,
+    ) -> Outcome<()> {
+        let directive = here.unit.ast.directive(directive);
+        let diagnostic = Diagnostic::new(Code::LoopLimit, message).at(directive.head, label);
+        let diagnostic = match directive.kind {
+            DirectiveKind::While { .. } => diagnostic
+                .help("change in its body what its condition asks, or leave it with `#break`"),
+            _ => diagnostic,
+        };
+        let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
         self.halted = true;
         Err(self.report(here, diagnostic))
     }
@@ -217,7 +275,7 @@ pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'sta
 }
 
 /// Where a well-known name is declared.
-fn standard_include(name: &str) -> Option<&'static str> {
+pub(super) fn standard_include(name: &str) -> Option<&'static str> {
     const COLORS: &[&str] = &[
         "Red",
         "Green",

@@ -29,6 +29,8 @@ pub struct Declared {
     pub used: bool,
     /// Declared in the main file itself, not in an include or a macro.
     pub global_in_main: bool,
+    /// Where `#undef` forgot it last.
+    pub undone: Option<Site>,
 }
 
 #[derive(Debug, Default)]
@@ -127,17 +129,10 @@ impl Scopes {
         }
     }
 
-    /// `#declare`: where the newest table has the name, there (so a parameter passes the value out);
+    /// `#declare`: where the name is found, be it local in a caller (so a parameter passes the value out);
     /// else in the main file's table.
     pub fn assign(&mut self, symbol: Symbol, value: Value) {
-        let depth = self.tables.len() as u32 - 1;
-        let bindings = &self.states[symbol.0 as usize].bindings;
-        let slot = match (bindings.last(), bindings.first()) {
-            (Some(&(at, slot)), _) if at == depth => Some(slot),
-            (_, Some(&(0, slot))) => Some(slot),
-            _ => None,
-        };
-        match slot {
+        match self.slot(symbol) {
             Some(slot) => self.slots[slot.0 as usize] = value,
             None => {
                 let slot = self.new_slot(value);
@@ -188,7 +183,14 @@ impl Scopes {
     /// Remembers where a name was first declared, for messages and lints.
     pub fn note_declaration(&mut self, symbol: Symbol, site: Site, global_in_main: bool) {
         let state = &mut self.states[symbol.0 as usize];
-        state.declared.get_or_insert(Declared { site, used: false, global_in_main });
+        state.declared.get_or_insert(Declared { site, used: false, global_in_main, undone: None });
+    }
+
+    /// Remembers where a name was forgotten, for messages.
+    pub fn note_undone(&mut self, symbol: Symbol, site: Site) {
+        if let Some(declared) = &mut self.states[symbol.0 as usize].declared {
+            declared.undone = Some(site);
+        }
     }
 
     pub fn declared(&self, symbol: Symbol) -> Option<&Declared> {

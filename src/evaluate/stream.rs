@@ -12,7 +12,7 @@ use crate::vocabulary::Word;
 
 use super::scope::Symbol;
 use super::value::{Components, Value};
-use super::{Evaluator, Here, Outcome, Reported, Unit};
+use super::{Evaluator, Here, Limits, Outcome, Unit, endless};
 
 /// A loop in which mistakes were reported ends after so many turns without another word.
 const FAULTY_TURNS: u64 = 1_000;
@@ -221,6 +221,15 @@ impl Evaluator<'_> {
         self.peeked.as_ref()
     }
 
+    /// As [`Self::peek`], where a value could end: past the end of a `#declare` no macro is called, since
+    /// its arguments may already ask for the value.
+    pub(super) fn peek_on(&mut self) -> Option<&Token> {
+        self.calls_wait = true;
+        self.peek();
+        self.calls_wait = false;
+        self.peeked.as_ref()
+    }
+
     /// Takes the next item; `None` at the end of the block.
     pub(super) fn next(&mut self) -> Option<Token> {
         match self.peeked.take() {
@@ -255,11 +264,17 @@ impl Evaluator<'_> {
             }
             let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
             let frame = self.frames.last_mut()?;
-            let waits = frame.at == frame.end
-                || matches!(
-                    frame.here.unit.ast.items[frame.at as usize].kind,
-                    ItemKind::Directive(_)
-                );
+            let waits = frame.at == frame.end || {
+                let ast = &frame.here.unit.ast;
+                match ast.items[frame.at as usize].kind {
+                    ItemKind::Directive(_) => true,
+                    ItemKind::Expression(id) => {
+                        self.calls_wait
+                            && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
+                    }
+                    _ => false,
+                }
+            };
             if held && waits {
                 return None;
             }
@@ -318,6 +333,18 @@ impl Evaluator<'_> {
     fn turn(&mut self) {
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
+        self.turns += 1;
+        if self.turns > limit.saturating_mul(Limits::TOGETHER) {
+            let directive = match kind {
+                FrameKind::While { directive, .. } | FrameKind::For { directive, .. } => *directive,
+                _ => return,
+            };
+            let here = here.clone();
+            let message = format!("the loops of this scene have turned {} times", self.turns - 1);
+            let _: Outcome<()> =
+                self.loop_limit(&here, directive, message, "in this one as the last");
+            return;
+        }
         match kind {
             FrameKind::While { condition, body, turns, directive, reports } => {
                 *turns += 1;
@@ -326,32 +353,54 @@ impl Evaluator<'_> {
                     (here.clone(), *condition, *body, *turns, *directive);
                 // What a mistake in it keeps from being computed may be what ends the loop.
                 let faulty = turns > FAULTY_TURNS && self.reports > reports;
-                let goes_on =
-                    !faulty && (turns <= limit || self.loop_limit(&here, directive).is_ok());
-                if goes_on && self.condition(&here, condition) == Ok(true) {
+                if !faulty && self.condition(&here, condition) == Ok(true) {
+                    if turns > limit {
+                        let message =
+                            format!("this loop does not end: it has turned {limit} times");
+                        let label = "its condition stays true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
+                        return;
+                    }
                     if let Some(frame) = self.frames.last_mut() {
                         (frame.at, frame.end) = (body.start, body.end);
                     }
-                    if body.is_empty() {
+                    let ast = &here.unit.ast;
+                    let constant = turns == 1 && endless::is_constant(ast, condition);
+                    if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
                         // Nothing can change: this would only run into the limit.
-                        let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                        let message = "this loop does not end".to_owned();
+                        let label = "its condition is always true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                     }
                 } else {
                     self.pop_frame();
                 }
             }
             FrameKind::For { symbol, value, to, step, body, turns, directive } => {
-                let now = *value;
+                // The body may have set the counter.
+                let set = match *turns {
+                    0 => None,
+                    _ => self.scopes.read(*symbol).and_then(Value::as_number),
+                };
+                let now = set.map_or(*value, |set| set + *step);
+                *value = now;
                 let reached = super::value::same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (now - *to).abs() <= 1e-9 * step.abs();
                 let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
+                let left = ((*to - now) / *step).max(0.0);
+                // Without a way out it need not turn to be known.
+                let known = *turns == 0
+                    && left >= limit as f64
+                    && !endless::may_leave(&here.unit.ast, *body);
                 *turns += 1;
-                if *turns > limit {
+                if goes_on && (*turns > limit || known) {
                     let (here, directive) = (here.clone(), *directive);
-                    let _: Result<(), Reported> = self.loop_limit(&here, directive);
+                    let all = *turns as f64 + left.floor();
+                    let message = format!("this loop has {all} turns; the limit is {limit}");
+                    let label = "it turns too often";
+                    let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                 } else if goes_on {
-                    *value = now + *step;
                     (*at, *end) = (body.start, body.end);
                     let symbol = *symbol;
                     self.scopes.assign_local(symbol, Value::Number(now));

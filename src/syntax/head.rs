@@ -146,7 +146,9 @@ impl<'a> Nest<'a> {
             Head::Declare | Head::Local => {
                 let span = self.ast.expression(first).span;
                 let told = self.target(first);
-                if equals.is_none() && told.is_some() {
+                // `#define A 1` is told by its first word.
+                let foreign = !self.slice(open).ends_with(head.word());
+                if equals.is_none() && told.is_some() && !foreign {
                     let message = format!("`#{}` gives a name a value", head.word());
                     let label = "expected `=` and a value after this";
                     self.expected_in_head(span, &message, label);

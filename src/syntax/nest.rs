@@ -322,6 +322,12 @@ impl<'a> Nest<'a> {
                     .at(span, "expected a directive's word after it; it is left out"),
             );
         }
+        if text == "“"
+            && let Some(length) = self.text[span.end as usize..].find(['”', '\n'])
+            && self.text[span.end as usize + length..].starts_with('”')
+        {
+            return self.curly_string(span, span.end as usize + length);
+        }
         let shown: String = text.chars().flat_map(char::escape_debug).collect();
         let diagnostic = Diagnostic::new(
             Code::UnexpectedCharacter,
@@ -339,6 +345,23 @@ impl<'a> Nest<'a> {
             _ => diagnostic,
         };
         self.report(diagnostic);
+    }
+
+    /// `“…”`, as word processors write it: one mistake, and taken as a string that is not known.
+    fn curly_string(&mut self, open: Span, close: usize) {
+        let close = Span::new(self.file, close, close + '”'.len_utf8());
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
+                .at(open, "expected a straight quote instead of `“`")
+                .also(close, "and instead of `”`")
+                .help("strings stand between straight quotes: `\"…\"`")
+                .fix(open, "\"")
+                .fix(close, "\""),
+        );
+        while self.tokens.get(self.at).is_some_and(|token| token.end < close.end) {
+            self.at += 1;
+        }
+        self.operand(ExpressionKind::Missing, open.to(close), false);
     }
 
     pub(super) fn end_of_file(&mut self) {

@@ -38,6 +38,10 @@ impl Evaluator<'_> {
             camera.items.push(CameraItem { kind: CameraItemKind::Transform(transform?), site });
             return Ok(());
         }
+        if let Some(word) = self.contextual_word(token, Word::Camera) {
+            let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+            return self.camera_item(&token, camera);
+        }
         let word = match token.kind {
             TokenKind::Word(word) => word,
             TokenKind::Expression(id) => match self.named(token, id) {

@@ -24,7 +24,11 @@ impl Evaluator<'_> {
                         None => Color::BLACK,
                     }
                 }
-                Some(TokenKind::Word(next)) if is_component(*next) => Color::BLACK,
+                Some(TokenKind::Word(next)) if is_component(*next) => {
+                    let first = self.peek().cloned();
+                    let first = first.as_ref().unwrap_or(token);
+                    return self.color_of_components(first, Color::BLACK);
+                }
                 _ => {
                     let given = self.given(token, "a colour")?;
                     match given.value.as_color() {
@@ -44,7 +48,7 @@ impl Evaluator<'_> {
             component if is_component(component) => {
                 let mut color = Color::BLACK;
                 self.color_component(token, component, &mut color)?;
-                color
+                return self.color_of_components(token, color);
             }
             _ => {
                 let outcome = self.word_not_built(token, word);
@@ -105,7 +109,7 @@ impl Evaluator<'_> {
 
     /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
     pub(super) fn color_components(&mut self, mut color: Color) -> Outcome<Color> {
-        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() {
+        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on() {
             let word = *word;
             if !is_component(word) {
                 break;
@@ -114,6 +118,14 @@ impl Evaluator<'_> {
                 self.color_component(&token, word, &mut color)?;
             }
         }
+        Ok(color)
+    }
+
+    /// A colour that is written by its components alone.
+    fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
+        let color = self.color_components(color)?;
+        let rgb = [color.rgb.red, color.rgb.green, color.rgb.blue];
+        self.lint_color_range(&first.here, first.span, rgb);
         Ok(color)
     }
 

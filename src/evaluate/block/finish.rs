@@ -41,6 +41,10 @@ impl Evaluator<'_> {
                     evaluator.skip_values();
                 }
             }
+            // What failed may be what is missing.
+            if failed && written.classic.is_none() {
+                return Err(Reported);
+            }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
             if failed { Err(Reported) } else { Ok(finish) }
         })?;
@@ -99,6 +103,10 @@ impl Evaluator<'_> {
         finish: &mut Finish,
         written: &mut Written,
     ) -> Outcome<()> {
+        if let Some(word) = self.contextual_word(token, Word::Finish) {
+            let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+            return self.finish_item(&token, finish, written);
+        }
         let word = match token.kind {
             TokenKind::Word(word) => word,
             TokenKind::Expression(id) => match self.named(token, id) {

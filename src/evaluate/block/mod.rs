@@ -14,10 +14,12 @@ mod place;
 mod settings;
 mod texture;
 mod transform;
+mod unexpected;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
+use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Family, Word};
 
 use super::stream::{Token, TokenKind};
@@ -160,20 +162,27 @@ impl Evaluator<'_> {
         match self.peek() {
             Some(Token { kind: TokenKind::Block(_), .. }) => {}
             next => {
-                let (span, found) = match next {
-                    Some(next) => (next.span, true),
-                    None => (token.span.after(), false),
-                };
+                let next = next.cloned();
+                let found = next.as_ref().map_or("nothing".to_owned(), |next| self.describe(next));
                 let name = word.name();
-                let found = if found { "something else" } else { "nothing" };
-                let diagnostic = Diagnostic::new(
+                let mut diagnostic = Diagnostic::new(
                     Code::MissingPart,
                     format!("expected `{{` after `{name}`, found {found}"),
                 )
-                .at(token.span, "its block is missing")
-                .help(word.sentence().to_owned());
-                let _ = span;
-                return Err(self.report(&token.here, diagnostic));
+                .at(token.span, "its block is missing");
+                diagnostic = match next {
+                    Some(Token { kind: TokenKind::Expression(id), span, here })
+                        if matches!(here.unit.expression(id).kind, ExpressionKind::Name(_)) =>
+                    {
+                        let text = format!("{{ {} }}", self.sources.text(span));
+                        diagnostic.help(format!("write `{name} {text}`")).fix(span, text)
+                    }
+                    _ => diagnostic.help(word.sentence().to_owned()),
+                };
+                let reported = self.report(&token.here, diagnostic);
+                self.skip_values();
+                self.skip_color(token);
+                return Err(reported);
             }
         }
         match self.next() {

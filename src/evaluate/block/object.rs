@@ -63,6 +63,10 @@ impl Evaluator<'_> {
                 Some(kind) => kind,
                 None => parts(evaluator, token),
             };
+            if kind.is_err() {
+                // What is left of the parts.
+                evaluator.skip_values();
+            }
             let mut modifiers = Vec::new();
             let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.is_textured(used));
             let failed = evaluator.modifiers(word, textured, &mut modifiers);
@@ -94,7 +98,10 @@ impl Evaluator<'_> {
                     .at(token.span, "a declared object")
                     .help(format!("write `object {{ {text} }}`"))
                     .fix(token.span, format!("object {{ {text} }}"));
-                    return Some(Err(self.report(&token.here, diagnostic)));
+                    let reported = self.report(&token.here, diagnostic);
+                    // The others are read for their own mistakes.
+                    let _: Outcome<ObjectKind> = self.union(&token);
+                    return Some(Err(reported));
                 }
                 Some(Ok(ObjectKind::Use(object)))
             }

@@ -37,8 +37,14 @@ impl Evaluator<'_> {
             Some(TokenKind::Expression(_) | TokenKind::Literal(_))
         );
         if !is_value {
+            let next = self.peek().cloned();
+            let place = next.as_ref().map_or(after.span, |next| next.span);
+            let place = after.here.site(place);
+            if self.missing_at.replace(place) == Some(place) {
+                return Err(Reported);
+            }
             let name = self.describe(after);
-            let diagnostic = match self.peek().cloned() {
+            let diagnostic = match next {
                 Some(found) => {
                     let found_text = self.describe(&found);
                     Diagnostic::new(

@@ -33,7 +33,9 @@ impl Evaluator<'_> {
                     evaluator.skip_values();
                 }
             }
-            if let Some((given, token)) = map {
+            if let Some((given, token)) = map
+                && !failed
+            {
                 failed |= evaluator.paint(&mut pigment, given, &token) == Err(Reported);
             }
             if failed { Err(Reported) } else { Ok(pigment) }

@@ -20,7 +20,9 @@ impl Evaluator<'_> {
             if failed { Err(Reported) } else { Ok(texture) }
         });
         // Several in a row are layers, which are not built yet.
-        while let Some(next) = self.take_word(Word::Texture) {
+        while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
+            && let Some(next) = self.next()
+        {
             let poison = Poison { word: Word::Texture, site: next.here.site(next.span) };
             self.skip_arguments(Word::Texture);
             self.set_poison(poison);

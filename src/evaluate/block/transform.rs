@@ -6,7 +6,7 @@ use crate::math::transform::Step;
 use crate::scene::TransformId;
 use crate::syntax::ast::Argument;
 use crate::syntax::ast::ExpressionKind;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -52,8 +52,10 @@ impl Evaluator<'_> {
                     )
                     .at(given.span, "expected factors other than zero");
                     if !uniform {
-                        diagnostic = diagnostic
-                            .help("a direction that is to stay as it is takes the factor 1");
+                        let [x, y, z] = factors.to_array().map(|f| if f == 0.0 { 1.0 } else { f });
+                        diagnostic = diagnostic.help(format!(
+                            "a direction that is to stay as it is takes the factor 1: `<{x}, {y}, {z}>`"
+                        ));
                     }
                     return Err(self.report(&given.here, diagnostic));
                 }
@@ -150,6 +152,17 @@ impl Evaluator<'_> {
             }
             if failed { Err(Reported) } else { Ok(evaluator.add_transform(steps)) }
         })
+    }
+
+    /// A name that is a word in the block that `block` opened, where only running it shows that it stands
+    /// there: in a macro's body, in an include.
+    pub(super) fn contextual_word(&self, token: &Token, block: Word) -> Option<Word> {
+        let TokenKind::Expression(id) = token.kind else { return None };
+        let unit = &token.here.unit;
+        let ExpressionKind::Name(name) = unit.expression(id).kind else { return None };
+        let free = self.scopes.slot(token.here.symbol(name)).is_none();
+        (free && self.options.dialect == Dialect::Scene)
+            .then(|| Word::contextual(unit.ast.name(name), block))?
     }
 
     /// The value of a token that is a lone declared name, or a call; nothing is reported.

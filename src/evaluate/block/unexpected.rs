@@ -1,0 +1,375 @@
+//! What to say of an item that its block has no use for.
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::ast::{Callee, ExpressionKind};
+use crate::vocabulary::{Dialect, Family, Word};
+
+use super::super::Evaluator;
+use super::super::report::{standard_include, word_like};
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Poison, Value};
+use super::Place;
+use super::place::home;
+
+impl Evaluator<'_> {
+    /// An item that the block does not know: says so, and passes over what belongs to it.
+    pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
+        // Behind a word that is not built, what stands here may belong to it.
+        let of_poison = self.poison.is_some();
+        match &token.kind {
+            TokenKind::Comma | TokenKind::Semicolon => {}
+            TokenKind::Word(word) if of_poison => self.skip_arguments(*word),
+            TokenKind::Literal(_) if of_poison => {}
+            TokenKind::Block(items) | TokenKind::Entry(items) if of_poison => {
+                self.inside(&token.here, *items, Self::run_items);
+            }
+            TokenKind::Word(word) => self.unexpected_word(token, *word, place),
+            TokenKind::Expression(id) => {
+                let id = *id;
+                match token.here.unit.expression(id).kind {
+                    ExpressionKind::Name(name) => {
+                        let symbol = token.here.symbol(name);
+                        match self.scopes.read(symbol).cloned() {
+                            None => self.unknown_word(token, token.span, place),
+                            Some(Value::Poison(poison)) => self.set_poison(poison),
+                            Some(Value::Broken) => {}
+                            Some(Value::Macro(_)) => {
+                                self.macro_not_called(&token.here, symbol, token.span);
+                            }
+                            Some(value) => self.unexpected_value(token, &value, place),
+                        }
+                    }
+                    ExpressionKind::Call(callee, arguments) => {
+                        let unknown = match callee {
+                            Callee::Name(name, span) => {
+                                let symbol = token.here.symbol(name);
+                                self.scopes.slot(symbol).is_none().then_some((symbol, span))
+                            }
+                            Callee::Word(..) => None,
+                        };
+                        match unknown {
+                            Some((symbol, span)) => {
+                                self.run_arguments(&token.here, arguments);
+                                let text = self.sources.text(span).to_owned();
+                                // `translate(…)`, as other languages write it, or a macro.
+                                match suggest::closest(&text, place.words(self.options.dialect)) {
+                                    Some(_) => self.unknown_word(token, span, place),
+                                    None => drop(self.undeclared(&token.here, symbol, span)),
+                                }
+                            }
+                            None => {
+                                if let Ok(value) = self.expression(&token.here, id) {
+                                    self.unexpected_value(token, &value, place);
+                                }
+                            }
+                        }
+                    }
+                    _ => {
+                        if let Ok(value) = self.expression(&token.here, id) {
+                            self.unexpected_value(token, &value, place);
+                        }
+                    }
+                }
+            }
+            TokenKind::Literal(value) => {
+                let value = value.clone();
+                self.unexpected_value(token, &value, place);
+            }
+            TokenKind::Block(items) => {
+                let diagnostic = Diagnostic::new(
+                    Code::ExtraPart,
+                    format!("a block without a word before it has no meaning {}", place.name()),
+                )
+                .at(opener(token.span), "expected a word before this");
+                self.report(&token.here, diagnostic);
+                self.inside(&token.here, *items, Self::run_items);
+            }
+            TokenKind::Entry(items) => {
+                let diagnostic = Diagnostic::new(
+                    Code::ExtraPart,
+                    format!("an entry in brackets has no meaning {}", place.name()),
+                )
+                .at(opener(token.span), "entries stand in maps: `color_map { [0 …] [1 …] }`");
+                self.report(&token.here, diagnostic);
+                self.inside(&token.here, *items, Self::run_items);
+            }
+        }
+    }
+
+    pub(in crate::evaluate) fn set_poison(&mut self, poison: Poison) {
+        self.poison.get_or_insert(poison);
+    }
+
+    fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
+        if let Value::Poison(poison) = value {
+            self.set_poison(*poison);
+            return;
+        }
+        let kind = value.kind();
+        let mut diagnostic = Diagnostic::new(
+            Code::ExtraPart,
+            format!("{kind} has no meaning here {}", place.name()),
+        )
+        .at(token.span, "expected a word of this block, or its end");
+        let text = self.sources.text(token.span).to_owned();
+        let of_object = place.families.contains(&Family::Modifier);
+        let of_texture = of_object || matches!(place.word, Some(Word::Texture | Word::Default));
+        let wrapper = match value {
+            Value::Texture(_) if of_object => Some("texture"),
+            Value::Pigment(_) if of_texture => Some("pigment"),
+            Value::Finish(_) if of_texture => Some("finish"),
+            Value::Transform(_) if place.families.contains(&Family::Transform) => Some("transform"),
+            Value::Object(_) if place.families.contains(&Family::Shape) => Some("object"),
+            Value::Camera(_) if place.word.is_none() => Some("camera"),
+            Value::Color(_) if of_texture => Some("pigment"),
+            _ => None,
+        };
+        if let Some(wrapper) = wrapper
+            && let TokenKind::Expression(_) = token.kind
+        {
+            let text = format!("{wrapper} {{ {text} }}");
+            diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+        } else if let Some(word) = place.word {
+            diagnostic = diagnostic.help(word.sentence().to_owned());
+        }
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+    }
+
+    fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
+        if place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
+            let poison = Poison { word, site: token.here.site(token.span) };
+            self.skip_arguments(word);
+            self.set_poison(poison);
+            return;
+        }
+        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let name = word.name();
+        let dialect = self.options.dialect;
+        let near =
+            suggest::foreign(name).filter(|near| place.words(dialect).any(|word| word == *near));
+        if word.family() == Family::Directive {
+            return self.directive_without_sign(token, word);
+        }
+        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+            Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
+                .at(token.span, format!("did you mean `{near}`?"))
+                .help(format!("replace it with `{near}`"))
+                .fix(token.span, near)
+        } else if has_block {
+            let is_object = matches!(word.family(), Family::Shape | Family::Csg);
+            let label = match home(word).filter(|home| *home != word) {
+                _ if is_object && place.word.is_some() => {
+                    "objects are put together in a `union`".to_owned()
+                }
+                _ if Place::SCENE.holds(word) => "it belongs to the scene itself".to_owned(),
+                Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
+                None if place.word.is_none() => "it belongs in an object".to_owned(),
+                None => "it belongs elsewhere".to_owned(),
+            };
+            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
+                .at(token.span, label)
+        } else {
+            let mut diagnostic = Diagnostic::new(
+                Code::UnknownWord,
+                format!("`{name}` has no meaning {}", place.name()),
+            )
+            .at(token.span, word.sentence().to_owned());
+            if let Some(home) = home(word).filter(|home| Some(*home) != place.word) {
+                diagnostic = diagnostic.help(format!("it belongs in `{} {{ … }}`", home.name()));
+            } else if let Some(home) = place.word {
+                diagnostic = diagnostic.help(home.sentence().to_owned());
+            }
+            diagnostic
+        };
+        let diagnostic = match self.openers.last().copied() {
+            Some(span) if has_block => diagnostic.also(span, "inside this block"),
+            _ => diagnostic,
+        };
+        self.report(&token.here, diagnostic);
+        self.skip_arguments(word);
+    }
+
+    /// A name that is no word of the language and was never declared, where a word should stand.
+    fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
+        let name = self.sources.text(span).to_owned();
+        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let dialect = self.options.dialect;
+        let words = || place.words(dialect);
+        let here = suggest::closest(&name, words())
+            .or_else(|| suggest::foreign(&name).filter(|word| words().any(|other| other == *word)));
+        let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
+        if let Some(symbol) = symbol {
+            let declared = suggest::closest(&name, self.scopes.visible()).is_some();
+            let was = self.scopes.declared(symbol).is_some() || self.lacks_include;
+            let later = token.here.unit.declaration_of(symbol).is_some();
+            let included = |file: &str| self.parsed.keys().any(|name| name.ends_with(file));
+            let standard = standard_include(&name).is_some_and(|file| !included(file));
+            // A name with a capital is rather one of the author's.
+            let word = here.is_some() && !name.starts_with(char::is_uppercase);
+            if !word && (standard || declared || later || (was && here.is_none())) {
+                self.undeclared(&token.here, symbol, span);
+                return;
+            }
+        }
+        let near = match here {
+            Some(word) => Some(word.to_owned()),
+            None => word_like(&name, |word| {
+                word.family() != Family::Directive
+                    && (dialect == Dialect::Scene || word.block().is_none())
+            })
+            .map(str::to_owned),
+        };
+        let is_foreign = near.as_deref().is_some_and(|near| suggest::foreign(&name) == Some(near))
+            && suggest::closest(&name, near.as_deref()).is_none();
+        let code = if is_foreign { Code::ForeignWord } else { Code::UnknownWord };
+        let mut diagnostic =
+            Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
+        diagnostic = match near {
+            Some(near) => diagnostic
+                .at(span, format!("did you mean `{near}`?"))
+                .help(format!("replace it with `{near}`"))
+                .fix(span, near),
+            None => match contextual(&name) {
+                Some(_) if dialect == Dialect::Pov => {
+                    diagnostic.at(span, "it is a word only in `.scene` files")
+                }
+                Some(block) => diagnostic.at(span, format!("it is a word only in `{block}`")),
+                None => diagnostic.at(span, "neither a word of the language nor a declared name"),
+            },
+        };
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+        if !place.families.contains(&Family::Color) {
+            self.skip_color(token);
+        }
+        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
+            // What is inside belongs to a word that is not known: run, but not judged.
+            let before = self.diagnostics.len();
+            if let Some(Token { kind: TokenKind::Block(items), here, .. }) = self.next() {
+                self.inside(&here, items, Self::run_items);
+            }
+            self.diagnostics.forget_after(before);
+        }
+    }
+
+    /// `if (…) … end`: said once, and what belongs to it is passed over.
+    fn directive_without_sign(&mut self, token: &Token, word: Word) {
+        let name = word.name();
+        let message = format!("`{name}` is written with a `#` before it");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `#{name}`?"))
+            .help(word.sentence().to_owned())
+            .fix(token.span, format!("#{name}"));
+        self.report(&token.here, diagnostic);
+        let ends = |word: Word| {
+            matches!(
+                word,
+                Word::If
+                    | Word::Ifdef
+                    | Word::Ifndef
+                    | Word::While
+                    | Word::For
+                    | Word::Switch
+                    | Word::Macro
+            )
+        };
+        let mut open = usize::from(ends(word));
+        let before = self.diagnostics.len();
+        if open == 0 {
+            self.skip_values();
+        }
+        while open > 0
+            && let Some(next) = self.next()
+        {
+            match next.kind {
+                TokenKind::Word(Word::End) => open -= 1,
+                TokenKind::Word(word) if ends(word) => open += 1,
+                _ => {}
+            }
+        }
+        self.diagnostics.forget_after(before);
+    }
+
+    /// Passes over a colour that was the value of a word that is not known.
+    pub(super) fn skip_color(&mut self, after: &Token) {
+        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == Family::Color
+        {
+            let before = self.diagnostics.len();
+            let _ = self.color_after(after, "a colour");
+            self.diagnostics.forget_after(before);
+        }
+    }
+
+    /// Passes over the values after a word, running what is in them.
+    pub(in crate::evaluate) fn skip_values(&mut self) {
+        loop {
+            match self.peek().map(|token| (&token.kind, &token.here)) {
+                Some((TokenKind::Comma | TokenKind::Literal(_), _)) => drop(self.next()),
+                Some((TokenKind::Expression(id), here)) => {
+                    let id = *id;
+                    // A name that is not declared is the next mistake, not a part of this one.
+                    if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
+                        let symbol = here.symbol(name);
+                        if self.scopes.slot(symbol).is_none() {
+                            return;
+                        }
+                    }
+                    if let Some(token) = self.next() {
+                        let before = self.diagnostics.len();
+                        let _ = self.expression(&token.here, id);
+                        self.diagnostics.forget_after(before);
+                    }
+                }
+                _ => return,
+            }
+        }
+    }
+
+    /// Passes over the values and the block that belong to a word, running what is in them.
+    pub(in crate::evaluate) fn skip_arguments(&mut self, word: Word) {
+        if word == Word::Function {
+            return self.skip_function();
+        }
+        loop {
+            match self.peek().map(|token| &token.kind) {
+                Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
+                Some(TokenKind::Expression(_)) => {
+                    if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() {
+                        self.run_expression(&here, id);
+                    }
+                }
+                Some(TokenKind::Entry(_)) => {
+                    if let Some(Token { kind: TokenKind::Entry(items), here, .. }) = self.next() {
+                        self.inside(&here, items, Self::run_items);
+                    }
+                }
+                Some(TokenKind::Block(_)) => {
+                    if let Some(Token { kind: TokenKind::Block(items), here, .. }) = self.next() {
+                        self.inside(&here, items, Self::run_items);
+                    }
+                    return;
+                }
+                Some(TokenKind::Word(next))
+                    if next.family() == Family::Color && word.family() != Family::Color =>
+                {
+                    drop(self.next());
+                }
+                Some(TokenKind::Word(_) | TokenKind::Semicolon) | None => return,
+            }
+        }
+    }
+}
+
+/// The first character of a bracketed span.
+fn opener(span: Span) -> Span {
+    Span { end: span.start + 1, ..span }
+}
+
+/// The block in which a name is a word.
+fn contextual(name: &str) -> Option<&'static str> {
+    let word = Word::ALL.iter().find(|word| word.block().is_some() && word.name() == name)?;
+    word.block().map(Word::name)
+}

@@ -1,0 +1,86 @@
+//! Loops that are known not to end before they turn.
+//!
+//! **In:** a loop's body and condition. **Out:** whether anything in them could end it.
+//! **Invariant:** says so only when it is certain: a condition without a name or a call never changes,
+//! and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
+
+use crate::syntax::ast::{
+    Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, ItemKind, Items,
+};
+use crate::vocabulary::Word;
+
+/// Whether an expression has the same value whenever it is asked.
+pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
+    let mut open = vec![id];
+    while let Some(id) = open.pop() {
+        match ast.expression(id).kind {
+            ExpressionKind::Number(_) => {}
+            ExpressionKind::Word(word) => {
+                let constants =
+                    [Word::True, Word::Yes, Word::On, Word::False, Word::No, Word::Off, Word::Pi];
+                if !constants.contains(&word) {
+                    return false;
+                }
+            }
+            ExpressionKind::Unary(_, a) | ExpressionKind::Group(a) => open.push(a),
+            ExpressionKind::Binary(_, a, b) => open.extend([a, b]),
+            ExpressionKind::Conditional(a, b, c) => open.extend([a, b, c]),
+            ExpressionKind::String
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Vector(_)
+            | ExpressionKind::Call(..)
+            | ExpressionKind::Index(..)
+            | ExpressionKind::Component(..)
+            | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Missing => return false,
+        }
+    }
+    true
+}
+
+/// Whether something in a loop's body may end the loop.
+pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
+    let mut open = vec![body];
+    while let Some(items) = open.pop() {
+        for item in ast.items(items) {
+            match item.kind {
+                ItemKind::Block(inner) | ItemKind::Entry(inner) => open.push(inner),
+                ItemKind::Expression(id) => {
+                    if let ExpressionKind::Call(Callee::Name(..), _) = ast.expression(id).kind {
+                        return true;
+                    }
+                }
+                ItemKind::Directive(id) => match &ast.directive(id).kind {
+                    DirectiveKind::Break
+                    | DirectiveKind::Error(_)
+                    | DirectiveKind::Include(_)
+                    | DirectiveKind::Malformed => return true,
+                    DirectiveKind::If { then, otherwise, .. } => open.extend([*then, *otherwise]),
+                    DirectiveKind::While { body, .. } | DirectiveKind::For { body, .. } => {
+                        open.push(*body);
+                    }
+                    DirectiveKind::Switch { cases, .. } => {
+                        open.extend(cases.iter().map(|case| case.body));
+                    }
+                    DirectiveKind::Default(inner) => open.push(*inner),
+                    DirectiveKind::Declare { .. }
+                    | DirectiveKind::Undef(_)
+                    | DirectiveKind::Macro { .. }
+                    | DirectiveKind::Version(_)
+                    | DirectiveKind::Debug(_)
+                    | DirectiveKind::Warning(_)
+                    | DirectiveKind::Fopen { .. }
+                    | DirectiveKind::Fclose(_)
+                    | DirectiveKind::Read { .. }
+                    | DirectiveKind::Write { .. }
+                    | DirectiveKind::Ignored(_) => {}
+                },
+                ItemKind::Word(_)
+                | ItemKind::Comma
+                | ItemKind::Semicolon
+                | ItemKind::Numbers { .. } => {}
+            }
+        }
+    }
+    false
+}

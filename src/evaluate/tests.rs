@@ -1,0 +1,214 @@
+//! What a scene's own `#debug` says: every answer here is what POV-Ray 3.7 printed for the same text.
+
+use super::*;
+use crate::road::{Options, Road};
+use crate::source::{FileError, Found};
+
+/// The one file there is to include.
+struct Shadowing;
+
+impl Files for Shadowing {
+    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
+        if name != "shadow.inc" {
+            return Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() });
+        }
+        let text = "#declare IncG = 11; #local IncL = 12; #local Shad = 1; #declare Shad = 2;";
+        Ok(Found { name: name.to_owned(), bytes: text.as_bytes().to_vec() })
+    }
+}
+
+/// What the scene prints: `P` prints a number, `V` a vector, `C` a colour's five components.
+fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
+    let head = r#"
+        #macro P(A) #debug concat(str(A, 0, 3), " ") #end
+        #macro V(A) #debug concat("<", vstr(3, A, ",", 0, 2), "> ") #end
+        #macro C(A) #local Q = A; #debug concat("(", str(Q.red, 0, 2), ",", str(Q.green, 0, 2), ",",
+            str(Q.blue, 0, 2), ",", str(Q.filter, 0, 2), ",", str(Q.transmit, 0, 2), ") ") #end
+    "#;
+    let mut options = Options::new(Dialect::Pov);
+    options.declares = declares.iter().map(|(name, n)| (name.to_string(), *n)).collect();
+    let mut road = Road::new(&Shadowing, options);
+    let file = road.read("a.pov", format!("{head}{text}").into_bytes());
+    let ast = road.parse(file);
+    road.evaluate(&ast);
+    let told =
+        road.diagnostics.iter().filter(|one| one.severity != crate::diagnostic::Severity::Warning);
+    told.map(|one| one.message.as_str()).collect::<String>().trim_end().to_owned()
+}
+
+fn printed(text: &str) -> String {
+    printed_with(text, &[])
+}
+
+/// One test a row: its name is the fact, then the scene, then what it prints.
+macro_rules! facts {
+    ($($name:ident: $scene:literal => $answer:literal;)*) => {
+        $(#[test]
+        fn $name() {
+            assert_eq!(printed($scene), $answer);
+        })*
+    };
+}
+
+facts! {
+    a_lone_name_is_passed_by_reference:
+        "#macro Inc(A) #declare A = A + 1; #end #declare N = 1; Inc(N) P(N)" => "2.000";
+    a_local_that_has_a_parameters_name_is_the_parameter:
+        "#macro Inc(A) #local A = A + 1; #end #declare N = 1; Inc(N) P(N)" => "2.000";
+    a_name_in_parentheses_is_passed_by_value:
+        "#macro Inc(A) #declare A = A + 1; #end #declare N = 1; Inc((N)) P(N)" => "1.000";
+    two_parameters_may_be_one_variable:
+        "#macro Two(A, B) #declare A = 5; #declare B = A + 1; #end #declare N = 1; Two(N, N) P(N)" => "6.000";
+    declare_sets_the_local_of_a_caller:
+        "#macro Inner() #declare L = 7; #end #macro Outer() #local L = 1; Inner() P(L) #end
+         Outer() P(defined(L))" => "7.000 0.000";
+    declare_sets_the_local_of_a_caller_and_not_the_global_of_that_name:
+        "#declare L = 0; #macro Inner() #declare L = 7; #end
+         #macro Outer() #local L = 1; Inner() P(L) #end Outer() P(L)" => "7.000 0.000";
+    declare_reaches_the_variable_behind_a_callers_parameter:
+        "#macro Inner() #declare A = 8; #end #macro Outer(A) Inner() P(A) #end
+         #declare N = 1; Outer(N) P(N) P(defined(A))" => "8.000 8.000 0.000";
+    a_local_of_the_main_file_is_seen_in_macros:
+        "#local G = 3; #macro Read() P(G) #end Read()" => "3.000";
+    a_macro_sees_the_locals_of_its_caller:
+        "#macro See() P(Hid) #end #macro Call() #local Hid = 4; See() #end Call() P(defined(Hid))"
+        => "4.000 0.000";
+    a_local_hides_the_global_and_takes_its_declares:
+        "#declare S = 1; #macro M() #local S = 2; #declare S = 3; P(S) #end M() P(S)" => "3.000 1.000";
+    a_local_of_an_include_ends_with_it:
+        "#declare Shad = 9; #include \"shadow.inc\" P(IncG) P(defined(IncL)) P(Shad)"
+        => "11.000 0.000 9.000";
+    a_condition_may_choose_a_right_hand_side:
+        "#declare A = #if (1) 10; #else 20; #end P(A)" => "10.000";
+    a_case_falls_through_until_a_break:
+        "#macro S(A) #switch (A) #case (1) P(1) #case (2) P(2) #break #range (3, 5) P(3) #break #else P(9) #end #end
+         S(1) S(2) S(4) S(7)" => "1.000 2.000 2.000 3.000 9.000";
+    a_break_in_a_loop_in_a_switch_leaves_the_loop:
+        "#switch (2) #case (1) P(1) #break #case (2) #for (K, 1, 5) #if (K = 2) #break #end P(K) #end P(7) #break #else P(0) #end"
+        => "1.000 7.000";
+    a_loop_counts_down: "#for (I, 3, 1, -1) P(I) #end" => "3.000 2.000 1.000";
+    a_loop_counts_down_in_fractions:
+        "#for (I, 0.5, -0.5, -0.25) P(I) #end P(I)" => "0.500 0.250 0.000 -0.250 -0.500 -0.750";
+    a_loop_from_0_to_1_by_tenths_has_eleven_turns:
+        "#declare N = 0; #for (I, 0, 1, 0.1) #declare N = N + 1; #end P(N) P(I)" => "11.000 1.100";
+    a_loop_whose_end_lies_before_its_start_does_not_turn:
+        "#for (I, 5, 1) P(I) #end P(I)" => "5.000";
+    a_body_may_set_the_counter:
+        "#for (I, 1, 3) P(I) #declare I = I + 1; #end" => "1.000 3.000";
+    a_counter_ends_with_its_macro:
+        "#macro M() #for (Q, 1, 2) #end P(Q) #end M() P(defined(Q))" => "3.000 0.000";
+    loops_nest: "#for (I, 1, 2) #for (J, 1, 2) P(I*10 + J) #end #end" => "11.000 12.000 21.000 22.000";
+    a_break_leaves_the_innermost_loop:
+        "#declare N = 0; #declare I = 0;
+         #while (1) #declare I = I + 1; #declare J = 0;
+           #while (1) #declare J = J + 1; #declare N = N + 1; #if (J >= I) #break #end #end
+           #if (I = 4) #break #end #end P(N)" => "10.000";
+    an_undone_name_is_not_defined: "#declare D = 1; #undef D P(defined(D))" => "0.000";
+    undef_of_a_local_uncovers_the_global:
+        "#declare Q = 5; #macro M() #local Q = 1; #undef Q P(defined(Q)) #end M() P(Q)" => "1.000 5.000";
+    a_parameter_is_defined:
+        "#macro M(A) #ifdef (A) P(1) #else P(0) #end #end M(3)" => "1.000";
+    a_macro_may_define_a_macro:
+        "#macro Nest(A) #macro In(B) P(A + B) #end In(A*2) #end Nest(3)" => "9.000";
+    a_macro_leaves_a_value: "#macro F(A, B) (A * B) #end P(1 + F(2, 3))" => "7.000";
+    a_macros_value_is_whole: "#macro Sq(A) A*A #end P(2*Sq(3))" => "18.000";
+    a_macro_leaves_a_vector: "#macro F(A) <A, A + 1, A + 2> #end V(F(1) * 2)" => "<2.00,4.00,6.00>";
+    a_macro_behind_a_declared_object_sees_it:
+        "#declare B = sphere { 0, 1 } V(max_extent(B))" => "<1.00,1.00,1.00>";
+    the_arm_not_taken_may_divide_by_zero:
+        "#declare N = 0; P((N = 0 ? 5 : 1/N)) P((1 ? 2 : 0 ? 3 : 4))" => "5.000 2.000";
+    operators_bind_as_usual:
+        "P(2 + 3*4 - 6/2) P(-2*-3) P(!0) P((1 & 0)) P((1 | 0)) P((1 | 0 & 0)) P((0.1 + 0.2 = 0.3))"
+        => "11.000 6.000 1.000 0.000 1.000 0.000 1.000";
+    a_number_fills_what_the_colour_word_names:
+        "#declare A = rgb 1; #declare B = color 1; #declare D = rgbf 1; C(A) C(B) C(D)"
+        => "(1.00,1.00,1.00,0.00,0.00) (1.00,1.00,1.00,1.00,1.00) (1.00,1.00,1.00,1.00,0.00)";
+    a_colours_components_are_set_by_name:
+        "#declare R = rgb <1,0,0>; #declare A = color R filter .5; #declare B = color red 1 green .5; C(A) C(B)"
+        => "(1.00,0.00,0.00,0.50,0.00) (1.00,0.50,0.00,0.00,0.00)";
+    the_fourth_number_is_filter_or_transmit:
+        "#declare A = rgbf <1,.5,.25,.1>; #declare B = rgbt <1,.5,.25,.1>; #declare D = rgbft <1,2,3,4,5>; C(A) C(B) C(D)"
+        => "(1.00,0.50,0.25,0.10,0.00) (1.00,0.50,0.25,0.00,0.10) (1.00,2.00,3.00,4.00,5.00)";
+    colours_are_calculated_with:
+        "#declare R = rgb <1,0,0>; #declare A = <.1,.2,.3> + R; #declare B = rgb R*2; #declare D = rgb <1,2,3>*.5; C(A) C(B) C(D)"
+        => "(1.10,0.20,0.30,0.00,0.00) (2.00,0.00,0.00,0.00,0.00) (0.50,1.00,1.50,0.00,0.00)";
+    the_gray_of_a_colour: "#declare A = rgbf <1,.5,.25,.1>; P(A.gray)" => "0.620";
+    a_string_keeps_its_escapes: "P(strlen(\"a\\tb\\\\c\"))" => "5.000";
+    what_is_inside_a_scaled_sphere:
+        "#declare B = sphere { <1,2,3>, 1 scale 2 } P(inside(B, <2,4,6>)) P(inside(B, 0)) V(max_extent(B))"
+        => "1.000 0.000 <4.00,6.00,8.00>";
+    a_trace_gives_point_and_normal:
+        "#declare B = sphere { <1,2,3>, 1 scale 2 } #declare N = x; V(trace(B, <2,4,-10>, z, N)) V(N)"
+        => "<2.00,4.00,4.00> <0.00,0.00,-1.00>";
+    a_trace_that_misses_gives_zero:
+        "#declare B = sphere { 0, 1 } #declare N = x; V(trace(B, <20,4,-10>, z, N)) V(N)"
+        => "<0.00,0.00,0.00> <0.00,0.00,0.00>";
+    inverse_turns_a_transform_round:
+        "#declare T = transform { scale 4 translate x inverse } #declare B = sphere { 0, 1 transform { T } }
+         V(max_extent(B) + 1)" => "<1.00,1.25,1.25>";
+    a_transform_goes_by_name:
+        "#declare T = transform { scale 2 translate x } #declare A = sphere { 0, 1 transform T }
+         #declare B = sphere { 0, 1 transform { T inverse } } #declare D = sphere { 0, 1 transform { translate x T } }
+         V(max_extent(A)) V(max_extent(B)) V(max_extent(D))"
+        => "<3.00,2.00,2.00> <0.00,0.50,0.50> <5.00,2.00,2.00>";
+    a_matrix_moves_and_stretches:
+        "#declare B = box { 0, 1 matrix <1,0,0, 0,2,0, 0,0,1, 5,6,7> } V(max_extent(B))"
+        => "<6.00,8.00,8.00>";
+    objects_are_made_of_declared_ones:
+        "#declare B = sphere { 0, 1 } #declare U = union { sphere { 0, 1 } box { 0, 3 } }
+         #declare A = object { U translate 2*x } #declare D = sphere { B translate x }
+         V(max_extent(A)) V(max_extent(D))" => "<5.00,3.00,3.00> <2.00,1.00,1.00>";
+    a_macro_leaves_modifiers:
+        "#macro M() translate 3*x scale 2 #end #declare B = sphere { 0, 1 M() } V(max_extent(B))"
+        => "<8.00,2.00,2.00>";
+    a_macro_leaves_half_of_a_list:
+        "#macro M() <1, 2, 3>, #end #declare B = sphere { M() 2 } V(max_extent(B))" => "<3.00,4.00,5.00>";
+    a_block_is_an_argument:
+        "#macro M(O) object { O translate y } #end #declare B = M(sphere { 0, 1 }) V(max_extent(B))"
+        => "<1.00,2.00,1.00>";
+    loops_and_conditions_stand_inside_blocks:
+        "#declare U = union { sphere { 0, 1 } #for (I, 1, 3) sphere { I*x, 1 } #end #if (0) box { -9, 9 } #end }
+         #declare S = sphere { #if (1) <0, 0, 0>, #else <9, 9, 9>, #end #if (0) 5 #else 1 #end }
+         V(max_extent(U)) V(max_extent(S))" => "<4.00,1.00,1.00> <1.00,1.00,1.00>";
+    version_is_what_was_said: "#version 3.6; P(version)" => "3.600";
+}
+
+#[test]
+fn a_name_from_the_command_line_is_declared() {
+    assert_eq!(printed_with("P(Size) P(defined(Size))", &[("Size", 2.5)]), "2.500 1.000");
+}
+
+/// What the finish of the scene's one object is.
+fn finish(text: &str) -> Finish {
+    let mut road = Road::new(&Shadowing, Options::new(Dialect::Scene));
+    let file = road.read("a.scene", text.as_bytes().to_vec());
+    let ast = road.parse(file);
+    let scene = road.evaluate(&ast);
+    assert!(road.diagnostics.is_empty(), "{:?}", road.diagnostics.iter().collect::<Vec<_>>());
+    scene.finishes.last().cloned().unwrap_or_else(|| panic!("no finish"))
+}
+
+#[test]
+fn the_seeds_words_are_known_in_macros_that_a_finish_calls() {
+    let called =
+        "#macro F(A) kd A ks 1 - A phong_exponent 10*A #end sphere { 0, 1 finish { F(.5) } }";
+    let written = "sphere { 0, 1 finish { kd .5 ks .5 phong_exponent 5 } }";
+    assert_eq!(finish(called), finish(written));
+}
+
+#[test]
+fn a_name_that_is_a_seeds_word_elsewhere_is_free() {
+    let free = "#declare kd = .5; #declare F = finish { kd kd ks kd phong_exponent 5 } sphere { 0, kd finish { F } }";
+    let written = "sphere { 0, .5 finish { kd .5 ks .5 phong_exponent 5 } }";
+    assert_eq!(finish(free), finish(written));
+}
+
+#[test]
+fn a_long_sum_needs_no_deep_stack() {
+    let sum = vec!["1"; 100_000].join(" + ");
+    assert_eq!(printed(&format!("P({sum})")), "100000.000");
+    let chain = "#if (0) #else".repeat(400) + " P(7) " + &"#end ".repeat(400);
+    assert_eq!(printed(&chain), "7.000");
+    let chain = format!("#if (0) {} #else P(8) #end", "#elseif (0) ".repeat(5_000));
+    assert_eq!(printed(&chain), "8.000");
+}

@@ -1,0 +1,463 @@
+//! What is said of a broken scene, word for word, and of a right one: nothing.
+//!
+//! `diagnostics/*.scene` hold broken scenes by topic, in a form that reads as a list:
+//!
+//! ```text
+//! === a misspelt word
+//! sphere { 0, 1 pigmnt { rgb 1 } }
+//! --- 1:15 unknown-word: `pigmnt` | did you mean `pigment` | fix pigment
+//! ```
+//!
+//! A case is a title, the scene, and every message that is expected, in the order of the places; any other
+//! message is a failure. A message is the line and the column it points at (`file:line:column` in an
+//! include, `-` for the scene as a whole), its code, and words that its sentences hold. `fix TEXT`
+//! is the text of a fix (a message without has none), `also 2:7` a place it points at too,
+//! `via 4:1` a step of its trace (a message without has none). `+++ a.inc` starts a file the scene may
+//! include. In a title, `(pov)` reads the scene as a `.pov` file, and `(escaped)` lets it
+//! write bytes as `\xE9`, `\t`, `\r`.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lucarne::diagnostic::Diagnostic;
+use lucarne::road::{Options, Road};
+use lucarne::scene::Dialect;
+use lucarne::source::{FileError, FileId, Files, Found, Sources, Span};
+
+/// The files of one case.
+#[derive(Default)]
+struct Includes(BTreeMap<String, Vec<u8>>);
+
+impl Files for Includes {
+    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
+        if name.starts_with("../") {
+            return Err(FileError::Forbidden);
+        }
+        match self.0.get(name) {
+            Some(bytes) => Ok(Found { name: name.to_owned(), bytes: bytes.clone() }),
+            None => {
+                let names = self.0.keys().map(String::as_str);
+                let similar = lucarne::diagnostic::suggest::closest(name, names);
+                let similar = similar.map(str::to_owned).into_iter().collect();
+                Err(FileError::NotFound { searched: Vec::new(), similar })
+            }
+        }
+    }
+}
+
+/// Runs a scene as `lucarne check` does, with lints.
+fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, Sources) {
+    let dialect = lucarne::road::dialect(name);
+    let mut options = Options::new(dialect);
+    options.lints = true;
+    let mut road = Road::new(files, options);
+    road.compile(name, bytes);
+    (road.diagnostics.iter().cloned().collect(), road.sources)
+}
+
+#[derive(Debug, Default)]
+struct Case {
+    file: String,
+    line: usize,
+    title: String,
+    scene: String,
+    files: Vec<(String, String)>,
+    expected: Vec<Expected>,
+}
+
+#[derive(Debug, Default, Clone, PartialEq)]
+struct Expected {
+    place: String,
+    code: String,
+    words: Vec<String>,
+    fixes: Vec<String>,
+    also: Vec<String>,
+    via: Vec<String>,
+}
+
+impl Expected {
+    fn parse(line: &str) -> Self {
+        let (head, rest) = line.split_once(':').map_or((line, ""), |_| {
+            line.find(": ").map_or((line, ""), |at| (&line[..at], &line[at + 2..]))
+        });
+        let (place, code) = head.trim().split_once(' ').expect("a place and a code");
+        let mut expected = Self {
+            place: place.to_owned(),
+            code: code.trim_end_matches(':').to_owned(),
+            ..Self::default()
+        };
+        for part in rest.split('|').map(str::trim).filter(|part| !part.is_empty()) {
+            let list = if let Some(text) = part.strip_prefix("fix") {
+                expected.fixes.push(text.trim().to_owned());
+                continue;
+            } else if let Some(place) = part.strip_prefix("also ") {
+                (&mut expected.also, place)
+            } else if let Some(place) = part.strip_prefix("via ") {
+                (&mut expected.via, place)
+            } else {
+                (&mut expected.words, part)
+            };
+            list.0.push(list.1.to_owned());
+        }
+        expected
+    }
+}
+
+fn cases(path: &Path) -> Vec<Case> {
+    let text = fs::read_to_string(path).expect("readable");
+    let file = path.file_name().expect("a name").to_string_lossy().into_owned();
+    let mut cases: Vec<Case> = Vec::new();
+    for (at, line) in text.lines().enumerate() {
+        if let Some(title) = line.strip_prefix("=== ") {
+            let (file, title) = (file.clone(), title.to_owned());
+            cases.push(Case { file, line: at + 1, title, ..Case::default() });
+            continue;
+        }
+        let Some(case) = cases.last_mut() else { continue };
+        if let Some(expected) = line.strip_prefix("--- ") {
+            case.expected.push(Expected::parse(expected));
+        } else if let Some(name) = line.strip_prefix("+++ ") {
+            case.files.push((name.to_owned(), String::new()));
+        } else {
+            let text = case.files.last_mut().map_or(&mut case.scene, |(_, text)| text);
+            text.push_str(line);
+            text.push('\n');
+        }
+    }
+    cases
+}
+
+/// `\xE9` and its kin as bytes; the last line break goes, so that a file may end anywhere.
+fn unescaped(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut rest = text.strip_suffix('\n').unwrap_or(text).as_bytes();
+    while let Some((&first, after)) = rest.split_first() {
+        rest = after;
+        let escape = (first == b'\\').then(|| after.first().copied()).flatten();
+        let (byte, used) = match escape {
+            Some(b't') => (b'\t', 1),
+            Some(b'r') => (b'\r', 1),
+            Some(b'x') => {
+                let digits = std::str::from_utf8(&after[1..3]).expect("two digits");
+                (u8::from_str_radix(digits, 16).expect("hexadecimal"), 3)
+            }
+            _ => (first, 0),
+        };
+        bytes.push(byte);
+        rest = &rest[used..];
+    }
+    bytes
+}
+
+fn place(span: Span, sources: &Sources) -> String {
+    let source = sources.get(span.file);
+    let position = source.position(span.start as usize);
+    let (line, column) = (position.line, position.column);
+    match span.file {
+        FileId(0) => format!("{line}:{column}"),
+        _ => format!("{}:{line}:{column}", source.name),
+    }
+}
+
+/// What was said, in the form of the cases.
+fn said(diagnostic: &Diagnostic, sources: &Sources) -> Expected {
+    let primary = diagnostic.primary().map(|label| label.span);
+    let mut words = vec![diagnostic.message.clone()];
+    words.extend(diagnostic.labels.iter().map(|label| label.text.clone()));
+    words.extend(diagnostic.help.iter().cloned());
+    Expected {
+        place: primary.map_or("-".to_owned(), |span| place(span, sources)),
+        code: diagnostic.code.name().to_owned(),
+        words,
+        fixes: diagnostic.fixes.iter().map(|fix| fix.text.trim().to_owned()).collect(),
+        also: diagnostic
+            .labels
+            .iter()
+            .filter(|label| !label.primary)
+            .map(|label| place(label.span, sources))
+            .collect(),
+        via: diagnostic.trace.iter().map(|step| place(step.span, sources)).collect(),
+    }
+}
+
+/// What differs between what was expected and what was said.
+fn differences(wanted: &Expected, said: &Expected) -> Vec<String> {
+    let mut found = Vec::new();
+    if wanted.place != said.place || wanted.code != said.code {
+        found.push(format!("expected {} {}", wanted.place, wanted.code));
+    }
+    let all = said.words.join("\n");
+    for words in wanted.words.iter().filter(|words| !all.contains(*words)) {
+        found.push(format!("says nothing of {words}"));
+    }
+    if wanted.fixes != said.fixes {
+        found.push(format!("expected the fixes {:?}", wanted.fixes));
+    }
+    for place in wanted.also.iter().filter(|place| !said.also.contains(place)) {
+        found.push(format!("does not point at {place}"));
+    }
+    if wanted.via != said.via {
+        found.push(format!("expected the trace {:?}", wanted.via));
+    }
+    found
+}
+
+fn shown(said: &Expected) -> String {
+    let Expected { place, code, words, fixes, also, via } = said;
+    let mut text = format!("{place} {code}: {}", words.join(" | "));
+    fixes.iter().for_each(|fix| text += &format!(" | fix {fix}"));
+    also.iter().for_each(|place| text += &format!(" | also {place}"));
+    via.iter().for_each(|place| text += &format!(" | via {place}"));
+    text
+}
+
+/// Why a case fails; empty when it does not.
+fn failures(case: &Case) -> String {
+    let bytes = |text: &str| match case.title.contains("(escaped)") {
+        true => unescaped(text),
+        false => text.as_bytes().to_vec(),
+    };
+    let mut files = Includes::default();
+    for (name, text) in &case.files {
+        files.0.insert(name.clone(), bytes(text));
+    }
+    let name = if case.title.contains("(pov)") { "main.pov" } else { "main.scene" };
+    let (found, sources) = messages(name, bytes(&case.scene), &files);
+    let mut found: Vec<Expected> = found.iter().map(|one| said(one, &sources)).collect();
+    let mut wrong = String::new();
+    for wanted in &case.expected {
+        // The one that fits; else the one at the same place, or of the same code, is shown beside it.
+        let by = |test: &dyn Fn(&Expected) -> bool| found.iter().position(test);
+        let near = by(&|one| differences(wanted, one).is_empty())
+            .or_else(|| by(&|one| one.place == wanted.place && one.code == wanted.code))
+            .or_else(|| by(&|one| one.place == wanted.place))
+            .or_else(|| by(&|one| one.code == wanted.code));
+        match near {
+            Some(at) => {
+                let one = found.remove(at);
+                let differences = differences(wanted, &one);
+                if !differences.is_empty() {
+                    wrong += &format!("  ! {}\n    {}\n", differences.join("; "), shown(&one));
+                }
+            }
+            None => wrong += &format!("  ! not said: {} {}\n", wanted.place, wanted.code),
+        }
+    }
+    for one in &found {
+        wrong += &format!("  + {}\n", shown(one));
+    }
+    if wrong.is_empty() {
+        wrong
+    } else {
+        format!("{}:{} {}\n{wrong}", case.file, case.line, case.title)
+    }
+}
+
+fn corpus() -> Vec<Case> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    paths.sort();
+    paths.iter().flat_map(|path| cases(path)).collect()
+}
+
+#[test]
+fn every_broken_scene_is_told_what_is_wrong_with_it_and_nothing_else() {
+    let corpus = corpus();
+    assert!(corpus.len() >= 80, "{} cases", corpus.len());
+    let failures: Vec<String> =
+        corpus.iter().map(failures).filter(|failure| !failure.is_empty()).collect();
+    assert!(
+        failures.is_empty(),
+        "{} of {} cases\n{}",
+        failures.len(),
+        corpus.len(),
+        failures.concat()
+    );
+}
+
+fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            scenes_below(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "scene") {
+            found.push(path);
+        }
+    }
+}
+
+/// The files beside a scene.
+struct Beside(PathBuf);
+
+impl Files for Beside {
+    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
+        match fs::read(self.0.join(name)) {
+            Ok(bytes) => Ok(Found { name: name.to_owned(), bytes }),
+            Err(error) => Err(FileError::Unreadable(error.to_string())),
+        }
+    }
+}
+
+#[test]
+fn a_right_scene_gets_no_message() {
+    let mut paths = Vec::new();
+    scenes_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"), &mut paths);
+    paths.sort();
+    assert!(paths.len() > 50);
+    for path in paths {
+        let files = Beside(path.parent().expect("a folder").to_owned());
+        let mut road = Road::new(&files, Options::new(Dialect::Scene));
+        road.compile("a.scene", fs::read(&path).expect("readable"));
+        // What the author prints is the author's.
+        let found: Vec<String> = road
+            .diagnostics
+            .iter()
+            .filter(|one| !one.code.name().starts_with("author"))
+            .map(|one| shown(&said(one, &road.sources)))
+            .collect();
+        assert!(found.is_empty(), "{}: {found:#?}", path.display());
+    }
+}
+
+/// Scenes to break: much of the language in few lines.
+const WHOLE: [&str; 3] = [
+    "#declare A = 2; #macro Ball(P, R) sphere { P, R texture { Paint } } #end
+     #declare Paint = texture { pigment { checker rgb <1, 0, 0>, color rgb 1 } finish { phong .5 } }
+     camera { location <0, 1, 5> look_at 0 angle 40 } light_source { <4, 8, 6>, rgb 1 }
+     #for (I, 1, A) Ball(<I, 0, 0>, .5 + I/4) #end
+     union { box { -1, 1 rotate <0, 45, 0> } object { Ball(0, 1) scale <-1, 1, 1> } no_shadow }",
+    "#local T = transform { rotate 30*y translate <1, 2, 3> inverse } #switch (3) #case (1) #break
+     #range (2, 4) plane { y, -1 pigment { gradient x color_map { [0 rgb 0] [1 rgb <1, .5, 0>] } } }
+     #else #error \"no\" #end #while (0) #end
+     sphere { 0, (1 > 0 ? 1 : 2) transform { T } finish { kd .5 ks .5 phong_exponent 5 } }",
+    "global_settings { ambient_light rgb 1 max_trace_level 5 } background { color rgb <.1, .2, .3> }
+     #ifndef (X) #declare X = concat(\"a\", str(3, 0, 2)); #end #debug X
+     sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb <0, 0, 1>] } } }
+     #declare V = <1, 2, 3> * 2 - y; sphere { V, vlength(V)/4 matrix <1,0,0,0,1,0,0,0,1,0,0,0> }",
+];
+
+/// Words, numbers and signs, with the blanks between them.
+fn tokens(text: &str) -> Vec<String> {
+    let mut tokens: Vec<String> = Vec::new();
+    for c in text.chars() {
+        let joins = |last: &String| {
+            let before = last.chars().next_back();
+            let word = |c: char| c.is_alphanumeric() || c == '_';
+            before.is_some_and(|before| word(before) == word(c) && (word(c) || c.is_whitespace()))
+        };
+        match tokens.last_mut().filter(|last| joins(last)) {
+            Some(last) => last.push(c),
+            None => tokens.push(c.to_string()),
+        }
+    }
+    tokens
+}
+
+/// Compiles a text and looks at every place that is spoken of.
+fn survives(text: &str) {
+    let (found, sources) = messages("a.scene", text.as_bytes().to_vec(), &Includes::default());
+    for one in &found {
+        let spans = one.labels.iter().map(|label| label.span);
+        let spans = spans.chain(one.fixes.iter().map(|fix| fix.span));
+        for span in spans.chain(one.trace.iter().map(|step| step.span)) {
+            let whole = &sources.get(span.file).text;
+            assert!(span.start <= span.end, "{one:?} in {text}");
+            assert!(whole.get(span.range()).is_some(), "{one:?} in {text}");
+        }
+    }
+}
+
+#[test]
+fn every_beginning_of_a_scene_is_read_without_a_panic() {
+    for text in WHOLE {
+        (0..text.len())
+            .filter(|&end| text.is_char_boundary(end))
+            .for_each(|end| survives(&text[..end]));
+    }
+}
+
+#[test]
+fn scenes_with_parts_left_out_doubled_or_swapped_are_read_without_a_panic() {
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % below
+    };
+    for text in WHOLE {
+        for _ in 0..400 {
+            let mut tokens = tokens(text);
+            for _ in 0..=random(3) {
+                let (one, other) = (random(tokens.len()), random(tokens.len()));
+                match random(3) {
+                    0 => drop(tokens.remove(one)),
+                    1 => tokens.insert(other, tokens[one].clone()),
+                    _ => tokens.swap(one, other),
+                }
+            }
+            survives(&tokens.concat());
+        }
+    }
+}
+
+/// What is said of a text, as places and codes.
+fn told(text: &str) -> Vec<String> {
+    let (found, sources) = messages("a.scene", text.as_bytes().to_vec(), &Includes::default());
+    found
+        .iter()
+        .map(|one| said(one, &sources))
+        .map(|one| format!("{} {}", one.place, one.code))
+        .collect()
+}
+
+#[test]
+fn one_huge_line_is_told_its_column() {
+    let line = "sphere { 0, 1 } ".repeat(20_000);
+    assert_eq!(told(&format!("{line}shpere {{ 0, 1 }}")), ["1:320001 unknown-word"]);
+}
+
+#[test]
+fn fifty_thousand_nested_brackets_are_one_mistake() {
+    for open in ["{", "[", "(", "<", "union {", "#if (1) ", "{[(<"] {
+        let found = told(&open.repeat(50_000));
+        assert_eq!(found.len(), 1, "{open}: {found:?}");
+        assert!(found[0].ends_with(" nesting-limit"), "{open}: {found:?}");
+    }
+}
+
+/// Scenes that would never end, or not in this machine's memory.
+const ENDLESS: [&str; 10] = [
+    "#while (1) sphere { 0, 1 } #end",
+    "#while (1) #end",
+    "#declare I = 0; #while (I < 1) sphere { I, 1 } #end",
+    "#declare I = 0; #while (I < 1) #declare J = I; #end",
+    "#for (I, 0, 1e12) sphere { I, 1 pigment { rgb 1 } translate x } #end",
+    "#for (I, 1, 1000000) #for (J, 1, 1000000) #end #end",
+    "#macro F(N) sphere { 0, 1 } F(N) #end F(1)",
+    "#macro F(N) G(N) #end #macro G(N) F(N) #end F(1)",
+    "#macro F(N) (1 + F(N)) #end sphere { 0, F(1) }",
+    "#include \"endless.scene\"",
+];
+
+#[test]
+fn what_would_never_end_is_stopped_soon_with_one_message_and_code_four() {
+    for text in ENDLESS {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("endless.scene"), text).expect("written");
+        let start = std::time::Instant::now();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_lucarne"))
+            .args(["check", "--message-format", "short", "endless.scene"])
+            .current_dir(folder.path())
+            .output()
+            .expect("runs");
+        let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+        let circular = text.contains("#include");
+        assert_eq!(output.status.code(), Some(if circular { 1 } else { 4 }), "{text}: {messages}");
+        assert_eq!(messages.lines().count(), 1, "{text}: {messages}");
+        // Far more than it takes, for a machine that does other things too.
+        assert!(start.elapsed().as_secs() < 20, "{text}: {:?}", start.elapsed());
+    }
+}
