@@ -99,6 +99,7 @@ codes! {
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     LegacyForm "legacy-form" lint "an old form of the language";
     // files
     MissingInclude "missing-include" error "an included file is not found";
@@ -130,6 +131,11 @@ impl Code {
                 | Self::StrayDirective
                 | Self::NestingLimit
         )
+    }
+
+    /// It says that a calculation with these values has no result.
+    pub fn is_about_calculation(self) -> bool {
+        matches!(self, Self::DivisionByZero | Self::NotANumber | Self::OutOfRange | Self::ZeroVector)
     }
 
     /// It says that something stands where it should not, or does not where it should.

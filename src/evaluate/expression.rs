@@ -137,8 +137,10 @@ impl Evaluator<'_> {
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {
         let before = self.diagnostics.len();
         let value = self.expression(here, id);
-        if !taken {
-            self.diagnostics.forget_after(before);
+        // Only what a calculation complains of: `B = 0 ? 0 : A / B`. A name that is not declared is a
+        // mistake in either arm, and what halts the scene has halted it.
+        if !taken && !self.halted {
+            self.diagnostics.retain_after(before, |said| !said.code.is_about_calculation());
         }
         value
     }

@@ -214,6 +214,13 @@ impl Evaluator<'_> {
                     .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
                 return Err(evaluator.report(&opener.here, diagnostic));
             }
+            if let Some(pair) = entries.windows(2).find(|pair| pair[1].0 < pair[0].0) {
+                let (before, after) = (pair[0].0, pair[1].0);
+                let diagnostic = Diagnostic::new(Code::UnsortedMap, format!("the entries of this `color_map` go down from {before} to {after}"))
+                    .at(opener.span, "expected values that rise from entry to entry")
+                    .help("POV-Ray reads such a map otherwise than it is written: put the entries in order");
+                evaluator.report(&opener.here, diagnostic);
+            }
             // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
             entries.sort_by(|a, b| a.0.total_cmp(&b.0));
             Ok(Value::ColorMap(Arc::new(ColorMap(entries))))

@@ -105,12 +105,7 @@ impl Evaluator<'_> {
         };
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
         let rows = [row(0), row(1), row(2), row(3)];
-        if rows[0].cross(rows[1]).dot(rows[2]) == 0.0 {
-            let diagnostic =
-                Diagnostic::new(Code::ZeroScale, "this matrix flattens everything to nothing")
-                    .at(next.span, "its determinant is zero");
-            return Err(self.report(&next.here, diagnostic));
-        }
+        // Whether it flattens everything is decided in lowering, exactly.
         Ok(Step::Matrix(rows))
     }
 

@@ -18,7 +18,7 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Asc => Function::number(1..=1, |a| Ok(code(a.string(0)?.chars().next()))),
         Word::Chr => Function::string(1..=1, character),
         Word::Concat => {
-            Function::string(1..=usize::MAX, |a| (0..a.values.len()).map(|i| a.string(i)).collect())
+            Function::string(1..=usize::MAX, joined)
         }
         Word::Str => Function::string(3..=3, |a| {
             let number = a.number(0)?;
@@ -35,6 +35,26 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Vstr => Function::string(5..=5, vector_text),
         _ => None,
     }
+}
+
+/// The most bytes of a joined string: doubling one in a loop must not fill the memory.
+const LONGEST_TEXT: usize = 1 << 24;
+
+fn joined(a: &Arguments) -> Result<String, CallError> {
+    let mut text = String::new();
+    for i in 0..a.values.len() {
+        let piece = a.string(i)?;
+        if text.len() + piece.len() > LONGEST_TEXT {
+            return Err(CallError {
+                kind: CallErrorKind::OutOfRange,
+                argument: Some(i),
+                message: format!("this string grows longer than {LONGEST_TEXT} bytes"),
+                help: None,
+            });
+        }
+        text.push_str(piece);
+    }
+    Ok(text)
 }
 
 /// The character's number in Unicode; 0 where there is none.
