@@ -207,7 +207,10 @@ impl<'a> Nest<'a> {
                     .at(frame.open, "the vector opened here")
                     .also(before, found)
                     .fix(Span { end: end.start, ..end }, ">");
-                self.report(diagnostic);
+                // In a text that was given up, what is open is no mistake of the author's.
+                if !self.cut {
+                    self.report(diagnostic);
+                }
             }
             let components = self.take_arguments(frame.arguments);
             let whole = Span { end: before.start.max(frame.open.end), ..frame.open };
