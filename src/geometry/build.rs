@@ -17,7 +17,7 @@ const BINS: usize = 16;
 const FEW_BINS: usize = 6;
 const FEW: usize = 24;
 /// The price of testing a node's boxes, in tests of one thing.
-const NODE_COST: f32 = 1.0;
+const NODE_COST: f32 = 0.7;
 
 pub(super) fn tree(bounds: &[Bounds]) -> (Tree, Vec<u32>) {
     let space = Space::around(bounds);
@@ -157,13 +157,11 @@ fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
     } else {
         Bins::<FEW_BINS>::fill(all).best()
     };
-    let parts = |things: &[Thing], middle: usize| {
-        let middle_at = part.range.start + middle;
-        [
-            (part.range.start..middle_at, &things[..middle]),
-            (middle_at..part.range.end, &things[middle..]),
-        ]
-        .map(|(range, things)| Part::new(range, Extent::of(things), part.depth + 1))
+    let parts = |middle: usize, [left, right]: [Extent; 2]| {
+        let Range { start, end } = part.range;
+        let middle = start + middle;
+        [(start..middle, left), (middle..end, right)]
+            .map(|(range, extent)| Part::new(range, extent, part.depth + 1))
     };
     match by_cost {
         Some(best) => {
@@ -172,7 +170,7 @@ fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
                 return None;
             }
             let middle = partition(all, |thing| best.is_left(thing));
-            Some(parts(all, middle))
+            Some(parts(middle, best.extents))
         }
         None if all.len() <= 4 => None,
         // All centres in one place, or too deep: by halves.
@@ -184,7 +182,7 @@ fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
             all.select_nth_unstable_by(middle, |a, b| {
                 a.centre()[axis].total_cmp(&b.centre()[axis]).then(a.index.cmp(&b.index))
             });
-            Some(parts(all, middle))
+            Some(parts(middle, [Extent::of(&all[..middle]), Extent::of(&all[middle..])]))
         }
     }
 }
@@ -216,18 +214,21 @@ struct Best {
     bin: usize,
     low: Lanes,
     density: Lanes,
+    /// Of what is on the left and on the right.
+    extents: [Extent; 2],
     /// Σ area · count of the two sides.
     cost: f32,
 }
 
 fn bins_of<const N: usize>(thing: &Thing, low: Lanes, density: Lanes) -> [usize; 3] {
     let [x, y, z, _] = ((thing.centre() - low) * density).to_array();
-    [x, y, z].map(|place| (place as usize).min(N - 1))
+    [x, y, z].map(|place| (place as u32 as usize).min(N - 1))
 }
 
 impl Best {
     fn is_left(&self, thing: &Thing) -> bool {
-        bins_of::<BINS>(thing, self.low, self.density)[self.axis] < self.bin
+        let places = (thing.centre() - self.low) * self.density;
+        places[self.axis] < self.bin as f32
     }
 }
 
@@ -262,21 +263,23 @@ impl<const N: usize> Bins<N> {
                 continue;
             }
             let (counts, extents) = (&self.counts[axis], &self.extents[axis]);
-            let mut right_costs = [0.0; N];
+            let mut rights = [(Extent::NOTHING, 0.0); N];
             let (mut extent, mut count) = (Extent::NOTHING, 0);
             for bin in (1..N).rev() {
                 extent = extent.with(extents[bin]);
                 count += counts[bin];
-                right_costs[bin] =
-                    if count == 0 { f32::INFINITY } else { extent.area() * count as f32 };
+                let cost = if count == 0 { f32::INFINITY } else { extent.area() * count as f32 };
+                rights[bin] = (extent, cost);
             }
             let (mut extent, mut count) = (Extent::NOTHING, 0);
             for bin in 1..N {
                 extent = extent.with(extents[bin - 1]);
                 count += counts[bin - 1];
-                let cost = extent.area() * count as f32 + right_costs[bin];
+                let (right, right_cost) = rights[bin];
+                let cost = extent.area() * count as f32 + right_cost;
                 if count > 0 && cost < best.as_ref().map_or(f32::INFINITY, |best| best.cost) {
-                    best = Some(Best { axis, bin, low: self.low, density: self.density, cost });
+                    let (low, density, extents) = (self.low, self.density, [extent, right]);
+                    best = Some(Best { axis, bin, low, density, extents, cost });
                 }
             }
         }

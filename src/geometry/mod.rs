@@ -63,6 +63,15 @@ enum Sides {
     Inside,
 }
 
+/// What shadows a ray: an entry of a [`Geometry`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Occluder(usize);
+
+impl Occluder {
+    /// Nothing does.
+    pub const NONE: Self = Self(usize::MAX);
+}
+
 /// The first surface a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
@@ -131,64 +140,92 @@ impl Geometry {
     /// coinciding faces wins everywhere.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let mut race = Race::new();
-        self.for_each(ray, f64::INFINITY, |range| {
-            for entry in &self.entries[range] {
-                if let Some(hit) = self.first_crossing(entry, ray, race.limit) {
-                    race.enter(hit);
-                }
+        match &self.tree {
+            None => self.run(0..self.entries.len(), ray, &mut race),
+            Some(tree) => {
+                self.run(0..self.unbounded, ray, &mut race);
+                tree.visit(ray, race.limit, |leaf| {
+                    self.run(self.places(leaf), ray, &mut race);
+                    race.limit
+                });
             }
-            race.limit
-        });
+        }
         if race.contested() { self.first_declared(ray, race.limit) } else { race.best }
+    }
+
+    #[inline(always)]
+    fn run(&self, places: Range<usize>, ray: &Ray, race: &mut Race) {
+        for entry in &self.entries[places] {
+            if let Some(hit) = self.first_crossing(entry, ray, race.limit) {
+                race.enter(hit);
+            }
+        }
     }
 
     /// The first-declared object whose first crossing is at `limit` or before.
     #[cold]
     fn first_declared(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         let mut first: Option<Hit> = None;
-        self.for_each(ray, limit, |range| {
-            for entry in &self.entries[range] {
+        let mut look = |places: Range<usize>| {
+            for entry in &self.entries[places] {
                 if first.is_some_and(|first| first.object < entry.object) {
                     continue;
                 }
                 first = self.first_crossing(entry, ray, limit).or(first);
             }
             limit
-        });
+        };
+        match &self.tree {
+            None => {
+                look(0..self.entries.len());
+            }
+            Some(tree) => {
+                look(0..self.unbounded);
+                tree.visit(ray, limit, |leaf| look(self.places(leaf)));
+            }
+        }
         first
     }
 
     /// Whether a surface that casts shadows is certainly nearer than `distance` (which may be ∞).
     /// Surfaces seen from one side shadow from that side.
     pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
-        let mut found = false;
-        self.for_each(ray, distance, |range| {
-            found = found
-                || self.entries[range].iter().any(|entry| {
-                    entry.casts_shadow
-                        && self
-                            .first_crossing(entry, ray, distance)
-                            .is_some_and(|hit| hit.crossing.t + hit.crossing.error < distance)
-                });
-            if found { f64::NEG_INFINITY } else { distance }
-        });
+        self.occluder(ray, distance, Occluder::NONE) != Occluder::NONE
+    }
+
+    /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
+    /// is likely to shadow the next, and any answer but `NONE` is as good as another.
+    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
+        let shadows = |entry: &Entry| {
+            entry.casts_shadow
+                && self
+                    .first_crossing(entry, ray, distance)
+                    .is_some_and(|hit| hit.crossing.t + hit.crossing.error < distance)
+        };
+        let first = |places: Range<usize>| {
+            let start = places.start;
+            let found = self.entries[places].iter().position(shadows);
+            found.map_or(Occluder::NONE, |place| Occluder(start + place))
+        };
+        let Some(tree) = &self.tree else { return first(0..self.entries.len()) };
+        if self.entries.get(guess.0).is_some_and(shadows) {
+            return guess;
+        }
+        let mut found = first(0..self.unbounded);
+        if found == Occluder::NONE {
+            let look = |leaf| {
+                found = first(self.places(leaf));
+                if found == Occluder::NONE { distance } else { f64::NEG_INFINITY }
+            };
+            tree.visit(ray, distance, look);
+        }
         found
     }
 
-    /// Hands over the entries a ray may meet no farther than the limit, which each call renews.
+    /// Where the entries of a leaf lie.
     #[inline(always)]
-    fn for_each(&self, ray: &Ray, limit: f64, mut entries: impl FnMut(Range<usize>) -> f64) {
-        match &self.tree {
-            None => {
-                entries(0..self.entries.len());
-            }
-            Some(tree) => {
-                let limit = if self.unbounded > 0 { entries(0..self.unbounded) } else { limit };
-                tree.visit(ray, limit, |leaf| {
-                    entries(leaf.start + self.unbounded..leaf.end + self.unbounded)
-                });
-            }
-        }
+    fn places(&self, leaf: Range<usize>) -> Range<usize> {
+        leaf.start + self.unbounded..leaf.end + self.unbounded
     }
 
     /// Where the ray first meets a side of the object that is seen, at `limit` or before.
@@ -287,6 +324,7 @@ pub fn contains(world: &World, object: u32, point: Vector) -> bool {
 }
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
+#[inline]
 pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let Hit { object, crossing, leaving } = hit;
     match world.objects[*object as usize].shape {

@@ -16,6 +16,9 @@ pub(super) fn mean(grid: u32, mut sample: impl FnMut(u32, u32) -> Rgb) -> Rgb {
             sum += sample(i, j);
         }
     }
+    if grid == 1 {
+        return sum;
+    }
     let n = f64::from(grid) * f64::from(grid);
     sum.map(|c| c / n)
 }

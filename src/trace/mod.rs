@@ -21,6 +21,7 @@ use std::ops::AddAssign;
 
 use crate::color::Rgb;
 use crate::film::Film;
+use crate::geometry::Occluder;
 use crate::plan::{Antialias, Effect, Frame, Plan, Region};
 use crate::shape::Ray;
 use crate::world::World;
@@ -86,7 +87,18 @@ pub struct Traced {
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
     chain: Vec<Link>,
+    /// For each light what last stood before it, or nothing: a guess, worth no more than time.
+    occluders: Vec<Occluder>,
     counters: Counters,
+}
+
+impl Walk {
+    fn remember(&mut self, light: usize, occluder: Occluder) {
+        if self.occluders.len() <= light {
+            self.occluders.resize(light + 1, Occluder::NONE);
+        }
+        self.occluders[light] = occluder;
+    }
 }
 
 /// Traces the frame's region.

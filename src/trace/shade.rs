@@ -35,14 +35,14 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
     if finish.diffuse == 0.0 && finish.lobes.is_empty() {
         return sum;
     }
-    for light in &tracer.lights {
+    for (number, light) in tracer.lights.iter().enumerate() {
         let Some(aim) = shadow::aim(&light.kind, place.point) else { continue };
         let cosine = place.normal.dot(aim.to_light);
         let faces_light = cosine > 0.0 || (finish.seed && cosine == 0.0);
         if !faces_light
             || (SHADOWS
                 && light.casts_shadows
-                && shadow::shadowed(tracer, walk, place.origin, &aim))
+                && shadow::shadowed(tracer, walk, number, place.origin, &aim))
         {
             continue;
         }

@@ -2,6 +2,7 @@
 
 use super::Walk;
 use super::path::Tracer;
+use crate::geometry::Occluder;
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::LightKind;
@@ -42,11 +43,23 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
     }
 }
 
-/// Whether something stands between `origin` (just off a surface) and the light.
-pub(super) fn shadowed(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &Aim) -> bool {
+/// Whether something stands between `origin` (just off a surface) and the light, the `light`th.
+#[inline]
+pub(super) fn shadowed(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    light: usize,
+    origin: Vector,
+    aim: &Aim,
+) -> bool {
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
-    tracer.geometry.occluded(&ray, aim.reach)
+    let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
+    let occluder = tracer.geometry.occluder(&ray, aim.reach, guess);
+    if occluder != guess {
+        walk.remember(light, occluder);
+    }
+    occluder != Occluder::NONE
 }
 
 #[cfg(test)]

@@ -54,11 +54,12 @@ impl<'a> Crew<'a> {
             {
                 let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
                 shared.1 += std::mem::take(&mut walk.counters);
-                for ((x, y), value) in pixels(*tile).zip(piece.iter()) {
-                    if let Some((radiance, samples)) = *value {
-                        let index = shared.0.index(x, y);
-                        shared.0.radiance[index] = radiance;
-                        shared.0.samples[index] = samples;
+                for (y, row) in (tile.y..).zip(piece.chunks(tile.width as usize)) {
+                    for (index, value) in (shared.0.index(tile.x, y)..).zip(row) {
+                        if let Some((radiance, samples)) = *value {
+                            shared.0.radiance[index] = radiance;
+                            shared.0.samples[index] = samples;
+                        }
                     }
                 }
             }
