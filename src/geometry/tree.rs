@@ -173,7 +173,8 @@ impl Tree {
             leaf(0..self.count);
             return;
         };
-        let mut limit = self.space.limit(limit);
+        let mut reach = limit;
+        let mut limit = self.space.limit(reach);
         let mut stack = [(0.0f32, Child::default()); STACK];
         let mut waiting = 0;
         let mut child = Child::node(0);
@@ -208,7 +209,12 @@ impl Tree {
                 }
             } else {
                 let start = ((child.0 & !Child::IS_LEAF) >> 4) as usize;
-                limit = self.space.limit(leaf(start..start + (child.0 & 15) as usize));
+                let reached = leaf(start..start + (child.0 & 15) as usize);
+                // Seldom: most leaves change nothing.
+                if reached != reach {
+                    reach = reached;
+                    limit = self.space.limit(reach);
+                }
             }
             child = loop {
                 if waiting == 0 {

@@ -20,9 +20,54 @@ fn assert_within(crossing: Crossing, exact: Double, what: impl std::fmt::Debug) 
     assert!(off <= crossing.error, "off by {off:e}, claimed {:e}: {what:?}", crossing.error);
 }
 
+/// The numbers of docs/numerics.md: `cargo test --lib shape -- --nocapture` prints them.
+struct Tally {
+    shape: &'static str,
+    count: usize,
+    /// The greatest share of its claim that an error was.
+    share: f64,
+    /// Errors in units of what is given as the scale.
+    errors: Vec<f64>,
+}
+
+impl Tally {
+    fn of(shape: &'static str) -> Self {
+        Self { shape, count: 0, share: 0.0, errors: Vec::new() }
+    }
+
+    /// Asserts that the error is within its claim, and takes it down.
+    fn add(&mut self, crossing: Crossing, exact: Double, scale: f64, what: impl std::fmt::Debug) {
+        assert_within(crossing, exact, what);
+        let off = (Double::of(crossing.t) - exact).abs().0;
+        self.count += 1;
+        self.share = self.share.max(if off > 0.0 { off / crossing.error } else { 0.0 });
+        self.errors.push(off / scale);
+    }
+}
+
+impl Drop for Tally {
+    fn drop(&mut self) {
+        self.errors.sort_by(f64::total_cmp);
+        let at = |share: f64| self.errors[((self.errors.len() - 1) as f64 * share) as usize];
+        if !self.errors.is_empty() {
+            println!(
+                "{}: {} crossings, error {:.1e} median, {:.1e} 99 %, {:.1e} greatest; at most \
+                 {:.2} of the claim",
+                self.shape,
+                self.count,
+                at(0.5),
+                at(0.99),
+                at(1.0),
+                self.share
+            );
+        }
+    }
+}
+
 #[test]
 fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
     let mut random = Random(1);
+    let mut tally = Tally::of("sphere, in radii per radius of distance");
     for _ in 0..50_000 * long() {
         let radius = random.size(-150.0, 150.0);
         let far = random.size(-1.0, 8.0);
@@ -32,8 +77,9 @@ fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
         let (share, roots) = exact::sphere(centre, radius, &ray);
         match (sphere.chord(&ray), roots) {
             (Some(chord), Some([enter, leave])) => {
-                assert_within(chord.enter, enter, (sphere, ray, share));
-                assert_within(chord.leave, leave, (sphere, ray, share));
+                let scale = radius * (far + 1.0);
+                tally.add(chord.enter, enter, scale, (sphere, ray, share));
+                tally.add(chord.leave, leave, scale, (sphere, ray, share));
                 assert!(chord.enter.t <= chord.leave.t);
                 // And the claim is not idle.
                 let blur = 30.0 * EPS * (far + 1.0);
@@ -62,6 +108,7 @@ fn random_plane(random: &mut Random) -> (UnitVector, f64) {
 fn a_plane_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(2);
     let mut told = 0;
+    let mut tally = Tally::of("plane, in parts of t");
     for _ in 0..50_000 * long() {
         let (normal, distance) = random_plane(&mut random);
         let reach = random.size(-8.0, 8.0);
@@ -79,7 +126,7 @@ fn a_plane_is_crossed_where_exact_arithmetic_crosses_it() {
         let crossing = if enter.t.is_finite() { enter } else { leave };
         if crossing.t.is_finite() && crossing.error < crossing.t.abs() {
             told += 1;
-            assert_within(crossing, exact, (normal, distance, ray));
+            tally.add(crossing, exact, exact.abs().0, (normal, distance, ray));
         }
     }
     assert!(told > 40_000, "{told} crossings told from the start");
@@ -141,6 +188,7 @@ fn point_of(random: &mut Random, box_: &Box_) -> Vector {
 fn a_box_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(3);
     let (mut hits, mut misses) = (0, 0);
+    let mut tally = Tally::of("box, in parts of its distance and size");
     for _ in 0..50_000 * long() {
         let box_ = random_box(&mut random);
         let size = box_.half_widths.iter().copied().fold(0.0, f64::max);
@@ -155,8 +203,9 @@ fn a_box_is_crossed_where_exact_arithmetic_crosses_it() {
                 let slack = chord.enter.error + chord.leave.error;
                 assert!((leave - enter).0 >= -slack, "a false hit of {box_:?} {ray:?}");
                 if chord.enter.t < chord.leave.t {
-                    assert_within(chord.enter, enter, (box_, ray));
-                    assert_within(chord.leave, leave, (box_, ray));
+                    let scale = (origin - box_.centre).length() + size;
+                    tally.add(chord.enter, enter, scale, (box_, ray));
+                    tally.add(chord.leave, leave, scale, (box_, ray));
                 }
             }
             None => {
@@ -234,6 +283,7 @@ fn random_ellipsoid(random: &mut Random) -> Ellipsoid {
 fn an_ellipsoid_is_hit_where_exact_arithmetic_hits_it() {
     let mut random = Random(6);
     let (mut hits, mut misses) = (0, 0);
+    let mut tally = Tally::of("ellipsoid, in parts of its distance");
     for _ in 0..50_000 * long() {
         let ellipsoid = random_ellipsoid(&mut random);
         let Placement { centre, world_from_local, .. } = ellipsoid.placement;
@@ -247,8 +297,9 @@ fn an_ellipsoid_is_hit_where_exact_arithmetic_hits_it() {
         match (ellipsoid.chord(&ray), roots) {
             (Some(chord), Some([enter, leave])) => {
                 hits += 1;
-                assert_within(chord.enter, enter, (ellipsoid, ray));
-                assert_within(chord.leave, leave, (ellipsoid, ray));
+                let scale = (origin - centre).length() + size;
+                tally.add(chord.enter, enter, scale, (ellipsoid, ray));
+                tally.add(chord.leave, leave, scale, (ellipsoid, ray));
             }
             (None, None) => misses += 1,
             _ => assert!(share.abs() < 1e5 * EPS * (far + 1.0), "{share:e} {far:e}"),

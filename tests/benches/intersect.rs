@@ -1,4 +1,5 @@
-//! How fast rays meet the World: building the tree, nearest hits, obstructions.
+//! How fast rays meet the World: single shapes, nearest hits, obstructions,
+//! building the tree.
 //!
 //! `cargo bench --bench intersect`. The two scenes are those of the speed promise: three spheres, a
 //! box and a plane, and 100,000 spheres.
@@ -6,8 +7,9 @@
 use divan::counter::ItemsCount;
 use lucarne::color::{Color, Rgb};
 use lucarne::geometry::{Geometry, surface};
-use lucarne::math::{UnitVector, Vector};
-use lucarne::shape::{Box_, Plane, Ray, Shape, Sphere};
+use lucarne::math::placement::Placement;
+use lucarne::math::{Matrix, UnitVector, Vector};
+use lucarne::shape::{Box_, Chord, Ellipsoid, Plane, Ray, Shape, Sphere};
 use lucarne::world::{Finish, Material, Object, Pigment, World};
 
 fn main() {
@@ -147,6 +149,44 @@ fn occluded(bencher: divan::Bencher, name: &str) {
     bencher.counter(ItemsCount::new(occluded.len())).bench(|| {
         occluded.iter().filter(|(ray, distance)| geometry.occluded(ray, *distance)).count()
     });
+}
+
+/// Rays from all around at something of about size 1, ten sizes off; half of them miss.
+fn aimed() -> Vec<Ray> {
+    let mut state = 11u64;
+    let mut number = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let mut vector = || Vector::new(number(), number(), number());
+    let ray = |_| {
+        let origin = UnitVector::from_direction(vector()).map_or(Vector::Z, UnitVector::get) * 10.0;
+        let towards = UnitVector::from_direction(vector() * 1.6 - origin);
+        Ray { origin, direction: towards.map_or(Vector::Z, UnitVector::get) }
+    };
+    (0..10_000).map(ray).collect()
+}
+
+#[divan::bench(args = ["sphere", "plane", "box", "ellipsoid"])]
+fn chord(bencher: divan::Bencher, shape: &str) {
+    let rays = aimed();
+    let normal = UnitVector::from_direction(Vector::new(0.3, 0.9, -0.2)).expect("not zero");
+    let sphere = Sphere { centre: Vector::ZERO, radius: 1.0 };
+    let plane = Plane { normal, distance: 0.3 };
+    let normals = [UnitVector::X, UnitVector::Y, UnitVector::Z];
+    let box_ = Box_ { centre: Vector::ZERO, normals, half_widths: [0.8; 3] };
+    let world_from_local = Matrix::from_diagonal(Vector::new(1.0, 0.7, 1.2));
+    let local_from_world = world_from_local.inverse();
+    let placement = Placement { centre: Vector::ZERO, world_from_local, local_from_world };
+    let ellipsoid = Ellipsoid { placement };
+    let bencher = bencher.counter(ItemsCount::new(rays.len()));
+    let error = |chord: Option<Chord>| chord.map_or(0.0, |c| c.enter.t + c.enter.error);
+    match shape {
+        "sphere" => bencher.bench(|| rays.iter().map(|ray| error(sphere.chord(ray))).sum::<f64>()),
+        "plane" => bencher.bench(|| rays.iter().map(|ray| error(plane.chord(ray))).sum::<f64>()),
+        "box" => bencher.bench(|| rays.iter().map(|ray| error(box_.chord(ray))).sum::<f64>()),
+        _ => bencher.bench(|| rays.iter().map(|ray| error(ellipsoid.chord(ray))).sum::<f64>()),
+    }
 }
 
 #[divan::bench(sample_count = 20, args = [1000, 100_000])]

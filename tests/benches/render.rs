@@ -149,7 +149,7 @@ fn povray_version() -> Option<String> {
 /// One render by POV-Ray, its times as it reports them.
 fn povray(source: &Path, picture: &Path) -> Cost {
     let output = Command::new("povray")
-        .args(["+WT1", "-A", "-D", "+FN", "-GA", "-V"])
+        .args(["+WT1", "-A", "-D", "+FN", "-V"])
         .arg(format!("+W{}", SIZE.0))
         .arg(format!("+H{}", SIZE.1))
         .arg(format!("+I{}", source.display()))
