@@ -135,7 +135,10 @@ impl Code {
 
     /// It says that a calculation with these values has no result.
     pub fn is_about_calculation(self) -> bool {
-        matches!(self, Self::DivisionByZero | Self::NotANumber | Self::OutOfRange | Self::ZeroVector)
+        matches!(
+            self,
+            Self::DivisionByZero | Self::NotANumber | Self::OutOfRange | Self::ZeroVector
+        )
     }
 
     /// It says that something stands where it should not, or does not where it should.

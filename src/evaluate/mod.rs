@@ -10,6 +10,7 @@ mod builtin;
 mod directive;
 mod endless;
 mod expression;
+mod include;
 mod lint;
 mod probe;
 mod report;

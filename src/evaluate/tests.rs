@@ -26,7 +26,7 @@ fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
             str(Q.blue, 0, 2), ",", str(Q.filter, 0, 2), ",", str(Q.transmit, 0, 2), ") ") #end
     "#;
     let mut options = Options::new(Dialect::Pov);
-    options.declares = declares.iter().map(|(name, n)| (name.to_string(), *n)).collect();
+    options.evaluate.declares = declares.iter().map(|(name, n)| (name.to_string(), *n)).collect();
     let mut road = Road::new(&Shadowing, options);
     let file = road.read("a.pov", format!("{head}{text}").into_bytes());
     let ast = road.parse(file);

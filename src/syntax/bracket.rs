@@ -208,7 +208,7 @@ impl<'a> Nest<'a> {
                     .also(before, found)
                     .fix(Span { end: end.start, ..end }, ">");
                 // In a text that was given up, what is open is no mistake of the author's.
-                if !self.cut {
+                if !(self.cut || self.ends_early) {
                     self.report(diagnostic);
                 }
             }

@@ -9,7 +9,6 @@ use super::nest::{FrameKind, Nest, State};
 use super::token::Head;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::Word;
 
 impl<'a> Nest<'a> {
     /// `#if (…)` and its like, with their one expression.
@@ -175,21 +174,6 @@ impl<'a> Nest<'a> {
         };
         self.items.pop();
         let name = self.slice(target.span);
-        if let Some(&Item { kind: ItemKind::Word(word), span }) = self.items.last()
-            && matches!(word, Word::Declare | Word::Local)
-        {
-            self.items.pop();
-            let word = word.name();
-            let message = format!("`{word}` is written with a `#` before it");
-            self.report(
-                Diagnostic::new(Code::UnknownWord, message)
-                    .at(span, format!("did you mean `#{word}`?"))
-                    .fix(Span { end: span.start, ..span }, "#"),
-            );
-            let local = word == Word::Local.name();
-            self.add_directive(DirectiveKind::Declare { local, target }, span, equals);
-            return true;
-        }
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "a name gets its value in a `#declare`")
                 .at(equals, "`=` has no meaning here")

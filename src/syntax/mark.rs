@@ -55,9 +55,6 @@ impl<'a> Nest<'a> {
             | Mark::And
             | Mark::Or => {
                 let Some((operator, in_sums)) = expression::binary(mark) else { return };
-                if self.doubled(mark, token) {
-                    return;
-                }
                 self.before_operator(span);
                 if !in_sums && !full {
                     self.only_in_parentheses(span);
@@ -65,24 +62,6 @@ impl<'a> Nest<'a> {
                 self.operator(OperatorKind::Binary(operator), span);
             }
         }
-    }
-
-    /// `==`, `&&` and `||` of other languages: told, and taken as the sign before.
-    fn doubled(&mut self, mark: Mark, token: Token) -> bool {
-        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
-        let doubled =
-            before.is_some_and(|b| b.kind == TokenKind::Mark(mark) && b.end == token.start);
-        if !doubled || !matches!(mark, Mark::Equal | Mark::And | Mark::Or) {
-            return false;
-        }
-        let span = Span { start: token.start - 1, ..self.span(token) };
-        let (text, single) = (self.slice(span), self.slice(self.span(token)));
-        self.report(
-            Diagnostic::new(Code::ExpectedExpression, format!("`{text}` is written `{single}`"))
-                .at(span, "one sign is enough")
-                .fix(span, single),
-        );
-        true
     }
 
     /// An operator that needs an operand before it.

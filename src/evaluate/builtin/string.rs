@@ -17,9 +17,7 @@ pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Asc => Function::number(1..=1, |a| Ok(code(a.string(0)?.chars().next()))),
         Word::Chr => Function::string(1..=1, character),
-        Word::Concat => {
-            Function::string(1..=usize::MAX, joined)
-        }
+        Word::Concat => Function::string(1..=usize::MAX, joined),
         Word::Str => Function::string(3..=3, |a| {
             let number = a.number(0)?;
             let mut text = String::new();

@@ -1,0 +1,133 @@
+//! `#include`: another file's items, read where the directive stands.
+//!
+//! **Invariant:** a file is parsed once, however often it is included.
+
+use std::rc::Rc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{Expansion, ExpansionKind, FileError, Source, Span, decode};
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::syntax::{self, ParseOptions};
+
+use super::{Evaluator, Here, Outcome, Reported, Unit};
+
+impl Evaluator<'_> {
+    pub(super) fn include(&mut self, here: &Here, file: ExpressionId, head: Span) -> Outcome<()> {
+        let span = here.unit.expression(file).span;
+        let name = match here.unit.expression(file).kind {
+            // Paths keep their backslashes.
+            ExpressionKind::String => match self.whole_string(span) {
+                Some(name) => name,
+                None => {
+                    self.lacks_include = true;
+                    return Err(Reported);
+                }
+            },
+            _ => self.string(here, file)?,
+        };
+        if self.including.len() as u32 > self.options.limits.include_depth {
+            return Err(self.include_limit(here, &name, span));
+        }
+        let from = self.sources.get(head.file).name.clone();
+        let found = match self.files.read(&name, &from) {
+            Ok(found) => found,
+            Err(error) => {
+                let diagnostic = missing_file(&name, span, error);
+                self.lacks_include = true;
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        let unit = match self.parsed.get(&found.name) {
+            Some(unit) => unit.clone(),
+            None => self.read_unit(here, span, &found.name, found.bytes),
+        };
+        let expansion = self.scene.expansions.add(Expansion {
+            parent: here.expansion,
+            call: head.to(span),
+            kind: ExpansionKind::Include(name),
+        });
+        self.push_include(&unit, expansion, found.name);
+        Ok(())
+    }
+
+    fn read_unit(&mut self, here: &Here, span: Span, name: &str, bytes: Vec<u8>) -> Rc<Unit> {
+        let (text, foreign) = decode(bytes);
+        let id = self.sources.add(Source::new(name, text));
+        if foreign && self.options.dialect == crate::scene::Dialect::Scene {
+            let diagnostic = Diagnostic::new(
+                Code::BadEncoding,
+                format!("`{name}` is not UTF-8, and was read as Latin-1"),
+            )
+            .at(span, "included here");
+            self.report(here, diagnostic);
+        }
+        let options = ParseOptions {
+            dialect: self.options.dialect,
+            nesting_limit: self.options.limits.nesting as usize,
+        };
+        let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
+        let unit = self.unit(ast);
+        self.parsed.insert(name.to_owned(), unit.clone());
+        unit
+    }
+
+    fn include_limit(&mut self, here: &Here, name: &str, span: Span) -> Reported {
+        self.halted = true;
+        let innermost = self.including.last().cloned().unwrap_or_default();
+        // The files between this one and the last time it was included.
+        let since = |file: &&String| file.as_str() != name && **file != innermost;
+        let between: Vec<&String> = self.including.iter().rev().skip(1).take_while(since).collect();
+        let again = self.including.iter().filter(|file| **file == innermost).count() > 1;
+        let diagnostic = if again {
+            let message = match (innermost == name, between.as_slice()) {
+                (true, _) => format!("`{name}` includes itself, and never ends"),
+                (false, []) => {
+                    format!("`{name}` and `{innermost}` include each other, and never end")
+                }
+                (false, [..]) => {
+                    format!("`{name}` includes itself by way of `{innermost}`, and never ends")
+                }
+            };
+            Diagnostic::new(Code::CircularInclude, message).at(span, "included again here").help(
+                "guard the file: `#ifndef (Name_Included) #declare Name_Included = 1; … #end`",
+            )
+        } else {
+            let limit = self.options.limits.include_depth;
+            Diagnostic::new(
+                Code::IncludeLimit,
+                format!("files include each other more than {limit} deep"),
+            )
+            .at(span, "this include is one too many")
+            .help("raise the limit with `--limit include-depth=N`")
+        };
+        self.report(here, diagnostic)
+    }
+}
+
+fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
+    match error {
+        FileError::NotFound { searched, similar } => {
+            let mut diagnostic =
+                Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
+                    .at(span, "no file of this name");
+            if let Some(similar) = similar.first() {
+                let file = format!("\"{similar}\"");
+                diagnostic = diagnostic.help(format!("did you mean `{similar}`?")).fix(span, file);
+            }
+            if !searched.is_empty() {
+                diagnostic = diagnostic.help(format!("searched in {}", searched.join(", ")));
+            }
+            diagnostic.help("`-I FOLDER` adds a folder to search")
+        }
+        FileError::Forbidden => Diagnostic::new(
+            Code::ForbiddenFile,
+            format!("`{name}` lies outside the folders that may be read"),
+        )
+        .at(span, "outside the scene's folder and the `-I` folders")
+        .help("`-I FOLDER` allows reading below a folder"),
+        FileError::Unreadable(reason) => {
+            Diagnostic::new(Code::UnreadableFile, format!("`{name}` cannot be read: {reason}"))
+                .at(span, "this file")
+        }
+    }
+}
