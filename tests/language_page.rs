@@ -70,7 +70,7 @@ fn words() -> String {
             .collect();
         if !later.is_empty() {
             let gap = if built { "\n" } else { "" };
-            let _ = write!(page, "{gap}Known, and not built yet: {}.\n", later.join(", "));
+            let _ = writeln!(page, "{gap}Known, and not built yet: {}.", later.join(", "));
         }
     }
     page

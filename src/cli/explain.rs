@@ -35,8 +35,11 @@ fn plain(page: &str) -> String {
             fenced = !fenced;
             continue;
         }
-        let line =
-            if fenced { format!("    {line}") } else { line.trim_start_matches("# ").to_owned() };
+        let line = if fenced {
+            format!("    {line}")
+        } else {
+            line.trim_start_matches('#').trim_start().to_owned()
+        };
         text.push_str(line.trim_end());
         text.push('\n');
     }

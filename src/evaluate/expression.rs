@@ -341,7 +341,8 @@ impl Evaluator<'_> {
                 };
                 let symbol = here.symbol(name);
                 self.scopes.mark_used(symbol);
-                return Ok(Value::truth(self.scopes.slot(symbol).is_some()));
+                let known = self.scopes.read(symbol).is_some_and(|value| *value != Value::Broken);
+                return Ok(Value::truth(known));
             }
             Word::FileExists => {
                 let [Argument::Expression(id)] = list else {

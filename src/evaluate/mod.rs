@@ -226,6 +226,8 @@ struct Evaluator<'a> {
     macro_depth: u32,
     /// Turns of all loops so far.
     turns: u64,
+    /// A file was not understood whole, so a loop may lack what ends it.
+    misread: bool,
     /// How often something was reported, repetitions included.
     reports: u64,
     /// The words that opened the blocks being read, outermost first.
@@ -301,6 +303,7 @@ impl<'a> Evaluator<'a> {
             halted: false,
             macro_depth: 0,
             turns: 0,
+            misread: false,
             reports: 0,
             openers: Vec::new(),
             probes: HashMap::new(),
@@ -311,6 +314,7 @@ impl<'a> Evaluator<'a> {
         let unit = self.unit(main.clone());
         let main_name = self.sources.get(main.file).name.clone();
         self.including.push(main_name);
+        self.misread = self.diagnostics.has_errors();
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);

@@ -205,7 +205,11 @@ impl Scopes {
 
     /// The names that have a value now, in the order they were first seen.
     pub fn visible(&self) -> impl Iterator<Item = &str> {
-        let bound = self.states.iter().map(|state| !state.bindings.is_empty());
+        let bound = self.states.iter().map(|state| {
+            let slot = state.bindings.last().map(|&(_, slot)| slot);
+            // A name that was itself reported is no suggestion for another.
+            slot.is_some_and(|slot| self.slots[slot.0 as usize] != Value::Broken)
+        });
         self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())
     }
 

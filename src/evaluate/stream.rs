@@ -352,7 +352,7 @@ impl Evaluator<'_> {
                 let (here, condition, body, turns, directive) =
                     (here.clone(), *condition, *body, *turns, *directive);
                 // What a mistake in it keeps from being computed may be what ends the loop.
-                let faulty = turns > FAULTY_TURNS && self.reports > reports;
+                let faulty = turns > FAULTY_TURNS && (self.reports > reports || self.misread);
                 if !faulty && self.condition(&here, condition) == Ok(true) {
                     if turns > limit {
                         let message =

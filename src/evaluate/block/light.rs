@@ -19,9 +19,19 @@ impl Evaluator<'_> {
         let (kind, modifiers) = self.block(token, Word::LightSource, |evaluator| {
             let mut modifiers = Vec::new();
             if let Some(declared) = evaluator.declared_light() {
-                evaluator.next();
-                let outcome = evaluator.light_modifiers(&mut modifiers, None);
-                return outcome.map(|()| (ObjectKind::Use(declared), modifiers));
+                let name = evaluator.next();
+                if let Some(name) = name
+                    && let Some(reported) = evaluator.wrong_kind(&name, Word::LightSource, declared)
+                {
+                    let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None);
+                    return Err(reported);
+                }
+                // A light of its own from here on: its words can change it.
+                let (mut light, mut all) = evaluator.light_of(declared);
+                let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut());
+                all.append(&mut modifiers);
+                let kind = light.map_or(ObjectKind::Use(declared), ObjectKind::LightSource);
+                return outcome.map(|()| (kind, all));
             }
             if evaluator.takes_poison() {
                 let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None);
@@ -34,6 +44,30 @@ impl Evaluator<'_> {
             Ok((ObjectKind::LightSource(light), modifiers))
         })?;
         self.add_object(Object { kind, modifiers, site })
+    }
+
+    /// A declared light's own parts, and every modifier it has got, in order.
+    fn light_of(&self, mut object: ObjectId) -> (Option<LightSource>, Vec<Modifier>) {
+        let mut layers = Vec::new();
+        loop {
+            let Object { kind, modifiers, .. } = &self.scene.objects[object.index()];
+            layers.push(modifiers);
+            match kind {
+                ObjectKind::Use(inner) => object = *inner,
+                ObjectKind::LightSource(light) => {
+                    return (
+                        Some(light.clone()),
+                        layers.into_iter().rev().flatten().cloned().collect(),
+                    );
+                }
+                ObjectKind::Sphere { .. }
+                | ObjectKind::Plane { .. }
+                | ObjectKind::Box { .. }
+                | ObjectKind::Union(_) => {
+                    return (None, Vec::new());
+                }
+            }
+        }
     }
 
     fn declared_light(&mut self) -> Option<ObjectId> {

@@ -152,6 +152,26 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
+    fn skip_missing_block(&mut self, token: &Token) {
+        let before = self.diagnostics.len();
+        self.skip_values();
+        self.skip_color(token);
+        while let Some(Token { kind: TokenKind::Entry(_), .. }) = self.peek() {
+            self.next();
+        }
+        match self.peek().map(|next| &next.kind) {
+            Some(TokenKind::Block(_)) => self.skip_arguments(Word::Union),
+            Some(TokenKind::Word(next)) if next.family() == Family::FinishItem => {
+                let next = *next;
+                self.next();
+                self.skip_arguments(next);
+            }
+            _ => {}
+        }
+        self.diagnostics.forget_after(before);
+    }
+
     /// Enters the block after `token`.
     fn block<T>(
         &mut self,
@@ -177,11 +197,18 @@ impl Evaluator<'_> {
                         let text = format!("{{ {} }}", self.sources.text(span));
                         diagnostic.help(format!("write `{name} {text}`")).fix(span, text)
                     }
+                    Some(Token { kind: TokenKind::Expression(id), here, .. })
+                        if matches!(
+                            here.unit.expression(id).kind,
+                            ExpressionKind::Group(_) | ExpressionKind::GroupItems(_)
+                        ) =>
+                    {
+                        diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"))
+                    }
                     _ => diagnostic.help(word.sentence().to_owned()),
                 };
                 let reported = self.report(&token.here, diagnostic);
-                self.skip_values();
-                self.skip_color(token);
+                self.skip_missing_block(token);
                 return Err(reported);
             }
         }

@@ -64,8 +64,7 @@ impl Evaluator<'_> {
                 None => parts(evaluator, token),
             };
             if kind.is_err() {
-                // What is left of the parts.
-                evaluator.skip_values();
+                evaluator.skip_parts();
             }
             let mut modifiers = Vec::new();
             let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.is_textured(used));
@@ -86,6 +85,9 @@ impl Evaluator<'_> {
         match self.named(&token, id)? {
             Value::Object(object) => {
                 self.next();
+                if let Some(reported) = self.wrong_kind(&token, word, object) {
+                    return Some(Err(reported));
+                }
                 if let Some(next) = self.peek().cloned()
                     && word == Word::Union
                     && matches!(next.kind, TokenKind::Word(w) if matches!(w.family(), Family::Shape | Family::Csg))
@@ -116,6 +118,39 @@ impl Evaluator<'_> {
             }
             _ => None,
         }
+    }
+
+    /// `plane { Ball }`: a declared object stands in a block of its own kind, or in `object`.
+    pub(super) fn wrong_kind(
+        &mut self,
+        token: &Token,
+        word: Word,
+        object: ObjectId,
+    ) -> Option<Reported> {
+        let mut kind = &self.scene.objects[object.index()].kind;
+        while let ObjectKind::Use(inner) = kind {
+            kind = &self.scene.objects[inner.index()].kind;
+        }
+        let own = match kind {
+            ObjectKind::Sphere { .. } => Word::Sphere,
+            ObjectKind::Plane { .. } => Word::Plane,
+            ObjectKind::Box { .. } => Word::Box,
+            ObjectKind::Union(_) | ObjectKind::Use(_) => Word::Union,
+            ObjectKind::LightSource(_) => Word::LightSource,
+        };
+        if own == word || matches!(word, Word::Object | Word::Union) {
+            return None;
+        }
+        let text = self.sources.text(token.span).to_owned();
+        let message = format!("`{text}` is a `{}`, and stands in a `{}`", own.name(), word.name());
+        let mut diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, format!("this is a `{}`", own.name()))
+            .help(format!("a declared object of any kind is placed by `object {{ {text} }}`"));
+        let symbol = self.scopes.symbol(&text);
+        if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
+            diagnostic = diagnostic.also(declared.site.span, "declared here");
+        }
+        Some(self.report(&token.here, diagnostic))
     }
 
     /// Takes a name that stands for something not built, and remembers it.

@@ -303,6 +303,32 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Passes over what is left of parts that were reported: they are no second mistake. A name that is
+    /// not declared is one, and stays.
+    pub(super) fn skip_parts(&mut self) {
+        let before = self.diagnostics.len();
+        while let Some(token) = self.peek().cloned() {
+            match token.kind {
+                TokenKind::Word(_) | TokenKind::Semicolon => break,
+                TokenKind::Expression(id) => {
+                    if let ExpressionKind::Name(name) = token.here.unit.expression(id).kind
+                        && self.scopes.slot(token.here.symbol(name)).is_none()
+                    {
+                        break;
+                    }
+                    self.next();
+                    self.run_expression(&token.here, id);
+                }
+                TokenKind::Block(items) | TokenKind::Entry(items) => {
+                    self.next();
+                    self.inside(&token.here, items, Self::run_items);
+                }
+                TokenKind::Literal(_) | TokenKind::Comma => drop(self.next()),
+            }
+        }
+        self.diagnostics.forget_after(before);
+    }
+
     /// Passes over the values after a word, running what is in them.
     pub(in crate::evaluate) fn skip_values(&mut self) {
         loop {
@@ -353,7 +379,8 @@ impl Evaluator<'_> {
                     return;
                 }
                 Some(TokenKind::Word(next))
-                    if next.family() == Family::Color && word.family() != Family::Color =>
+                    if next.family() == Family::Color
+                        && (word.family() != Family::Color || word == Word::Color) =>
                 {
                     drop(self.next());
                 }
