@@ -3,9 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
-use crate::syntax::ast::{
-    Argument, Arguments, BinaryOperator, Callee, Component, ExpressionId, ExpressionKind,
-};
+use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::stream::TokenKind;
@@ -126,7 +124,7 @@ impl Evaluator<'_> {
                     Ok(poison)
                 }
                 (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
-                    let symbol = format!("`{}`", symbol(operator));
+                    let symbol = format!("`{}`", operator.symbol());
                     self.operation_error(here, error, &symbol, span, [left, right], [&a, &b])
                 }),
             };
@@ -265,139 +263,6 @@ impl Evaluator<'_> {
         }
     }
 
-    fn call(
-        &mut self,
-        here: &Here,
-        callee: Callee,
-        arguments: Arguments,
-        span: Span,
-    ) -> Outcome<Value> {
-        match callee {
-            Callee::Word(word, word_span) => self.call_word(here, word, word_span, arguments, span),
-            Callee::Name(name, name_span) => {
-                let symbol = here.symbol(name);
-                match self.scopes.read(symbol) {
-                    None => {
-                        let reported = self.undeclared(here, symbol, name_span);
-                        self.run_arguments(here, arguments);
-                        Err(reported)
-                    }
-                    Some(Value::Macro(id)) => {
-                        let id = *id;
-                        self.macro_value(here, id, arguments, span)
-                    }
-                    Some(Value::Broken) => Err(Reported),
-                    Some(Value::Poison(poison)) => {
-                        let poison = *poison;
-                        self.run_arguments(here, arguments);
-                        Ok(Value::Poison(poison))
-                    }
-                    Some(other) => {
-                        let kind = other.kind();
-                        let name = self.scopes.name(symbol).to_owned();
-                        let mut diagnostic = Diagnostic::new(
-                            Code::NotCallable,
-                            format!("`{name}` is {kind}, and cannot be called"),
-                        )
-                        .at(name_span, "expected the name of a macro or a function");
-                        if let Some(declared) = self.scopes.declared(symbol) {
-                            diagnostic = diagnostic.also(declared.site.span, "declared here");
-                        }
-                        Err(self.report(here, diagnostic))
-                    }
-                }
-            }
-        }
-    }
-
-    /// Evaluates arguments for what they do (draw from a stream, set a parameter), not for their values.
-    pub(super) fn run_arguments(&mut self, here: &Here, arguments: Arguments) {
-        let unit = here.unit.clone();
-        for argument in unit.ast.arguments(arguments) {
-            match *argument {
-                Argument::Expression(id) => drop(self.expression(here, id)),
-                Argument::Items(items) => self.inside(here, items, Self::run_items),
-            }
-        }
-    }
-
-    fn call_word(
-        &mut self,
-        here: &Here,
-        word: Word,
-        word_span: Span,
-        arguments: Arguments,
-        span: Span,
-    ) -> Outcome<Value> {
-        let unit = here.unit.clone();
-        let list = unit.ast.arguments(arguments);
-        match word {
-            Word::Defined => {
-                let [Argument::Expression(id)] = list else {
-                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
-                };
-                let ExpressionKind::Name(name) = unit.expression(*id).kind else {
-                    return Ok(Value::truth(true));
-                };
-                let symbol = here.symbol(name);
-                self.scopes.mark_used(symbol);
-                let known = self.scopes.read(symbol).is_some_and(|value| *value != Value::Broken);
-                return Ok(Value::truth(known));
-            }
-            Word::FileExists => {
-                let [Argument::Expression(id)] = list else {
-                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
-                };
-                let name = self.string(here, *id)?;
-                let from = self.sources.get(word_span.file).name.clone();
-                return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
-            }
-            Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
-                return self.probe(here, word, word_span, list);
-            }
-            _ => {}
-        }
-        let Some(arity) = builtin::arity(word) else {
-            self.run_arguments(here, arguments);
-            return Ok(Value::Poison(Poison { word, site: here.site(word_span) }));
-        };
-        let mut values = Vec::with_capacity(list.len());
-        let mut failed = false;
-        for argument in list {
-            let value = match *argument {
-                Argument::Expression(id) => self.expression(here, id),
-                Argument::Items(items) => {
-                    self.inside(here, items, |evaluator| evaluator.only_value(here, span))
-                }
-            };
-            match value {
-                Ok(value) => values.push(value),
-                Err(Reported) => failed = true,
-            }
-        }
-        if !arity.contains(&list.len()) {
-            return Err(self.wrong_arity(here, word, word_span, arity, list.len()));
-        }
-        if failed {
-            return Err(Reported);
-        }
-        if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
-            return Ok(poison.clone());
-        }
-        builtin::call(word, &values, &mut self.streams).map_err(|error| {
-            let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
-                match *argument {
-                    Argument::Expression(id) => unit.expression(id).span,
-                    Argument::Items(_) => span,
-                }
-            });
-            let mut diagnostic =
-                Diagnostic::new(error.kind.code(), error.message).at(at, "expected another value");
-            diagnostic.help.extend(error.help);
-            self.report(here, diagnostic)
-        })
-    }
-
     fn component_value(
         &mut self,
         here: &Here,
@@ -530,22 +395,5 @@ impl Evaluator<'_> {
             return Err(self.report(&extra.here, diagnostic));
         }
         Ok(value)
-    }
-}
-
-fn symbol(operator: BinaryOperator) -> &'static str {
-    match operator {
-        BinaryOperator::Add => "+",
-        BinaryOperator::Subtract => "-",
-        BinaryOperator::Multiply => "*",
-        BinaryOperator::Divide => "/",
-        BinaryOperator::Less => "<",
-        BinaryOperator::LessOrEqual => "<=",
-        BinaryOperator::Equal => "=",
-        BinaryOperator::NotEqual => "!=",
-        BinaryOperator::GreaterOrEqual => ">=",
-        BinaryOperator::Greater => ">",
-        BinaryOperator::And => "&",
-        BinaryOperator::Or => "|",
     }
 }

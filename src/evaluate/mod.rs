@@ -7,6 +7,7 @@
 
 mod block;
 mod builtin;
+mod call;
 mod directive;
 mod endless;
 mod expression;
@@ -18,6 +19,7 @@ mod scope;
 mod stream;
 #[cfg(test)]
 mod tests;
+mod turn;
 pub mod value;
 
 use std::collections::HashMap;

@@ -5,9 +5,8 @@
 //! **Invariant:** no spans, so two texts that mean the same tree show the same lines; no recursion.
 
 use super::ast::{
-    Argument, Arguments, Ast, BinaryOperator, Body, Callee, CaseKind, Component, DirectiveId,
-    DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items, NameId, Target, Test,
-    UnaryOperator,
+    Argument, Arguments, Ast, Body, Callee, CaseKind, Component, DirectiveId, DirectiveKind,
+    ExpressionId, ExpressionKind, Item, ItemKind, Items, NameId, Target, Test,
 };
 use crate::source::{Source, Span};
 
@@ -119,11 +118,11 @@ impl<'a> Dump<'a> {
             ExpressionKind::Name(name) => self.push([self.name(name)]),
             ExpressionKind::Word(word) => self.out += word.name(),
             ExpressionKind::Unary(operator, of) => {
-                let sign = format!("({} ", unary(operator));
+                let sign = format!("({} ", operator.symbol());
                 self.push([text(&sign), Task::Expression(of), text(")")]);
             }
             ExpressionKind::Binary(operator, first, second) => {
-                let sign = format!("({} ", binary(operator));
+                let sign = format!("({} ", operator.symbol());
                 let parts = [Task::Expression(first), text(" "), Task::Expression(second)];
                 self.push([text(&sign)].into_iter().chain(parts).chain([text(")")]));
             }
@@ -316,30 +315,5 @@ fn children<'a>(head: Task<'a>, items: Items, depth: Option<usize>) -> Vec<Task<
     match depth {
         Some(depth) => vec![head, text("\n"), Task::Items(items, Some(depth + 1))],
         None => [head].into_iter().chain(inline(items)).collect(),
-    }
-}
-
-pub(super) fn unary(operator: UnaryOperator) -> &'static str {
-    match operator {
-        UnaryOperator::Plus => "+",
-        UnaryOperator::Minus => "-",
-        UnaryOperator::Not => "!",
-    }
-}
-
-pub(super) fn binary(operator: BinaryOperator) -> &'static str {
-    match operator {
-        BinaryOperator::Add => "+",
-        BinaryOperator::Subtract => "-",
-        BinaryOperator::Multiply => "*",
-        BinaryOperator::Divide => "/",
-        BinaryOperator::Less => "<",
-        BinaryOperator::LessOrEqual => "<=",
-        BinaryOperator::Equal => "=",
-        BinaryOperator::NotEqual => "!=",
-        BinaryOperator::GreaterOrEqual => ">=",
-        BinaryOperator::Greater => ">",
-        BinaryOperator::And => "&",
-        BinaryOperator::Or => "|",
     }
 }

@@ -7,7 +7,6 @@ use super::ast::{
     Argument, Arguments, Ast, Body, Callee, CaseKind, Component, DirectiveId, DirectiveKind,
     ExpressionId, ExpressionKind, Item, ItemKind, Items, Target, Test,
 };
-use super::dump::{binary, unary};
 use crate::source::{Source, Span};
 
 /// The text of a tree, a line an item, blocks indented by two.
@@ -105,12 +104,12 @@ impl Print<'_> {
             ExpressionKind::Name(name) => self.out += self.ast.name(name),
             ExpressionKind::Word(word) => self.out += word.name(),
             ExpressionKind::Unary(operator, of) => {
-                self.push([Task::Text(unary(operator)), Task::Expression(of)]);
+                self.push([Task::Text(operator.symbol()), Task::Expression(of)]);
             }
             ExpressionKind::Binary(operator, first, second) => self.push([
                 Task::Expression(first),
                 Task::Text(" "),
-                Task::Text(binary(operator)),
+                Task::Text(operator.symbol()),
                 Task::Text(" "),
                 Task::Expression(second),
             ]),

@@ -1,0 +1,121 @@
+//! Turns of loops, and the chosen case of a switch.
+
+use crate::syntax::ast::{Case, CaseKind};
+
+use super::stream::{FAULTY_TURNS, Frame, FrameKind};
+use super::value::Value;
+use super::{Evaluator, Here, Limits, Outcome, endless};
+
+impl Evaluator<'_> {
+    /// One more turn of the innermost loop, or its end.
+    pub(super) fn turn(&mut self) {
+        let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
+        let limit = self.options.limits.loop_turns;
+        self.turns += 1;
+        if self.turns > limit.saturating_mul(Limits::TOGETHER) {
+            let directive = match kind {
+                FrameKind::While { directive, .. } | FrameKind::For { directive, .. } => *directive,
+                _ => return,
+            };
+            let here = here.clone();
+            let message = format!("the loops of this scene have turned {} times", self.turns - 1);
+            let _: Outcome<()> =
+                self.loop_limit(&here, directive, message, "in this one as the last");
+            return;
+        }
+        match kind {
+            FrameKind::While { condition, body, turns, directive, reports } => {
+                *turns += 1;
+                let reports = *reports;
+                let (here, condition, body, turns, directive) =
+                    (here.clone(), *condition, *body, *turns, *directive);
+                // What a mistake in it keeps from being computed may be what ends the loop.
+                let faulty = turns > FAULTY_TURNS && (self.reports > reports || self.misread);
+                if !faulty && self.condition(&here, condition) == Ok(true) {
+                    if turns > limit {
+                        let message =
+                            format!("this loop does not end: it has turned {limit} times");
+                        let label = "its condition stays true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
+                        return;
+                    }
+                    if let Some(frame) = self.frames.last_mut() {
+                        (frame.at, frame.end) = (body.start, body.end);
+                    }
+                    let ast = &here.unit.ast;
+                    let constant = turns == 1 && endless::is_constant(ast, condition);
+                    if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
+                        // Nothing can change: this would only run into the limit.
+                        let message = "this loop does not end".to_owned();
+                        let label = "its condition is always true";
+                        let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
+                    }
+                } else {
+                    self.pop_frame();
+                }
+            }
+            FrameKind::For { symbol, value, to, step, body, turns, directive } => {
+                // The body may have set the counter.
+                let set = match *turns {
+                    0 => None,
+                    _ => self.scopes.read(*symbol).and_then(Value::as_number),
+                };
+                let now = set.map_or(*value, |set| set + *step);
+                *value = now;
+                let reached = super::value::same(now, *to)
+                    // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
+                    || (now - *to).abs() <= 1e-9 * step.abs();
+                let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
+                let left = ((*to - now) / *step).max(0.0);
+                // Without a way out it need not turn to be known.
+                let known = *turns == 0
+                    && left >= limit as f64
+                    && !endless::may_leave(&here.unit.ast, *body);
+                *turns += 1;
+                if goes_on && (*turns > limit || known) {
+                    let (here, directive) = (here.clone(), *directive);
+                    let all = *turns as f64 + left.floor();
+                    let message = format!("this loop has {all} turns; the limit is {limit}");
+                    let label = "it turns too often";
+                    let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
+                } else if goes_on {
+                    (*at, *end) = (body.start, body.end);
+                    let symbol = *symbol;
+                    self.scopes.assign_local(symbol, Value::Number(now));
+                } else {
+                    let symbol = *symbol;
+                    self.scopes.assign_local(symbol, Value::Number(now));
+                    self.pop_frame();
+                }
+            }
+            FrameKind::Barrier
+            | FrameKind::Branch
+            | FrameKind::Switch
+            | FrameKind::Macro
+            | FrameKind::Include => {}
+        }
+    }
+
+    /// The items of the case that `value` chooses, up to the end of the switch: cases fall through.
+    pub(super) fn chosen_case(
+        &mut self,
+        here: &Here,
+        value: f64,
+        cases: &[Case],
+    ) -> Outcome<Option<usize>> {
+        for (index, case) in cases.iter().enumerate() {
+            let chosen = match case.kind {
+                CaseKind::Value(id) => super::value::same(value, self.number(here, id)?),
+                CaseKind::Range(low, high) => {
+                    let (low, high) = (self.number(here, low)?, self.number(here, high)?);
+                    (low..=high).contains(&value)
+                }
+                CaseKind::Otherwise => true,
+            };
+            if chosen {
+                return Ok(Some(index));
+            }
+        }
+        Ok(None)
+    }
+}
