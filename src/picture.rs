@@ -57,6 +57,30 @@ impl Format {
             _ => None,
         }
     }
+
+    /// Why this format cannot hold a picture of so many pixels, where it cannot.
+    pub fn too_large(self, width: u32, height: u32) -> Option<String> {
+        match self {
+            Self::Jpeg if width.max(height) > 65_535 => {
+                Some("a .jpg picture is at most 65535 pixels wide and high".to_owned())
+            }
+            Self::Qoi if u64::from(width) * u64::from(height) > 400_000_000 => {
+                Some("a .qoi picture has at most 400000000 pixels".to_owned())
+            }
+            Self::Jpeg | Self::Qoi | Self::Png | Self::Ppm | Self::Hdr | Self::Exr => None,
+        }
+    }
+
+    /// No file of such a picture is smaller. Exact where nothing is compressed.
+    pub fn least_bytes(self, depth: Depth, width: u32, height: u32) -> u64 {
+        let pixels = u64::from(width) * u64::from(height);
+        match (self, depth) {
+            (Self::Ppm, Depth::Eight) => ppm_header(width, height, 255).len() as u64 + 3 * pixels,
+            (Self::Ppm, _) => ppm_header(width, height, 65_535).len() as u64 + 6 * pixels,
+            // A header, and a bit for every hundred pixels or so.
+            (Self::Png | Self::Jpeg | Self::Qoi | Self::Hdr | Self::Exr, _) => 64 + pixels / 1000,
+        }
+    }
 }
 
 /// The file's bytes. Fails when the format cannot hold the image: too large, or of another depth.
@@ -124,9 +148,13 @@ fn ppm(image: &Image, out: &mut Vec<u8>) -> Result<(), String> {
         Pixels::Sixteen(pixels) => (65_535, big_endian(pixels)),
         Pixels::Linear(_) => return Err("PPM cannot hold linear light".to_owned()),
     };
-    out.extend_from_slice(format!("P6\n{} {}\n{last}\n", image.width, image.height).as_bytes());
+    out.extend_from_slice(ppm_header(image.width, image.height, last).as_bytes());
     out.extend_from_slice(&bytes);
     Ok(())
+}
+
+fn ppm_header(width: u32, height: u32, last: u32) -> String {
+    format!("P6\n{width} {height}\n{last}\n")
 }
 
 fn big_endian(pixels: &[[u16; 3]]) -> Vec<u8> {
@@ -234,6 +262,23 @@ mod tests {
         }
         let wide = Image { width: 70_000, height: 1, pixels: Pixels::Eight(vec![[0; 3]; 70_000]) };
         assert!(encode(&wide, Format::Jpeg).is_err());
+        assert!(Format::Jpeg.too_large(wide.width, wide.height).is_some());
+    }
+
+    #[test]
+    fn no_file_is_smaller_than_said_and_a_ppm_is_as_large() {
+        for (format, bits) in Format::ALL
+            .map(|format| (format, None))
+            .into_iter()
+            .chain([(Format::Png, Some(16)), (Format::Ppm, Some(16))])
+        {
+            let depth = format.depth(bits).expect("a depth");
+            let image = image(depth);
+            let size = encode(&image, format).expect("encodes").len() as u64;
+            let least = format.least_bytes(depth, image.width, image.height);
+            assert!(least <= size, "{format:?}: {least} {size}");
+            assert!(format != Format::Ppm || least == size, "{least} {size}");
+        }
     }
 
     #[test]

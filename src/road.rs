@@ -96,7 +96,8 @@ impl<'a> Road<'a> {
     }
 
     /// A bracket without its partner shifts everything after it: what evaluation then finds out of
-    /// place there is the same mistake once more. So is what it misses on a line that did not parse.
+    /// place there is the same mistake once more. So is what it misses on a line,
+    /// from where that did not parse.
     fn drop_echoes(&mut self, parsed: usize) {
         let line = |span: Span| {
             (span.file, self.sources.get(span.file).position(span.start as usize).line)
@@ -114,8 +115,8 @@ impl<'a> Road<'a> {
         let echoes = |at: Span| {
             faults.iter().any(|&(code, fault)| {
                 fault.file == at.file
-                    && (code.shifts_what_follows() && at.start >= fault.start
-                        || line(fault) == line(at))
+                    && at.start >= fault.start
+                    && (code.shifts_what_follows() || line(fault) == line(at))
             })
         };
         let keep = |later: &Diagnostic| {

@@ -213,7 +213,7 @@ fn a_place_that_cannot_be_written_is_told_before_the_render() {
 #[test]
 fn no_trace_of_a_failed_write_is_left() {
     let place = Place::new();
-    place.run("a.scene --size 70000x1 -o wide.jpg").ends(3, &["wide.jpg"]);
+    place.run("a.scene --size 70000x1 -o wide.jpg").ends(2, &["65535"]);
     assert_eq!(place.names(), ["a.scene", "broken.scene"]);
 }
 
@@ -231,16 +231,85 @@ fn a_full_disk_is_an_error() {
 #[test]
 fn an_interrupted_render_leaves_what_is_done() {
     let place = Place::new();
-    let mut command =
-        place.command("a.scene -o big.png --size 2000x2000 --antialias 16 --threads 1");
-    let child = command.stderr(Stdio::piped()).spawn().expect("runs");
-    std::thread::sleep(std::time::Duration::from_millis(1500));
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.expect("kill").success());
-    let run = Run(child.wait_with_output().expect("ends"));
+    // Whoever is interrupted before the tracing begins dies of it and says nothing: then wait longer.
+    let interrupted = |delay: &u32| {
+        let mut command =
+            place.command("a.scene -o big.png --size 4000x4000 --antialias 16 --threads 1");
+        let child = command.stderr(Stdio::piped()).spawn().expect("runs");
+        std::thread::sleep(std::time::Duration::from_millis(u64::from(*delay)));
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.expect("kill").success());
+        let run = Run(child.wait_with_output().expect("ends"));
+        run.0.status.code().is_some().then_some(run)
+    };
+    let run = [200, 1000, 5000, 20_000].iter().find_map(interrupted).expect("a trace begins");
     run.ends(130, &["interrupted", "big.partial.png"]);
     assert!(place.read("big.partial.png").starts_with(b"\x89PNG"));
     assert!(!place.names().contains(&"big.png".to_owned()));
+}
+
+// ── what is known before ──
+
+#[test]
+fn a_picture_beyond_all_memory_is_a_limit() {
+    let place = Place::new();
+    place
+        .run("a.scene --size 1000000x1000000 --limit pixels=10000000000000")
+        .ends(4, &["GiB of memory", "--limit pixels=N"]);
+    place.run("a.scene --size 20000x20000").ends(4, &["--limit pixels=400000000"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_no_place_for_a_picture_and_nobody_waits_for_its_other_end() {
+    let place = Place::new();
+    let made = Command::new("mkfifo").arg(place.path("a.png")).status();
+    assert!(made.expect("mkfifo").success());
+    place.run("a.scene -o a.png --size 4x4").ends(3, &["it is not a file"]);
+}
+
+#[test]
+fn more_threads_than_are_useful_make_the_same_picture() {
+    let place = Place::new();
+    place.run("a.scene -o many.ppm --size 40x40 --threads 1000").ends(0, &[]);
+    place.run("a.scene -o one.ppm --size 40x40 --threads 1").ends(0, &[]);
+    assert_eq!(place.read("many.ppm"), place.read("one.ppm"));
+}
+
+// ── messages ──
+
+#[test]
+fn the_authors_notes_take_no_room_of_errors_and_move_no_cursor() {
+    let place = Place::new();
+    let notes = "#for (I, 1, 150) #debug concat(chr(27), \"[31mnote\\t\\n\") #end\n";
+    place.write("notes.scene", &format!("{notes}{BROKEN}"));
+    let words = ["␛[31mnote\t\n", "unknown-word", "`pigmnt`"];
+    let run = place.run("check notes.scene").ends(1, &words);
+    assert!(!run.stderr().contains('\u{1b}') && !run.stderr().contains("more;"));
+}
+
+#[test]
+fn many_warnings_hide_no_error() {
+    let place = Place::new();
+    let warnings = "#warning \"careful\"\n".repeat(150);
+    place.write("warnings.scene", &format!("{warnings}{BROKEN}"));
+    place.run("check warnings.scene").ends(1, &["`pigmnt`", "… and 50 more"]);
+}
+
+#[test]
+fn what_stands_before_a_fault_on_its_line_is_told_too() {
+    let place = Place::new();
+    place.write("two.scene", "sphere { 0, 1 pigmnt { } } box { 0, 1 rotate * }\n");
+    let run = place.run("check two.scene --message-format short");
+    run.ends(1, &["`pigmnt`", "expected-expression"]);
+}
+
+#[test]
+fn a_stray_end_hides_nothing_after_it() {
+    let place = Place::new();
+    place.write("stray.scene", "#end\n\nsphere { 0, 1 pigmnt { } }\n");
+    let run = place.run("check stray.scene --message-format short");
+    run.ends(1, &["stray-directive", "`pigmnt`"]);
 }
 
 // ── usage ──
@@ -258,6 +327,10 @@ fn wrong_usage_is_two() {
         "a.scene --threads 0",
         "a.scene --depth 0",
         "a.scene -D 1=2",
+        "a.scene -D sphere=1",
+        "a.scene --stats xml",
+        "a.scene -o a.jpg --size 70000x1",
+        "a.scene -o a.qoi --size 30000x30000 --limit pixels=900000000",
         "a.scene --limit colours=3",
         "a.scene -o a.gif",
         "a.scene -o a",
@@ -273,6 +346,9 @@ fn wrong_usage_is_two() {
         assert!(!run.stderr().is_empty(), "{words}");
     }
     place.run("a.scene -o a.gif").ends(2, &[".gif", ".png"]);
+    place.run("a.scene -D x=2").ends(2, &["`x` is a word of the language"]);
+    place.run("a.scene --stats xml").ends(2, &["xml", "possible values: json"]);
+    place.run("a.scene -o a.jpg --size 70000x1").ends(2, &["at most 65535 pixels"]);
     place.run("explain unknwon-word").ends(2, &["did you mean `unknown-word`?"]);
 }
 
@@ -280,7 +356,9 @@ fn wrong_usage_is_two() {
 fn help_and_version_are_asked_for() {
     let place = Place::new();
     let help = place.run("--help").ends(0, &[]).stdout();
-    for word in ["render", "check", "show", "plan", "explain", "Exit codes"] {
+    for word in
+        ["lucarne [OPTIONS] <FILE>", "render", "check", "show", "plan", "explain", "Exit codes"]
+    {
         assert!(help.contains(word), "{word}");
     }
     assert!(place.run("--version").ends(0, &[]).stdout().starts_with("lucarne "));

@@ -1,4 +1,6 @@
-//! The README's broken scene is told what the README says.
+//! The README and the pages below docs say what is true: their broken scene, their links.
+
+use std::path::Path;
 
 use lucarne::diagnostic::render::{Style, human};
 use lucarne::road::{Options, Road};
@@ -25,4 +27,25 @@ fn the_readmes_broken_scene_is_told_what_the_readme_says() {
         .collect();
     assert_eq!(messages.len(), 2, "{}", messages.join("\n"));
     assert_eq!(messages[0].trim(), said.trim());
+}
+
+#[test]
+fn every_link_of_a_page_leads_somewhere() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pages = vec![root.join("README.md")];
+    let docs = std::fs::read_dir(root.join("docs")).expect("docs are there");
+    pages.extend(docs.map(|entry| entry.expect("readable").path()).filter(|path| path.is_file()));
+    let mut dead = Vec::new();
+    for page in pages {
+        let text = std::fs::read_to_string(&page).expect("readable");
+        for (at, _) in text.match_indices("](") {
+            let link = text[at + 2..].split(')').next().unwrap_or("");
+            let path = link.split('#').next().unwrap_or("");
+            let folder = page.parent().expect("a folder");
+            if !link.contains("://") && !path.is_empty() && !folder.join(path).exists() {
+                dead.push(format!("{}: {link}", page.display()));
+            }
+        }
+    }
+    assert!(dead.is_empty(), "{dead:#?}");
 }

@@ -6,22 +6,30 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::plan::{Antialias, Frame, Region};
 use lucarne::road::{Options, dialect};
 use lucarne::scene::Dialect;
+use lucarne::vocabulary::Word;
 
 use super::exit::Failure;
 use super::messages::{self, Messages};
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
-const MOST_PIXELS: u64 = 1 << 28;
+///
+/// They take about 8 GiB of memory.
+const MOST_PIXELS: u64 = 1 << 27;
 
 /// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
 ///
 /// `lucarne FILE` renders FILE, as `lucarne render FILE` does.
 #[derive(Debug, Parser)]
 #[command(name = "lucarne", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+#[command(override_usage = USAGE)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
 }
+
+const USAGE: &str = "\
+lucarne [OPTIONS] <FILE>
+       lucarne <COMMAND> [OPTIONS] …";
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 the scene has errors; 2 wrong usage; 3 a file cannot be read or written;
@@ -284,6 +292,10 @@ fn declare(text: &str) -> Result<(String, f64), String> {
     if !name.starts_with(letter) || !name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
         return Err(format!("`{name}` is not a name: letters, digits and `_`, no digit first"));
     }
+    // `#declare` takes these no more; only `clock` is set from outside.
+    if name != "clock" && Word::from_name(name).is_some() {
+        return Err(format!("`{name}` is a word of the language, and cannot be declared"));
+    }
     let number = match value {
         "true" | "yes" | "on" => Some(1.0),
         "false" | "no" | "off" => Some(0.0),
@@ -337,8 +349,10 @@ mod tests {
     #[test]
     fn a_declaration_is_a_name_and_a_finite_number() {
         assert_eq!(declare("A_1=-2.5e3"), Ok(("A_1".to_owned(), -2500.0)));
+        assert_eq!(declare("clock=0.5"), Ok(("clock".to_owned(), 0.5)));
         assert_eq!(declare("On=yes"), Ok(("On".to_owned(), 1.0)));
-        for wrong in ["A", "1A=2", "=2", "A=", "A=inf", "A=nan", "A=b", "A b=2"] {
+        for wrong in ["A", "1A=2", "=2", "A=", "A=inf", "A=nan", "A=b", "A b=2", "sphere=1", "x=2"]
+        {
             assert!(declare(wrong).is_err(), "{wrong}");
         }
     }

@@ -11,7 +11,7 @@ use lucarne::source::Sources;
 
 use super::exit::{Exit, Failure, reason};
 
-/// In human form, more than this many messages are counted, not shown.
+/// In human form, more errors than this, and more warnings, are counted, not shown.
 const MOST_SHOWN: usize = 100;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -50,7 +50,7 @@ impl Messages {
         list: impl Iterator<Item = &'a Diagnostic>,
         sources: &Sources,
     ) -> Result<(), Failure> {
-        let (mut out, mut shown, mut more) = (String::new(), 0, 0);
+        let (mut out, mut errors, mut warnings, mut more) = (String::new(), 0, 0, 0);
         for diagnostic in list {
             match diagnostic.severity {
                 Severity::Error if is_limit(diagnostic.code) => self.limits += 1,
@@ -58,17 +58,22 @@ impl Messages {
                 Severity::Warning => self.warnings += 1,
                 Severity::Note => {}
             }
-            shown += 1;
             match self.format {
-                // The author's own words need no drawing.
-                Format::Human if diagnostic.code == Code::AuthorDebug => {
-                    out.push_str(&diagnostic.message);
-                    if !out.ends_with('\n') {
-                        out.push('\n');
-                    }
-                }
-                Format::Human if shown > MOST_SHOWN => more += 1,
                 Format::Human => {
+                    // Neither the author's own words nor warnings take the room of errors.
+                    let shown = match diagnostic.severity {
+                        Severity::Error => &mut errors,
+                        Severity::Warning => &mut warnings,
+                        Severity::Note => {
+                            out.push_str(&render::plain(diagnostic));
+                            continue;
+                        }
+                    };
+                    *shown += 1;
+                    if *shown > MOST_SHOWN {
+                        more += 1;
+                        continue;
+                    }
                     out.push_str(&render::human(diagnostic, sources, self.style));
                     out.push('\n');
                 }

@@ -83,8 +83,16 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if render {
         arguments.insert(1, "render".into());
     }
-    if let Some(at) = arguments.windows(2).position(|two| two[0] == "--stats" && two[1] == "json") {
-        arguments.splice(at..at + 2, ["--stats=json".into()]);
+    // What is no file is a format, if perhaps one that does not exist.
+    let is_format = |word: &OsString| {
+        let text = word.to_string_lossy();
+        !text.is_empty() && text.chars().all(char::is_alphanumeric) && !Path::new(word).exists()
+    };
+    if let Some(at) = arguments.windows(2).position(|two| two[0] == "--stats" && is_format(&two[1]))
+    {
+        let mut whole = OsString::from("--stats=");
+        whole.push(&arguments[at + 1]);
+        arguments.splice(at..at + 2, [whole]);
     }
     arguments
 }
@@ -116,6 +124,7 @@ mod tests {
             completed("lucarne a.scene --stats json"),
             "lucarne render a.scene --stats=json"
         );
+        assert_eq!(completed("lucarne a.scene --stats xml"), "lucarne render a.scene --stats=xml");
         assert_eq!(completed("lucarne --stats a.scene"), "lucarne render --stats a.scene");
     }
 

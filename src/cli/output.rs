@@ -8,7 +8,9 @@ use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
+use lucarne::film::Depth;
 use lucarne::picture::{Format, is_picture};
+use lucarne::plan::Region;
 use lucarne::source::Sources;
 
 use super::exit::{Failure, reason};
@@ -79,8 +81,18 @@ impl Output {
 
     /// Fails when it is clear before the render that the picture could not be written, or should
     /// not: `force` allows what is not a picture to be overwritten.
-    pub fn check(&self, pixels: u64, force: bool) -> Result<(), Failure> {
-        let Self::File { path, .. } = self else { return Ok(()) };
+    pub fn check(&self, part: Region, depth: Depth, force: bool) -> Result<(), Failure> {
+        let (width, height) = (part.width, part.height);
+        if let Some(sentence) = self.format().too_large(width, height) {
+            let help = "the other formats hold more; `--region` renders a part";
+            return Err(Failure::usage(sentence).help(help));
+        }
+        let Self::File { path, format } = self else { return Ok(()) };
+        // To open a pipe is to wait for its other end.
+        if fs::metadata(path).is_ok_and(|about| !about.is_file()) {
+            let help = "`-o -` writes a PNG to standard output";
+            return Err(cannot(path, "it is not a file").help(help));
+        }
         if let Ok(file) = fs::File::open(path) {
             let mut start = Vec::new();
             let read = file.take(64).read_to_end(&mut start);
@@ -93,7 +105,9 @@ impl Output {
         // The one sure way to know that a file can be made there is to make one.
         temporary(path).map(drop)?;
         match free_bytes(folder(path)) {
-            Some(free) if free < least_bytes(pixels) => Err(cannot(path, "the disk is full")),
+            Some(free) if free < format.least_bytes(depth, width, height) => {
+                Err(cannot(path, "the disk is full"))
+            }
             _ => Ok(()),
         }
     }
@@ -151,11 +165,6 @@ fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
     })
 }
 
-/// No picture of so many pixels is smaller: a header, and a bit for every few pixels.
-fn least_bytes(pixels: u64) -> u64 {
-    64 + pixels / 1000
-}
-
 #[cfg(unix)]
 fn free_bytes(folder: &Path) -> Option<u64> {
     let about = nix::sys::statvfs::statvfs(folder).ok()?;
@@ -173,6 +182,8 @@ fn free_bytes(_: &Path) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const PIXEL: Region = Region { x: 0, y: 0, width: 1, height: 1 };
 
     #[test]
     fn the_default_is_the_scenes_name_where_it_was_run() {
@@ -206,12 +217,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.ppm");
         let output = Output::File { path: path.clone(), format: Format::Ppm };
-        assert!(output.check(1, false).is_ok());
+        assert!(output.check(PIXEL, Depth::Eight, false).is_ok());
         fs::write(&path, "my notes").expect("written");
-        assert!(output.check(1, false).is_err());
-        assert!(output.check(1, true).is_ok());
+        assert!(output.check(PIXEL, Depth::Eight, false).is_err());
+        assert!(output.check(PIXEL, Depth::Eight, true).is_ok());
         fs::write(&path, "P6\n1 1\n255\nabc").expect("written");
-        assert!(output.check(1, false).is_ok());
+        assert!(output.check(PIXEL, Depth::Eight, false).is_ok());
         output.write(b"P6\n1 1\n255\ndef").expect("written");
         assert_eq!(fs::read(&path).expect("read"), b"P6\n1 1\n255\ndef");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
@@ -220,7 +231,7 @@ mod tests {
     #[test]
     fn a_place_that_cannot_be_written_is_known_before() {
         let output = Output::File { path: "/no/such/folder/a.png".into(), format: Format::Png };
-        let failure = output.check(1, false).expect_err("no folder");
+        let failure = output.check(PIXEL, Depth::Eight, false).expect_err("no folder");
         assert!(failure.sentence.contains("there is no folder `/no/such/folder`"));
     }
 }

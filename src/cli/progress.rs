@@ -47,7 +47,7 @@ impl Progress {
         Self { bar, stop, started: cpu_seconds(), built: OnceLock::new() }
     }
 
-    /// CPU seconds from the start until the first piece of work was begun.
+    /// CPU seconds from the start until the tree of boxes stood.
     pub fn build_cpu_seconds(&self) -> f64 {
         self.built.get().map_or(0.0, |built| built - self.started)
     }
@@ -63,9 +63,11 @@ impl Watch for Progress {
         self.bar.set_position(done as u64);
     }
 
-    fn should_stop(&self) -> bool {
-        // The first piece of work is begun when the tree of boxes stands.
+    fn built(&self) {
         self.built.get_or_init(cpu_seconds);
+    }
+
+    fn should_stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }

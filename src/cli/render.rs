@@ -1,8 +1,11 @@
 //! `lucarne render`: from a scene file to a picture file.
 
-use lucarne::film::develop;
+use std::num::NonZero;
+use std::thread::available_parallelism;
+
+use lucarne::film::{Film, develop};
 use lucarne::picture::encode;
-use lucarne::plan::{PlanOptions, plan};
+use lucarne::plan::{PlanOptions, Region, plan};
 use lucarne::road::Road;
 use lucarne::trace::{TraceOptions, trace};
 
@@ -27,8 +30,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     })?;
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_main(&arguments.file)?;
-    output
-        .check(u64::from(frame.region.width) * u64::from(frame.region.height), arguments.force)?;
+    output.check(frame.region, depth, arguments.force)?;
+    fits(frame.region)?;
 
     let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
     let options = arguments.scene.options(&arguments.file, Some(frame));
@@ -57,7 +60,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let plan = plan(&world, &origins, &options);
     watch.lap();
     let progress = Progress::start();
-    let threads = arguments.threads.map(usize::from);
+    let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
     let traced = trace(&world, &plan, &TraceOptions { threads }, &progress);
     progress.end();
     stats.build_cpu_s = progress.build_cpu_seconds();
@@ -104,4 +107,28 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         stats.print(format, output == Output::Stdout)?;
     }
     Ok(Exit::Done)
+}
+
+/// Fails when there is clearly not the memory for the film, which an allocation could only tell by
+/// ending the program.
+fn fits(part: Region) -> Result<(), Failure> {
+    let pixels = u64::from(part.width) * u64::from(part.height);
+    let bytes = pixels.saturating_mul(Film::BYTES_PER_PIXEL);
+    let reserved =
+        usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
+    match reserved {
+        true => Ok(()),
+        false => Err(Failure::limit(format!(
+            "a picture of {pixels} pixels takes about {:.1} GiB of memory, which cannot be had",
+            bytes as f64 / f64::from(1 << 30)
+        ))
+        .help(
+            "`--region` renders a part; `--limit pixels=N` refuses pictures of more than N pixels",
+        )),
+    }
+}
+
+/// More threads than this only cost their start: the picture does not depend on their number.
+fn most_threads() -> usize {
+    4 * available_parallelism().map_or(1, NonZero::get)
 }

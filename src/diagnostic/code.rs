@@ -128,7 +128,6 @@ impl Code {
                 | Self::UnclosedComment
                 | Self::StrayCloser
                 | Self::MissingEnd
-                | Self::StrayDirective
                 | Self::NestingLimit
         )
     }

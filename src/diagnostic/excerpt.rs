@@ -1,7 +1,7 @@
 //! The few lines a message shows, made safe to print.
 //!
 //! **In:** places in any number of files. **Out:** the lines around them, one text a run of
-//! neighbouring lines, all runs in one space of offsets. **Invariant:** only those lines are
+//! neighbouring lines, all runs in one space of offsets, the first place's run first. **Invariant:** only those lines are
 //! copied; no line is longer than the room for it (unless labels fill it); no control or
 //! direction-changing character is left.
 
@@ -49,6 +49,7 @@ impl Excerpt {
             let here: Vec<Span> = spans.iter().copied().filter(|span| span.file == file).collect();
             excerpt.add_file(file, &here, sources, room);
         }
+        excerpt.put_first(spans.first());
         excerpt.marks = spans
             .iter()
             .map(|span| {
@@ -81,9 +82,8 @@ impl Excerpt {
         let mut previous = None;
         for line in lines {
             if previous.is_none_or(|previous| line > previous + 1) {
-                let base = self.runs.last().map_or(0, |run| run.base + run.text.len() + 1);
                 let (text, places) = (String::new(), Vec::new());
-                self.runs.push(Run { file, first_line: line, base, text, places });
+                self.runs.push(Run { file, first_line: line, base: 0, text, places });
             }
             previous = Some(line);
             if let Some(run) = self.runs.last_mut() {
@@ -92,10 +92,31 @@ impl Excerpt {
         }
     }
 
+    /// The first run is read first: it becomes the one that holds `span`. Lays the runs out.
+    fn put_first(&mut self, span: Option<&Span>) {
+        let first = span.and_then(|span| self.run(span.file, span.start as usize));
+        if let Some(first) = first {
+            self.runs[..=first].rotate_right(1);
+        }
+        let mut base = 0;
+        for run in &mut self.runs {
+            run.base = base;
+            base += run.text.len() + 1;
+        }
+    }
+
+    /// The number of the last run of `file` that begins at or before its byte `at`.
+    fn run(&self, file: FileId, at: usize) -> Option<usize> {
+        let begin = |i: &usize| {
+            let run = &self.runs[*i];
+            run.places.first().map(|place| place.0).filter(|&b| run.file == file && b <= at)
+        };
+        (0..self.runs.len()).filter(|i| begin(i).is_some()).max_by_key(begin)
+    }
+
     /// Where byte `at` of `file` is shown: exactly, or at the cut before it.
     fn offset(&self, file: FileId, at: usize) -> usize {
-        let begins = |run: &&Run| run.file == file && run.places.first().is_some_and(|p| p.0 <= at);
-        let Some(run) = self.runs.iter().rev().find(begins) else { return 0 };
+        let Some(run) = self.run(file, at).map(|i| &self.runs[i]) else { return 0 };
         let after = run.places.partition_point(|place| place.0 <= at);
         run.base + run.places[after.saturating_sub(1)].1
     }
@@ -193,8 +214,13 @@ pub fn push_visible(text: &mut String, c: char) {
 
 /// A sentence made safe to print: like [`push_visible`], but line breaks stay.
 pub fn visible(text: &str) -> String {
+    visible_untrimmed(text.trim_end())
+}
+
+/// Like [`visible`], with the white space at the end.
+pub fn visible_untrimmed(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.trim_end().chars() {
+    for c in text.chars() {
         if c == '\n' { out.push(c) } else { push_visible(&mut out, c) }
     }
     out
@@ -222,8 +248,8 @@ mod tests {
     fn only_the_lines_around_the_places_are_copied() {
         let text: String = (0..1000).map(|i| format!("line{i:04}\n")).collect();
         let cut = excerpt(&text, &[(9 * 500, 9 * 500 + 8), (9 * 10, 9 * 10 + 4)]);
-        assert_eq!(cut.runs[0].text, "line0009\nline0010\nline0011\n");
-        assert_eq!((cut.runs[1].first_line, cut.runs[1].text.lines().count()), (500, 3));
+        assert_eq!(cut.runs[1].text, "line0009\nline0010\nline0011\n");
+        assert_eq!((cut.runs[0].first_line, cut.runs[0].text.lines().count()), (500, 3));
         assert_eq!((marked(&cut, 0), marked(&cut, 1)), ("line0500", "line"));
     }
 

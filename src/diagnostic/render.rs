@@ -8,7 +8,7 @@ use std::fmt;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceSpan};
 
-use super::excerpt::{Excerpt, visible};
+use super::excerpt::{Excerpt, visible, visible_untrimmed};
 use super::json::severity_name;
 use super::{Diagnostic, Severity};
 use crate::source::{FileId, Position, Sources, Span};
@@ -49,6 +49,15 @@ pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String
         text = short(diagnostic, sources) + "\n";
     }
     text.lines().flat_map(|line| [line.trim_end(), "\n"]).collect()
+}
+
+/// The message alone, as its author laid it out; ends in a line break.
+pub fn plain(diagnostic: &Diagnostic) -> String {
+    let mut text = visible_untrimmed(&diagnostic.message);
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    text
 }
 
 /// `file:line:column: error[code]: message`, one line, no line break at its end.

@@ -362,11 +362,30 @@ impl Repair<'_> {
                 (Code::MissingEnd, format!("{shown} has no `#end`"), "`#end`".to_owned())
             }
         };
-        let label = if ends_file { found } else { format!("expected {expected} before `{found}`") };
+        let label = match self.closed_by(at).filter(|_| open.outside.is_none()) {
+            _ if ends_file => found,
+            // "expected `}` before `}`" would tell nobody whose it is.
+            Some(outer) if expected == format!("`{found}`") => {
+                format!("this closes {}", self.shown(outer))
+            }
+            Some(_) | None => format!("expected {expected} before `{found}`"),
+        };
         let diagnostic = Diagnostic::new(code, message)
             .at(self.span(open.token), "opened here")
             .also(place, label);
         self.tell(diagnostic);
+    }
+
+    /// What of all that is open the closer at `at` closes.
+    fn closed_by(&self, at: usize) -> Option<usize> {
+        let innermost = |wanted: Opener| {
+            self.open.iter().rev().find(|open| open.opener == wanted).map(|open| open.token)
+        };
+        match turn(self.tokens.get(at)?.kind)? {
+            Turn::Close(Opener::Directive) => self.openers.get(&at).copied(),
+            Turn::Close(bracket @ Opener::Bracket(_)) => innermost(bracket),
+            Turn::Open(_) | Turn::Divide => None,
+        }
     }
 
     fn tell(&mut self, diagnostic: Diagnostic) {

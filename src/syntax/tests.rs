@@ -110,6 +110,16 @@ union {
 }
 plane { y, 0 }
 "#;
+    a_closer_taken_for_an_inner_one_is_told_as_the_outer_ones: r#"
+union {
+  sphere {
+    0, 1
+}
+#if (1)
+  #if (2)
+    box { 0, 1 }
+#end
+"#;
     a_forgotten_brace_at_the_end: r#"
 sphere {
   0, 1

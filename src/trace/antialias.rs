@@ -7,6 +7,7 @@
 use crate::color::{Rgb, srgb_encode};
 use crate::film::Film;
 use crate::math::elementary::pow;
+use crate::plan::Region;
 
 /// The mean of the `grid` × `grid` samples that `sample` gives, in a fixed order.
 pub(super) fn mean(grid: u32, mut sample: impl FnMut(u32, u32) -> Rgb) -> Rgb {
@@ -24,13 +25,13 @@ pub(super) fn mean(grid: u32, mut sample: impl FnMut(u32, u32) -> Rgb) -> Rgb {
 }
 
 /// A film as a display would show it, to find its edges in.
-pub(super) struct Shown<'a> {
-    film: &'a Film,
+pub(super) struct Shown {
+    region: Region,
     encoded: Vec<[f64; 3]>,
 }
 
-impl<'a> Shown<'a> {
-    pub fn new(film: &'a Film) -> Self {
+impl Shown {
+    pub fn new(film: &Film) -> Self {
         let mut last = (Rgb::BLACK, [0.0; 3]);
         let encoded = film.radiance.iter().map(|&radiance| {
             // Flat areas are common and the curve is dear.
@@ -39,13 +40,13 @@ impl<'a> Shown<'a> {
             }
             last.1
         });
-        Self { film, encoded: encoded.collect() }
+        Self { region: film.frame.region, encoded: encoded.collect() }
     }
 
     /// Whether pixel (`x`, `y`) differs by more than `threshold`, in an encoded component, from
     /// one of its neighbours on the film.
     pub fn is_edge(&self, x: u32, y: u32, threshold: f64) -> bool {
-        let region = self.film.frame.region;
+        let region = self.region;
         let row = region.width as usize;
         let (column, line) = ((x - region.x) as usize, (y - region.y) as usize);
         let here = self.encoded[line * row + column];

@@ -39,6 +39,8 @@ pub struct TraceOptions {
 
 /// Whoever waits for the film. Called from several threads at once.
 pub trait Watch: Sync {
+    /// The tree of boxes stands, and tracing begins. Called once.
+    fn built(&self) {}
     /// `done` of `total` pieces of work are done.
     fn progress(&self, done: usize, total: usize);
     /// Asked before each piece; once it says yes, no further piece is begun.
@@ -108,6 +110,7 @@ impl Walk {
 /// instead in each pixel that differs from a neighbour.
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
     let tracer = Tracer::new(world, plan);
+    watch.built();
     let crew = Crew::new(options.threads, watch);
     // The hot effects, chosen once a frame.
     match (plan.simulates(Effect::Shadows), plan.simulates(Effect::Reflection)) {
@@ -146,11 +149,9 @@ fn frame(
             let border = grown(region, width, height);
             let first =
                 crew.pass(empty(border), border, (0, 2), |walk, x, y| Some(sampled(walk, x, y, 1)));
+            let shown = first.complete.then(|| Shown::new(&first.film));
             let film = first.film.crop(region);
-            if !first.complete {
-                return Traced { film, ..first };
-            }
-            let shown = Shown::new(&first.film);
+            let Some(shown) = shown else { return Traced { film, ..first } };
             let mut second = crew.pass(film, region, (1, 2), |walk, x, y| {
                 let edge = shown.is_edge(x, y, threshold);
                 edge.then(|| sampled(walk, x, y, grid.max(1)))

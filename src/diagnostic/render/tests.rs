@@ -179,3 +179,14 @@ fn the_summary_counts_errors_and_warnings() {
     assert_eq!(summary(0, 1).as_deref(), Some("1 warning"));
     assert_eq!(summary(2, 1).as_deref(), Some("2 errors, 1 warning"));
 }
+
+#[test]
+fn the_mistake_is_drawn_before_what_stands_far_above_it() {
+    let (sources, file) = one_file("a.scene", &format!("first\n{}last\n", "\n".repeat(20)));
+    let diagnostic = Diagnostic::new(Code::WrongArity, "too many")
+        .at(find(&sources, file, "last"), "here")
+        .also(find(&sources, file, "first"), "declared here");
+    let text = human(&diagnostic, &sources, Style::PLAIN);
+    let at = |place: &str| text.find(place).unwrap_or_else(|| panic!("no {place} in {text}"));
+    assert!(at("a.scene:22:1]") < at("a.scene:1:1]"), "{text}");
+}

@@ -26,7 +26,7 @@ fn a_region_is_an_exact_crop_of_the_whole() {
         let region = Region { x, y, width, height };
         options.frame.region = region;
         let part = traced_by(&world, &plan(&world, &Origins::default(), &options)).film;
-        assert_eq!(part, whole.crop(region));
+        assert_eq!(part, whole.clone().crop(region));
     }
 }
 
