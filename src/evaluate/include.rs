@@ -23,7 +23,19 @@ impl Evaluator<'_> {
                     return Err(Reported);
                 }
             },
-            _ => self.string(here, file)?,
+            _ => match self.bare_path(span) {
+                Some(path) => {
+                    self.lacks_include = true;
+                    let quoted = format!("\"{path}\"");
+                    let diagnostic =
+                        Diagnostic::new(Code::WrongType, "the name of a file stands in quotes")
+                            .at(span, "expected a string")
+                            .help(format!("write `#include {quoted}`"))
+                            .fix(span, quoted);
+                    return Err(self.report(here, diagnostic));
+                }
+                None => self.string(here, file)?,
+            },
         };
         if self.including.len() as u32 > self.options.limits.include_depth {
             return Err(self.include_limit(here, &name, span));
@@ -48,6 +60,16 @@ impl Evaluator<'_> {
         });
         self.push_include(&unit, expansion, found.name);
         Ok(())
+    }
+
+    /// `colors.inc` or `<colors.inc>`: a path without its quotes.
+    fn bare_path(&self, span: Span) -> Option<String> {
+        let text = self.sources.text(span).trim_start_matches('<').trim_end_matches('>').trim();
+        let (name, extension) = text.rsplit_once('.')?;
+        let is_path =
+            |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_-./\\".contains(c));
+        let known = ["inc", "pov", "scene", "map", "mcr"].contains(&extension);
+        (known && is_path(name)).then(|| text.to_owned())
     }
 
     fn read_unit(&mut self, here: &Here, span: Span, name: &str, bytes: Vec<u8>) -> Rc<Unit> {
