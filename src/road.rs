@@ -112,16 +112,18 @@ impl<'a> Road<'a> {
         if faults.is_empty() {
             return;
         }
-        let echoes = |at: Span| {
+        // A part that is missing, or one too many, is told at the head of its block: before the fault.
+        let about_parts = |code| matches!(code, Code::MissingPart | Code::ExtraPart);
+        let echoes = |later: Code, at: Span| {
             faults.iter().any(|&(code, fault)| {
-                fault.file == at.file
-                    && at.start >= fault.start
-                    && (code.shifts_what_follows() || line(fault) == line(at))
+                let same_line = line(fault) == line(at);
+                let behind = fault.file == at.file && at.start >= fault.start;
+                behind && code.shifts_what_follows() || same_line && (behind || about_parts(later))
             })
         };
         let keep = |later: &Diagnostic| {
             let place = later.primary().map(|label| label.span);
-            !(later.code.is_about_place() && place.is_none_or(echoes))
+            !(later.code.is_about_place() && place.is_none_or(|at| echoes(later.code, at)))
         };
         self.diagnostics.retain_after(parsed, keep);
     }
