@@ -96,8 +96,8 @@ impl<'a> Road<'a> {
     }
 
     /// A bracket without its partner shifts everything after it: what evaluation then finds out of
-    /// place there is the same mistake once more. So is what it misses on a line,
-    /// from where that did not parse.
+    /// place there is the same mistake once more. So is what it misses in a block that did not
+    /// parse, and after that on the same line.
     fn drop_echoes(&mut self, parsed: usize) {
         let line = |span: Span| {
             (span.file, self.sources.get(span.file).position(span.start as usize).line)
@@ -113,10 +113,12 @@ impl<'a> Road<'a> {
             return;
         }
         let echoes = |at: Span| {
+            let reach = reach(&self.sources, at);
             faults.iter().any(|&(code, fault)| {
+                let follows = at.start >= fault.start;
                 fault.file == at.file
-                    && at.start >= fault.start
-                    && (code.shifts_what_follows() || line(fault) == line(at))
+                    && (follows && code.shifts_what_follows()
+                        || (follows || fault.start <= reach) && line(fault) == line(at))
             })
         };
         let keep = |later: &Diagnostic| {
@@ -137,6 +139,22 @@ impl<'a> Road<'a> {
         let scene = self.evaluate(&ast);
         self.lower(scene)
     }
+}
+
+/// Where the block that begins at `at` ends, as far as its line shows it.
+fn reach(sources: &Sources, at: Span) -> u32 {
+    let text = &sources.get(at.file).text;
+    let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
+    let (line, mut depth) = (line.unwrap_or(""), 0);
+    let end = line.bytes().position(|byte| {
+        depth += match byte {
+            b'{' | b'(' | b'[' => 1,
+            b'}' | b')' | b']' => -1,
+            _ => return false,
+        };
+        depth <= 0
+    });
+    at.start + end.unwrap_or(line.len()) as u32
 }
 
 #[cfg(test)]
