@@ -96,8 +96,8 @@ impl<'a> Road<'a> {
     }
 
     /// A bracket without its partner shifts everything after it: what evaluation then finds out of
-    /// place there is the same mistake once more. So is what it misses on a line,
-    /// from where that did not parse.
+    /// place there is the same mistake once more. So is what it misses in a block that did not
+    /// parse, and after that on the same line.
     fn drop_echoes(&mut self, parsed: usize) {
         let line = |span: Span| {
             (span.file, self.sources.get(span.file).position(span.start as usize).line)
@@ -112,18 +112,18 @@ impl<'a> Road<'a> {
         if faults.is_empty() {
             return;
         }
-        // A part that is missing, or one too many, is told at the head of its block: before the fault.
-        let about_parts = |code| matches!(code, Code::MissingPart | Code::ExtraPart);
-        let echoes = |later: Code, at: Span| {
+        let echoes = |at: Span| {
+            let reach = reach(&self.sources, at);
             faults.iter().any(|&(code, fault)| {
-                let same_line = line(fault) == line(at);
-                let behind = fault.file == at.file && at.start >= fault.start;
-                behind && code.shifts_what_follows() || same_line && (behind || about_parts(later))
+                let follows = at.start >= fault.start;
+                fault.file == at.file
+                    && (follows && code.shifts_what_follows()
+                        || (follows || fault.start <= reach) && line(fault) == line(at))
             })
         };
         let keep = |later: &Diagnostic| {
             let place = later.primary().map(|label| label.span);
-            !(later.code.is_about_place() && place.is_none_or(|at| echoes(later.code, at)))
+            !(later.code.is_about_place() && place.is_none_or(echoes))
         };
         self.diagnostics.retain_after(parsed, keep);
     }
@@ -139,6 +139,22 @@ impl<'a> Road<'a> {
         let scene = self.evaluate(&ast);
         self.lower(scene)
     }
+}
+
+/// Where the block that begins at `at` ends, as far as its line shows it.
+fn reach(sources: &Sources, at: Span) -> u32 {
+    let text = &sources.get(at.file).text;
+    let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
+    let (line, mut depth) = (line.unwrap_or(""), 0);
+    let end = line.bytes().position(|byte| {
+        depth += match byte {
+            b'{' | b'(' | b'[' => 1,
+            b'}' | b')' | b']' => -1,
+            _ => return false,
+        };
+        depth <= 0
+    });
+    at.start + end.unwrap_or(line.len()) as u32
 }
 
 #[cfg(test)]
