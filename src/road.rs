@@ -128,7 +128,11 @@ impl<'a> Road<'a> {
         self.diagnostics.retain_after(parsed, keep);
     }
 
+    /// Beyond a limit nothing is lowered: the scene is not whole, and its message was given.
     pub fn lower(&mut self, scene: Scene) -> (World, Origins) {
+        if self.diagnostics.iter().any(|message| message.code == Code::ObjectLimit) {
+            return (World::default(), Origins::default());
+        }
         lower(scene, &mut self.diagnostics)
     }
 
@@ -180,6 +184,21 @@ mod tests {
         road.compile("a.scene", deep.into_bytes());
         let codes: Vec<Code> = road.diagnostics.iter().map(|message| message.code).collect();
         assert_eq!(codes, [Code::NestingLimit]);
+    }
+
+    #[test]
+    fn a_scene_beyond_the_object_limit_is_not_lowered() {
+        let world = |objects| {
+            let mut options = Options::new(Dialect::Scene);
+            options.evaluate.limits.objects = objects;
+            let mut road = Road::new(&NoFiles, options);
+            let text = "sphere { 0, 1 } sphere { x, 1 } sphere { y, 1 }";
+            let (world, _) = road.compile("a.scene", text.into());
+            let limits = road.diagnostics.iter().filter(|m| m.code == Code::ObjectLimit).count();
+            (world.objects.len(), limits)
+        };
+        assert_eq!(world(2), (0, 1));
+        assert_eq!(world(100), (3, 0));
     }
 
     #[test]

@@ -53,7 +53,9 @@ pub struct Origins {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dropped {
     pub site: Site,
-    /// `light_source is black`.
+    /// `light_source`.
+    pub what: String,
+    /// `its colour is black`.
     pub why: String,
 }
 

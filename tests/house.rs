@@ -100,7 +100,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("stacker", &["evaluate/"]),
     ("image", &["picture"]),
     ("png", &["picture"]),
-    ("rayon", &["trace/", "geometry/"]),
+    ("rayon", &["trace/"]),
     ("clap", &["cli/", "main.rs"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),

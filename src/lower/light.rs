@@ -13,7 +13,11 @@ impl Lowering<'_, '_> {
     /// A black light gives nothing and is dropped.
     pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site) {
         if light.color.is_black() {
-            self.origins.dropped.push(Dropped { site, why: "light_source is black".to_owned() });
+            self.origins.dropped.push(Dropped {
+                site,
+                what: "light_source".to_owned(),
+                why: "its colour is black".to_owned(),
+            });
             return;
         }
         if let Some(light) = self.reporter.made(spend(light, map), site) {

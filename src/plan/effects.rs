@@ -162,7 +162,7 @@ impl<'a> Census<'a> {
             }
         }
         plan.left_out.extend(self.origins.dropped.iter().map(|dropped| LeftOut {
-            what: "part of the scene".to_owned(),
+            what: dropped.what.clone(),
             why: dropped.why.clone(),
             site: Some(dropped.site),
         }));
@@ -384,7 +384,11 @@ mod tests {
         world.lights.push(Light { color: Rgb::BLACK, ..world.lights[0] });
         world.lights.push(Light { casts_shadows: false, ..world.lights[0] });
         origins.lights.extend([site(21), site(22)]);
-        origins.dropped.push(Dropped { site: site(50), why: "nothing is in it".to_owned() });
+        origins.dropped.push(Dropped {
+            site: site(50),
+            what: "light_source".to_owned(),
+            why: "its colour is black".to_owned(),
+        });
         let plan = plan(&world, &origins, &OPTIONS);
         let sites = plan.left_out.iter().filter_map(|left| left.site);
         assert_eq!(sites.collect::<Vec<_>>(), [site(21), site(22), site(50)]);

@@ -1,7 +1,9 @@
 //! What to do about a World: which effects to simulate and why, and what each knob is set to.
 //!
-//! **Invariant:** the tracer simulates what the Plan names and nothing else; pruning is exact or
-//! not done.
+//! **Invariant:** each effect is named once, as simulated or as left out; pruning is exact or not
+//! done. Diffuse light, highlights, shadows, reflection and the sky are decisions: the tracer asks
+//! the Plan. Patterns, single lights and lobes are data: the tracer evaluates those the World has
+//! (and passes over black lights by itself), and the Plan only says whether there are any.
 
 mod effects;
 pub mod print;

@@ -37,8 +37,7 @@ fn write(out: &mut String, plan: &Plan, sources: &Sources) -> fmt::Result {
     writeln!(out, "adc_bailout {}", plan.adc_bailout)?;
     writeln!(out, "simulated")?;
     for called in &plan.effects {
-        let name = format!("{:?}", called.effect).to_lowercase();
-        writeln!(out, "  {name}: {}", called.cost)?;
+        writeln!(out, "  {}: {}", called.effect.name(), called.cost)?;
         writeln!(out, "    called for by {}", callers(called, sources))?;
     }
     writeln!(out, "left out")?;

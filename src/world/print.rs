@@ -64,7 +64,8 @@ impl Printer<'_> {
         if !self.origins.dropped.is_empty() {
             writeln!(out, "left out")?;
             for dropped in &self.origins.dropped {
-                writeln!(out, "  {}{}", dropped.why, self.at(Some(dropped.site)))?;
+                let at = self.at(Some(dropped.site));
+                writeln!(out, "  {}: {}{at}", dropped.what, dropped.why)?;
             }
         }
         Ok(())

@@ -106,7 +106,8 @@ fn a_black_light_is_dropped_and_that_is_said() {
     assert_eq!(world.lights.len(), 1);
     let position = v(2.0, 4.0, 6.0);
     assert_eq!(world.lights[0].kind, crate::world::LightKind::Point { position });
-    assert_eq!(origins.dropped[0].why, "light_source is black");
+    let dropped = &origins.dropped[0];
+    assert_eq!((&*dropped.what, &*dropped.why), ("light_source", "its colour is black"));
 }
 
 #[test]
