@@ -5,7 +5,7 @@
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::evaluate::{EvaluateOptions, evaluate};
-use crate::lower::lower;
+use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
 use crate::source::{FileId, Files, Source, Sources, Span, decode};
 use crate::syntax::ast::Ast;
@@ -133,7 +133,8 @@ impl<'a> Road<'a> {
         if self.diagnostics.iter().any(|message| message.code == Code::ObjectLimit) {
             return (World::default(), Origins::default());
         }
-        lower(scene, &mut self.diagnostics)
+        let options = LowerOptions { objects: self.options.evaluate.limits.objects };
+        lower(scene, &options, &mut self.diagnostics)
     }
 
     /// From the main file to its World.

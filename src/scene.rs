@@ -44,6 +44,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     pub pigments: Vec<Pigment>,
     pub finishes: Vec<Finish>,
+    /// Where each finish was written; a finish without an entry is a default.
+    pub finish_sites: Vec<Option<Site>>,
     pub expansions: Expansions,
 }
 
@@ -144,6 +146,13 @@ pub struct Pigment {
     pub kind: PigmentKind,
     pub transforms: Vec<TransformId>,
     pub site: Site,
+}
+
+impl Pigment {
+    /// Where it was written; `None` for the default, whose place is empty.
+    pub fn written(&self) -> Option<Site> {
+        Some(self.site).filter(|site| site.span.start < site.span.end)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]

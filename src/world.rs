@@ -39,14 +39,21 @@ pub struct World {
 pub struct Origins {
     pub objects: Vec<Site>,
     pub lights: Vec<Site>,
-    /// The pigment or texture that first called for each material.
-    pub materials: Vec<Option<Site>>,
+    /// What first called for each material.
+    pub materials: Vec<MaterialOrigin>,
     pub camera: Option<Site>,
     pub sky: Option<Site>,
     pub max_trace_level: Option<Site>,
     /// What lowering left out, and why.
     pub dropped: Vec<Dropped>,
     pub expansions: Expansions,
+}
+
+/// Where a material's parts were written; `None` for a default.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MaterialOrigin {
+    pub pigment: Option<Site>,
+    pub finish: Option<Site>,
 }
 
 /// A part of the Scene that cannot change the picture, and so is not in the World.

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::geometry::{self, Geometry};
-use crate::lower;
+use crate::lower::{self, LowerOptions};
 use crate::math::{UnitVector, Vector};
 use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId};
 use crate::shape::Ray;
@@ -128,7 +128,8 @@ impl Evaluator<'_> {
         }
         let alone = alone(&self.scene, object);
         // What is wrong with the object is said when it is placed.
-        let (world, _) = lower::lower(alone, &mut Diagnostics::new(false));
+        let (world, _) =
+            lower::lower(alone, &LowerOptions::default(), &mut Diagnostics::new(false));
         let geometry = Geometry::build(&world);
         let probe = Rc::new(Probe { world, geometry });
         self.probes.insert(object, probe.clone());

@@ -18,8 +18,25 @@ use crate::scene::Scene;
 use crate::source::{Expansions, Site};
 use crate::world::{Origins, Settings, World};
 
+/// What the caller sets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LowerOptions {
+    /// The most objects, uses of one another counted each: shared unions can hold 2ⁿ in n lines.
+    pub objects: u64,
+}
+
+impl Default for LowerOptions {
+    fn default() -> Self {
+        Self { objects: 5_000_000 }
+    }
+}
+
 /// Lowers a Scene; see the module.
-pub fn lower(scene: Scene, diagnostics: &mut Diagnostics) -> (World, Origins) {
+pub fn lower(
+    scene: Scene,
+    options: &LowerOptions,
+    diagnostics: &mut Diagnostics,
+) -> (World, Origins) {
     let mut lowering = Lowering {
         world: World::default(),
         origins: Origins::default(),
@@ -27,6 +44,7 @@ pub fn lower(scene: Scene, diagnostics: &mut Diagnostics) -> (World, Origins) {
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         scene: &scene,
+        options: *options,
     };
     lowering.settings();
     lowering.camera();
@@ -41,6 +59,7 @@ pub fn lower(scene: Scene, diagnostics: &mut Diagnostics) -> (World, Origins) {
 /// A lowering under way: what is read, what is written, what is remembered.
 struct Lowering<'s, 'd> {
     scene: &'s Scene,
+    options: LowerOptions,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,

@@ -13,9 +13,6 @@ use crate::shape::Shape;
 use crate::source::Site;
 use crate::world::Object;
 
-/// How many objects a walk visits before it gives up: shared unions can hold 2ⁿ in n lines.
-const OBJECT_LIMIT: usize = 1 << 22;
-
 /// What a child takes from above.
 #[derive(Debug, Clone, Copy)]
 struct Inherited {
@@ -45,6 +42,7 @@ struct Frame<'s> {
 impl<'s> Lowering<'s, '_> {
     pub(super) fn objects(&mut self) {
         let scene = self.scene;
+        let limit = self.options.objects;
         let mut visits = 0;
         for Root { object, default_texture } in &scene.roots {
             let default =
@@ -64,11 +62,12 @@ impl<'s> Lowering<'s, '_> {
                     continue;
                 };
                 visits += 1;
-                if visits > OBJECT_LIMIT {
+                if visits > limit {
                     let fault = Fault::new(
                         Code::ObjectLimit,
-                        format!("the scene has more than {OBJECT_LIMIT} objects"),
-                    );
+                        format!("the scene has more than {limit} objects"),
+                    )
+                    .help("raise the limit with `--limit objects=N`");
                     self.reporter
                         .fault(fault.label("reached here"), scene.objects[id.index()].site);
                     return;

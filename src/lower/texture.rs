@@ -19,7 +19,7 @@ use crate::math::placement::Map;
 use crate::pattern::Pattern;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
 use crate::source::Site;
-use crate::world::{FaceCoordinates, Finish, Material, Pigment, Sky, World};
+use crate::world::{FaceCoordinates, Finish, Material, MaterialOrigin, Pigment, Sky, World};
 
 /// What has been put into the World's lists of materials and maps.
 #[derive(Default)]
@@ -124,7 +124,8 @@ impl Lowering<'_, '_> {
         let index = known.unwrap_or_else(|| {
             let index = materials.len() as u32;
             materials.push(material);
-            self.origins.materials.push(Some(written.site));
+            let finish = scene.finish_sites.get(finish.index()).copied().flatten();
+            self.origins.materials.push(MaterialOrigin { pigment: written.written(), finish });
             alike.push(index);
             index
         });

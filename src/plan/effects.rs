@@ -44,18 +44,23 @@ fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)
 struct Census<'a> {
     world: &'a World,
     origins: &'a Origins,
-    /// What called for each material: its pigment or texture, else the first object that has it.
-    callers: Vec<Option<Site>>,
+    /// What called for each material's pigment: where it was written, else the first object that has it.
+    pigments: Vec<Option<Site>>,
+    /// The same of its finish.
+    finishes: Vec<Option<Site>>,
 }
 
 impl<'a> Census<'a> {
     fn new(world: &'a World, origins: &'a Origins) -> Self {
-        let called = |i| origins.materials.get(i).copied().flatten();
-        let mut callers: Vec<_> = (0..world.materials.len()).map(called).collect();
+        let origin = |i| origins.materials.get(i).copied().unwrap_or_default();
+        let count = world.materials.len();
+        let mut pigments: Vec<_> = (0..count).map(|i| origin(i).pigment).collect();
+        let mut finishes: Vec<_> = (0..count).map(|i| origin(i).finish).collect();
         for (object, site) in world.objects.iter().zip(&origins.objects) {
-            callers[object.material as usize].get_or_insert(*site);
+            pigments[object.material as usize].get_or_insert(*site);
+            finishes[object.material as usize].get_or_insert(*site);
         }
-        Self { world, origins, callers }
+        Self { world, origins, pigments, finishes }
     }
 
     fn decide(&self, effect: Effect, plan: &Plan, options: &PlanOptions) -> Decision {
@@ -77,7 +82,7 @@ impl<'a> Census<'a> {
         if !self.materials().any(|(_, m)| scatters(m)) {
             return because("no surface scatters light", None);
         }
-        Ok((self.material_sites(scatters), "one cosine a light and hit".to_owned()))
+        Ok((self.sites(&self.finishes, scatters), "one cosine a light and hit".to_owned()))
     }
 
     fn highlights(&self) -> Decision {
@@ -93,7 +98,7 @@ impl<'a> Census<'a> {
         if !self.materials().any(|(_, m)| lit(m)) {
             return because("shadowless lights make no highlight", None);
         }
-        Ok((self.material_sites(lit), "one power a lobe, light and hit".to_owned()))
+        Ok((self.sites(&self.finishes, lit), "one power a lobe, light and hit".to_owned()))
     }
 
     fn shadows(&self) -> Decision {
@@ -123,7 +128,7 @@ impl<'a> Census<'a> {
             return because("`max_trace_level` is 1: a ray ends at the first surface", site);
         }
         let cost = format!("up to {} more rays a camera ray", plan.max_trace_level - 1);
-        Ok((self.material_sites(reflects), cost))
+        Ok((self.sites(&self.finishes, reflects), cost))
     }
 
     fn patterns(&self) -> Decision {
@@ -132,7 +137,7 @@ impl<'a> Census<'a> {
         if !in_sky && !self.materials().any(|(_, m)| patterned(&m.pigment)) {
             return because("every colour is constant", None);
         }
-        let mut by = self.material_sites(|m| patterned(&m.pigment));
+        let mut by = self.sites(&self.pigments, |m| patterned(&m.pigment));
         by.extend(self.origins.sky.filter(|_| in_sky));
         Ok((by, "one pattern and one map entry a hit".to_owned()))
     }
@@ -177,9 +182,10 @@ impl<'a> Census<'a> {
         self.world.materials.iter().enumerate()
     }
 
-    fn material_sites(&self, calls: impl Fn(&Material) -> bool) -> Vec<Site> {
+    /// The sites of the materials that call, from one of the lists of sites.
+    fn sites(&self, of: &[Option<Site>], calls: impl Fn(&Material) -> bool) -> Vec<Site> {
         let calling = self.materials().filter(|(_, material)| calls(material));
-        calling.filter_map(|(i, _)| self.callers[i]).collect()
+        calling.filter_map(|(i, _)| of[i]).collect()
     }
 }
 
@@ -217,7 +223,9 @@ mod tests {
     use crate::plan::Frame;
     use crate::shape::{Shape, Sphere};
     use crate::source::{ExpansionId, FileId, Span};
-    use crate::world::{Dropped, Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky};
+    use crate::world::{
+        Dropped, Finish, LightKind, Lobe, LobeKind, MaterialOrigin, Object, Reflection, Sky,
+    };
 
     fn site(place: usize) -> Site {
         Site { span: Span::new(FileId(0), place, place + 1), expansion: ExpansionId::MAIN }
@@ -262,7 +270,7 @@ mod tests {
         let origins = Origins {
             objects: vec![site(1)],
             lights: vec![site(20)],
-            materials: vec![Some(site(10))],
+            materials: vec![MaterialOrigin { pigment: Some(site(9)), finish: Some(site(10)) }],
             max_trace_level: Some(site(30)),
             ..Origins::default()
         };
@@ -305,7 +313,7 @@ mod tests {
         let (mut world, mut origins) = lit_mirror();
         world.objects.push(world.objects[0]);
         origins.objects.push(site(2));
-        origins.materials = vec![None];
+        origins.materials = vec![MaterialOrigin::default()];
         assert_eq!(plan(&world, &origins, &OPTIONS).effects[0].by, [site(1)]);
     }
 

@@ -50,7 +50,8 @@ impl Printer<'_> {
         }
         writeln!(out, "materials {}", self.world.materials.len())?;
         for (i, material) in self.world.materials.iter().enumerate() {
-            let site = self.origins.materials.get(i).copied().flatten();
+            let origin = self.origins.materials.get(i).copied().unwrap_or_default();
+            let site = origin.pigment.or(origin.finish);
             writeln!(out, "  {i}{}", self.at(site))?;
             pigment(out, &material.pigment, "    ")?;
             finish(out, &material.finish)?;

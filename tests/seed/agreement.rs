@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use lucarne::color::Rgb;
 use lucarne::diagnostic::Diagnostics;
-use lucarne::lower::lower;
+use lucarne::lower::{LowerOptions, lower};
 use lucarne::math::Vector;
 use lucarne::math::transform::Step;
 use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
@@ -50,7 +50,7 @@ fn read(name: &str, text: &str) -> Scene {
 
 fn lowered(name: &str, scene: Scene) -> (World, Origins) {
     let mut diagnostics = Diagnostics::new(true);
-    let lowered = lower(scene, &mut diagnostics);
+    let lowered = lower(scene, &LowerOptions::default(), &mut diagnostics);
     assert!(diagnostics.is_empty(), "{name}: {diagnostics:#?}");
     lowered
 }

@@ -1,7 +1,7 @@
 //! Spending one affine map on an object equals applying the page's rules step by step.
 
 use lucarne::diagnostic::Diagnostics;
-use lucarne::lower::lower;
+use lucarne::lower::{LowerOptions, lower};
 use lucarne::math::Vector;
 use lucarne::scene::Scene;
 use lucarne::shape::Shape;
@@ -73,7 +73,7 @@ fn difference(a: Form, b: Form) -> f64 {
 
 fn world(scene: Scene) -> World {
     let mut diagnostics = Diagnostics::new(false);
-    let (world, _) = lower(scene, &mut diagnostics);
+    let (world, _) = lower(scene, &LowerOptions::default(), &mut diagnostics);
     assert!(!diagnostics.has_errors(), "{diagnostics:?}");
     world
 }

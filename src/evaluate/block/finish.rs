@@ -48,6 +48,8 @@ impl Evaluator<'_> {
             evaluator.whole_finish(&opener, &mut finish, &written)?;
             if failed { Err(Reported) } else { Ok(finish) }
         })?;
+        self.scene.finish_sites.resize(self.scene.finishes.len(), None);
+        self.scene.finish_sites.push(Some(opener.here.site(opener.span)));
         self.scene.finishes.push(finish);
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }

@@ -2,6 +2,7 @@
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostics};
+use crate::lower::LowerOptions;
 use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::pattern::Pattern;
@@ -76,7 +77,8 @@ impl Build {
 
     pub fn lower(self) -> (World, Origins, Diagnostics) {
         let mut diagnostics = Diagnostics::new(true);
-        let (world, origins) = super::super::lower(self.0, &mut diagnostics);
+        let (world, origins) =
+            super::super::lower(self.0, &LowerOptions::default(), &mut diagnostics);
         (world, origins, diagnostics)
     }
 
