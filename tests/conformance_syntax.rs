@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::{Diagnostics, Severity};
 use lucarne::scene::Dialect;
-use lucarne::source::{FileId, Source, Sources, decode};
+use lucarne::source::{Source, Sources, decode};
 use lucarne::syntax::{ParseOptions, dump, parse, print};
 
 const SCENES: &str = "/usr/share/doc/povray/examples";
