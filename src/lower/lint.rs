@@ -3,8 +3,12 @@
 //! **Invariant:** only what is certain; after a fault nothing about the whole is.
 
 use super::Lowering;
+use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::world::Pigment;
+
+/// What a white surface gives off by default: it tells shapes apart from black, and no more.
+const DEFAULT_AMBIENT: f64 = 0.1;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
@@ -34,7 +38,7 @@ impl Lowering<'_, '_> {
             let message = "the scene shows nothing: no object, no background, no sky";
             self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
-            let message = "nothing gives light, so the picture is black";
+            let message = "nothing gives light, so the picture is dark";
             let mut diagnostic = Diagnostic::new(Code::NoLight, message)
                 .help("a light such as `light_source { <10, 20, 10> rgb 1 }`");
             if let Some(dropped) = self.origins.dropped.first() {
@@ -44,10 +48,10 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Whether any surface is bright without a light.
+    /// Whether any surface is bright without a light, by more than the default ambient.
     fn glows(&self) -> bool {
         self.world.materials.iter().any(|material| {
-            let bright = |color: crate::color::Rgb| !(color * material.finish.glow).is_black();
+            let bright = |color: Rgb| (color * material.finish.glow).largest() > DEFAULT_AMBIENT;
             match &material.pigment {
                 Pigment::Color(color) => bright(color.rgb),
                 Pigment::Patterned { map, .. } => map.iter().any(|(_, color)| bright(color.rgb)),
