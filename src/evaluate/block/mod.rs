@@ -70,11 +70,6 @@ impl Evaluator<'_> {
                 }
                 Ok(())
             }
-            TokenKind::Word(word) => {
-                self.unexpected(token, Place::SCENE);
-                let _ = word;
-                self.needs_poison()
-            }
             _ => {
                 self.unexpected(token, Place::SCENE);
                 self.needs_poison()

@@ -107,7 +107,7 @@ impl Evaluator<'_> {
                 }
                 Some(Ok(ObjectKind::Use(object)))
             }
-            Value::Poison(poison) if word == Word::Object || self.is_lone(&token) => {
+            Value::Poison(poison) => {
                 self.next();
                 self.set_poison(poison);
                 Some(Err(Reported))
@@ -166,10 +166,6 @@ impl Evaluator<'_> {
             }
             _ => false,
         }
-    }
-
-    fn is_lone(&self, token: &Token) -> bool {
-        matches!(token.kind, TokenKind::Expression(_))
     }
 
     fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
