@@ -179,6 +179,7 @@ impl Evaluator<'_> {
     /// `#declare Name = …`: the value is what the next items leave.
     fn declare(&mut self, here: &Here, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
+        let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
         let outer_poison = self.poison.take();
         let outer_hold = self.hold.take();
         let value = match self.next() {
@@ -193,7 +194,6 @@ impl Evaluator<'_> {
         }
         self.hold = outer_hold;
         self.poison = outer_poison;
-        let in_main = self.in_main();
         self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
         if !target.indices.is_empty() {
             for &index in &target.indices {
@@ -209,12 +209,7 @@ impl Evaluator<'_> {
                 None => Err(self.undeclared(here, symbol, target.span)),
             };
         }
-        let value = value.unwrap_or(Value::Broken);
-        if local {
-            self.scopes.assign_local(symbol, value);
-        } else {
-            self.scopes.assign(symbol, value);
-        }
+        self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
     }
 
@@ -363,12 +358,13 @@ impl Evaluator<'_> {
 
     /// Runs what is left of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
-        while let Some(Token { kind, here, .. }) = self.next() {
+        while let Some(Token { kind, here, span }) = self.next() {
             match kind {
                 TokenKind::Expression(id) => self.run_expression(&here, id),
-                TokenKind::Block(items) | TokenKind::Entry(items) => {
-                    self.inside(&here, items, Self::run_items)
+                TokenKind::Block(contents) => {
+                    self.inside_block(&here, contents, span, Self::run_items);
                 }
+                TokenKind::Entry(items) => self.inside(&here, items, Self::run_items),
                 TokenKind::Word(crate::vocabulary::Word::Function) => self.skip_function(),
                 TokenKind::Word(_)
                 | TokenKind::Comma
@@ -386,7 +382,10 @@ impl Evaluator<'_> {
                     drop(self.next())
                 }
                 TokenKind::Block(_) => {
-                    self.next();
+                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next()
+                    {
+                        self.inside_block(&here, contents, span, |_| {});
+                    }
                     return;
                 }
                 TokenKind::Word(_) | TokenKind::Entry(_) | TokenKind::Semicolon => return,

@@ -76,6 +76,8 @@ pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
                     | DirectiveKind::Ignored(_) => {}
                 },
                 ItemKind::Word(_)
+                | ItemKind::Open
+                | ItemKind::Close
                 | ItemKind::Comma
                 | ItemKind::Semicolon
                 | ItemKind::Numbers { .. } => {}

@@ -9,6 +9,7 @@ mod block;
 mod builtin;
 mod call;
 mod directive;
+mod enclosure;
 mod endless;
 mod expression;
 mod include;
@@ -37,6 +38,7 @@ use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, Items, Na
 use crate::vocabulary::PREDECLARED;
 
 use builtin::RandomStreams;
+use enclosure::Enclosure;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Token};
 use value::{Poison, Value};
@@ -202,6 +204,11 @@ struct Evaluator<'a> {
     macros: Vec<Rc<Macro>>,
     streams: RandomStreams,
     frames: Vec<Frame>,
+    enclosures: Vec<Enclosure>,
+    /// How many of these blocks a loose `{` has opened.
+    loose_blocks: u32,
+    /// How often a `}` has closed another block than it would where it is written.
+    loose_closers: u64,
     peeked: Option<Token>,
     /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
     /// past its end runs nothing there, since that may already ask for the value.
@@ -290,6 +297,9 @@ impl<'a> Evaluator<'a> {
             macros: Vec::new(),
             streams: RandomStreams::default(),
             frames: Vec::new(),
+            enclosures: Vec::new(),
+            loose_blocks: 0,
+            loose_closers: 0,
             peeked: None,
             hold: None,
             calls_wait: false,

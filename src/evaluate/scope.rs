@@ -142,6 +142,28 @@ impl Scopes {
         }
     }
 
+    /// The table that `#declare` (or `#local`) of a name would assign in now. Its value may come from a
+    /// macro that has a parameter of that name, so this is asked before the value is read.
+    pub fn home(&self, symbol: Symbol, local: bool) -> u32 {
+        let found = self.states[symbol.0 as usize].bindings.last().filter(|_| !local);
+        found.map_or(if local { self.tables.len() as u32 - 1 } else { 0 }, |&(depth, _)| depth)
+    }
+
+    /// Assigns in the table that [`Self::home`] has named, or in the newest if that has closed.
+    pub fn assign_in(&mut self, depth: u32, symbol: Symbol, value: Value) {
+        let depth = depth.min(self.tables.len() as u32 - 1);
+        let bindings = &self.states[symbol.0 as usize].bindings;
+        let at = bindings.partition_point(|&(other, _)| other <= depth);
+        match bindings[..at].last() {
+            Some(&(other, slot)) if other == depth => self.slots[slot.0 as usize] = value,
+            _ => {
+                let slot = self.new_slot(value);
+                self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
+                self.tables[depth as usize].push((symbol, true));
+            }
+        }
+    }
+
     /// Replaces the value of the newest binding, if there is one.
     pub fn overwrite(&mut self, symbol: Symbol, value: Value) {
         if let Some(slot) = self.slot(symbol) {

@@ -1,7 +1,6 @@
 //! The next item, with directives, macro calls and includes run on the way to it.
 //!
-//! **Invariant:** a consumer sees only the items of its own block: [`Evaluator::inside`] sets a barrier,
-//! and whatever a consumer leaves behind there is dropped when it returns. Loops and macros are
+//! **Invariant:** a consumer sees only the items of its own block (see `enclosure`). Loops and macros are
 //! frames on a list, not calls.
 
 use std::rc::Rc;
@@ -10,6 +9,7 @@ use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, ExpressionId, ExpressionKind, ItemKind, Items};
 use crate::vocabulary::Word;
 
+use super::enclosure::Contents;
 use super::scope::Symbol;
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Unit};
@@ -30,8 +30,10 @@ pub(super) struct Frame {
 
 #[derive(Debug)]
 pub(super) enum FrameKind {
-    /// The items of a block: its consumer sees no further.
+    /// Items of their own, an argument's or a group's: their consumer sees no further.
     Barrier,
+    /// The items of a block; their end is its `}`.
+    Block,
     /// A branch of a condition.
     Branch,
     /// A case of a switch: `#break` ends it.
@@ -83,7 +85,7 @@ impl Token {
 pub(super) enum TokenKind {
     Word(Word),
     Expression(ExpressionId),
-    Block(Items),
+    Block(Contents),
     Entry(Items),
     Comma,
     Semicolon,
@@ -92,26 +94,7 @@ pub(super) enum TokenKind {
 }
 
 impl Evaluator<'_> {
-    /// Runs `consumer` on some items, and on nothing but these.
-    pub(super) fn inside<T>(
-        &mut self,
-        here: &Here,
-        items: Items,
-        consumer: impl FnOnce(&mut Self) -> T,
-    ) -> T {
-        let peeked = self.peeked.take();
-        let depth = self.frames.len();
-        self.push(here, items, FrameKind::Barrier);
-        // Blocks in blocks in macros can go deeper than a thread's stack.
-        let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
-        while self.frames.len() > depth {
-            self.pop_frame();
-        }
-        self.peeked = peeked;
-        result
-    }
-
-    fn push(&mut self, here: &Here, items: Items, kind: FrameKind) {
+    pub(super) fn push(&mut self, here: &Here, items: Items, kind: FrameKind) {
         self.frames.push(Frame {
             here: here.clone(),
             at: items.start,
@@ -185,6 +168,7 @@ impl Evaluator<'_> {
             }
             Some(
                 FrameKind::Barrier
+                | FrameKind::Block
                 | FrameKind::Branch
                 | FrameKind::Switch
                 | FrameKind::While { .. }
@@ -204,7 +188,11 @@ impl Evaluator<'_> {
                 self.frames.truncate(at);
                 true
             }
-            FrameKind::Barrier | FrameKind::Branch | FrameKind::Macro | FrameKind::Include => false,
+            FrameKind::Barrier
+            | FrameKind::Block
+            | FrameKind::Branch
+            | FrameKind::Macro
+            | FrameKind::Include => false,
         }
     }
 
@@ -280,7 +268,7 @@ impl Evaluator<'_> {
             }
             if frame.at == frame.end {
                 match frame.kind {
-                    FrameKind::Barrier => return None,
+                    FrameKind::Barrier | FrameKind::Block => return None,
                     FrameKind::While { .. } | FrameKind::For { .. } => self.turn(),
                     FrameKind::Branch
                     | FrameKind::Switch
@@ -308,10 +296,16 @@ impl Evaluator<'_> {
                 };
                 return token(TokenKind::Literal(value));
             }
+            if item.kind == ItemKind::Close && self.may_close(&here, item.span) {
+                return None;
+            }
+            let Some(frame) = self.frames.last_mut() else { return None };
             frame.at += 1;
             match item.kind {
+                ItemKind::Close => {}
+                ItemKind::Open => return token(TokenKind::Block(Contents::Following)),
                 ItemKind::Word(word) => return token(TokenKind::Word(word)),
-                ItemKind::Block(items) => return token(TokenKind::Block(items)),
+                ItemKind::Block(items) => return token(TokenKind::Block(Contents::Items(items))),
                 ItemKind::Entry(items) => return token(TokenKind::Entry(items)),
                 ItemKind::Comma => return token(TokenKind::Comma),
                 ItemKind::Semicolon => return token(TokenKind::Semicolon),

@@ -89,6 +89,7 @@ impl Evaluator<'_> {
                 }
             }
             FrameKind::Barrier
+            | FrameKind::Block
             | FrameKind::Branch
             | FrameKind::Switch
             | FrameKind::Macro

@@ -83,6 +83,10 @@ pub enum ItemKind {
     Block(Items),
     /// `[ … ]` where it is not an index: an entry of a map, the size of an array.
     Entry(Items),
+    /// A `{` that pairs only after expansion: `#macro Open() union { #end`.
+    Open,
+    /// A `}` that pairs only after expansion.
+    Close,
     Comma,
     Semicolon,
     Directive(DirectiveId),
@@ -287,8 +291,8 @@ pub struct Parameter {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
     Items(Items),
-    /// The body does not balance its brackets, as three standard includes do: the bytes between head and
-    /// `#end`, to be nested after expansion.
+    /// Its parentheses pair only after expansion, as in one standard include: the bytes between head
+    /// and `#end`. (Braces that do so are [`ItemKind::Open`] and [`ItemKind::Close`].)
     Raw(Span),
 }
 

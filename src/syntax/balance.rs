@@ -6,7 +6,7 @@
 //! blame in a text that certainly does not pair. Vectors are not paired here: `<` may be a comparison.
 
 use super::ParseOptions;
-use super::raw;
+use super::loose;
 use super::repair;
 use super::token::{Token, TokenKind};
 use crate::diagnostic::Diagnostics;
@@ -46,6 +46,8 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
         | TokenKind::Numbers
         | TokenKind::Vectors
         | TokenKind::Raw
+        | TokenKind::LooseOpen
+        | TokenKind::LooseClose
         | TokenKind::Stray => None,
     }
 }
@@ -68,7 +70,7 @@ pub(super) fn balance(
     if pairs(&tokens) {
         return (tokens, false);
     }
-    let tokens = raw::keep_raw(tokens, text);
+    let tokens = loose::loosen(tokens, text);
     if pairs(&tokens) {
         return (tokens, false);
     }

@@ -2,7 +2,7 @@
 
 use super::ast::{Argument, Callee, ExpressionId, ExpressionKind, Item, ItemKind};
 use super::nest::{Frame, FrameKind, Nest, State};
-use super::token::Bracket;
+use super::token::{Bracket, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -96,6 +96,18 @@ impl<'a> Nest<'a> {
             }
             FrameKind::File | FrameKind::Vector | FrameKind::Head(_) | FrameKind::Body(_) => {}
         }
+    }
+
+    /// A brace that pairs only after expansion: an item of its own.
+    pub(super) fn loose(&mut self, kind: TokenKind, span: Span) {
+        self.leave_vectors(span);
+        self.finish_expression();
+        self.top().function_ahead = false;
+        let kind = match kind {
+            TokenKind::LooseOpen => ItemKind::Open,
+            _ => ItemKind::Close,
+        };
+        self.items.push(Item { kind, span });
     }
 
     /// The pending items from `base` on as one expression.

@@ -99,6 +99,8 @@ impl<'a> Dump<'a> {
             }
             ItemKind::Block(items) => self.push(children(text("block"), items, depth)),
             ItemKind::Entry(items) => self.push(children(text("entry"), items, depth)),
+            ItemKind::Open => self.leaf(depth, "open".to_owned()),
+            ItemKind::Close => self.leaf(depth, "close".to_owned()),
             ItemKind::Numbers { start, count, width } => {
                 let all = start as usize..(start + count * width) as usize;
                 let numbers = self.ast.numbers.get(all).unwrap_or(&[]);

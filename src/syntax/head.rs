@@ -86,7 +86,10 @@ impl<'a> Nest<'a> {
                     | Mark::Question
                     | Mark::Colon => !full,
                 },
-                TokenKind::Directive(_) | TokenKind::Raw => true,
+                TokenKind::Directive(_)
+                | TokenKind::Raw
+                | TokenKind::LooseOpen
+                | TokenKind::LooseClose => true,
                 TokenKind::Stray => false,
             };
             if !ends {

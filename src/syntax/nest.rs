@@ -255,6 +255,7 @@ impl<'a> Nest<'a> {
                 self.finish_expression();
                 self.directive(head, span);
             }
+            TokenKind::LooseOpen | TokenKind::LooseClose => self.loose(token.kind, span),
             TokenKind::Raw => self.raw(span),
             TokenKind::Stray => self.stray(token),
         }

@@ -76,6 +76,8 @@ impl Print<'_> {
     fn item(&mut self, item: Item) {
         match item.kind {
             ItemKind::Word(word) => self.out += word.name(),
+            ItemKind::Open => self.out.push('{'),
+            ItemKind::Close => self.out.push('}'),
             ItemKind::Comma => self.out.push(','),
             ItemKind::Semicolon => self.out.push(';'),
             ItemKind::Expression(id) => self.expression(id),

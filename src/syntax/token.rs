@@ -31,7 +31,10 @@ pub(super) enum TokenKind {
     Vectors,
     Mark(Mark),
     Directive(Head),
-    /// Stands in for the body of a macro whose brackets do not balance.
+    /// A brace that pairs only after expansion.
+    LooseOpen,
+    LooseClose,
+    /// Stands in for the body of a macro whose other brackets pair only after expansion.
     Raw,
     /// A character without meaning, or a `#` without a word.
     Stray,

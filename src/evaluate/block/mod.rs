@@ -208,9 +208,9 @@ impl Evaluator<'_> {
             }
         }
         match self.next() {
-            Some(Token { kind: TokenKind::Block(items), here, .. }) => {
+            Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
-                let outcome = self.inside(&here, items, consumer);
+                let outcome = self.inside_block(&here, contents, span, consumer);
                 self.openers.pop();
                 outcome
             }

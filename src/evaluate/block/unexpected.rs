@@ -21,7 +21,10 @@ impl Evaluator<'_> {
             TokenKind::Comma | TokenKind::Semicolon => {}
             TokenKind::Word(word) if of_poison => self.skip_arguments(*word),
             TokenKind::Literal(_) if of_poison => {}
-            TokenKind::Block(items) | TokenKind::Entry(items) if of_poison => {
+            TokenKind::Block(contents) if of_poison => {
+                self.inside_block(&token.here, *contents, token.span, Self::run_items);
+            }
+            TokenKind::Entry(items) if of_poison => {
                 self.inside(&token.here, *items, Self::run_items);
             }
             TokenKind::Word(word) => self.unexpected_word(token, *word, place),
@@ -76,14 +79,14 @@ impl Evaluator<'_> {
                 let value = value.clone();
                 self.unexpected_value(token, &value, place);
             }
-            TokenKind::Block(items) => {
+            TokenKind::Block(contents) => {
                 let diagnostic = Diagnostic::new(
                     Code::ExtraPart,
                     format!("a block without a word before it has no meaning {}", place.name()),
                 )
                 .at(opener(token.span), "expected a word before this");
                 self.report(&token.here, diagnostic);
-                self.inside(&token.here, *items, Self::run_items);
+                self.inside_block(&token.here, *contents, token.span, Self::run_items);
             }
             TokenKind::Entry(items) => {
                 let diagnostic = Diagnostic::new(
@@ -247,8 +250,8 @@ impl Evaluator<'_> {
         if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
             // What is inside belongs to a word that is not known: run, but not judged.
             let before = self.diagnostics.len();
-            if let Some(Token { kind: TokenKind::Block(items), here, .. }) = self.next() {
-                self.inside(&here, items, Self::run_items);
+            if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
+                self.inside_block(&here, contents, span, Self::run_items);
             }
             self.diagnostics.forget_after(before);
         }
@@ -319,7 +322,11 @@ impl Evaluator<'_> {
                     self.next();
                     self.run_expression(&token.here, id);
                 }
-                TokenKind::Block(items) | TokenKind::Entry(items) => {
+                TokenKind::Block(contents) => {
+                    self.next();
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => {
                     self.next();
                     self.inside(&token.here, items, Self::run_items);
                 }
@@ -373,8 +380,10 @@ impl Evaluator<'_> {
                     }
                 }
                 Some(TokenKind::Block(_)) => {
-                    if let Some(Token { kind: TokenKind::Block(items), here, .. }) = self.next() {
-                        self.inside(&here, items, Self::run_items);
+                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                        self.next()
+                    {
+                        self.inside_block(&here, contents, span, Self::run_items);
                     }
                     return;
                 }

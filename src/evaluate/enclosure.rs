@@ -1,0 +1,158 @@
+//! What is open now: blocks, and whatever else has items of its own.
+//!
+//! **Invariant:** a consumer sees the items of its own enclosure and no others, and whatever it leaves
+//! behind is dropped. A `}` closes the innermost block, be it the literal one of a block that was nested
+//! when its file was parsed, or a loose one from a macro: so blocks pair as they are run, and those that
+//! were nested before cost nothing for it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{Site, Span};
+use crate::syntax::ast::{ItemKind, Items};
+
+use super::stream::{Frame, FrameKind, TokenKind};
+use super::{Evaluator, Here};
+
+/// What a block holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Contents {
+    Items(Items),
+    /// Whatever comes next, up to a `}` that has no partner where it is written.
+    Following,
+}
+
+/// Something that is read to its end and no further.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Enclosure {
+    /// An argument, a group, a file: no `}` reaches out of it.
+    Own,
+    /// A block.
+    Block,
+}
+
+impl Evaluator<'_> {
+    /// Runs `consumer` on some items, and on nothing but these: no brace reaches out of them.
+    pub(super) fn inside<T>(
+        &mut self,
+        here: &Here,
+        items: Items,
+        consumer: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let depth = self.frames.len();
+        self.push(here, items, FrameKind::Barrier);
+        self.enclosed(Enclosure::Own, consumer, |evaluator| evaluator.drop_frames(depth))
+    }
+
+    /// Runs `consumer` on the contents of a block, whose `{` is at the start of `span`.
+    pub(super) fn inside_block<T>(
+        &mut self,
+        here: &Here,
+        contents: Contents,
+        span: Span,
+        consumer: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let opened = here.site(Span { end: span.start + 1, ..span });
+        let Contents::Items(items) = contents else {
+            self.loose_blocks += 1;
+            self.limit_nesting(opened);
+            let result = self.enclosed(Enclosure::Block, consumer, |evaluator| {
+                evaluator.close_block(opened);
+            });
+            self.loose_blocks -= 1;
+            return result;
+        };
+        let depth = self.frames.len();
+        let closers = self.loose_closers;
+        self.push(here, items, FrameKind::Block);
+        self.enclosed(Enclosure::Block, consumer, |evaluator| {
+            // No loose brace has come between its own.
+            if evaluator.loose_closers == closers {
+                evaluator.drop_frames(depth);
+            } else {
+                evaluator.close_block(opened);
+            }
+        })
+    }
+
+    fn enclosed<T>(
+        &mut self,
+        enclosure: Enclosure,
+        consumer: impl FnOnce(&mut Self) -> T,
+        end: impl FnOnce(&mut Self),
+    ) -> T {
+        let peeked = self.peeked.take();
+        // What a `#declare` must not look at lies behind the block.
+        let hold = self.hold.take();
+        self.enclosures.push(enclosure);
+        // Blocks in blocks in macros can go deeper than a thread's stack.
+        let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
+        self.peeked = None;
+        end(self);
+        self.enclosures.pop();
+        self.hold = hold;
+        self.peeked = peeked;
+        result
+    }
+
+    fn drop_frames(&mut self, depth: usize) {
+        while self.frames.len() > depth {
+            self.pop_frame();
+        }
+    }
+
+    /// Whether a `}` without a partner in its text, which comes next, closes the innermost block.
+    pub(super) fn may_close(&mut self, here: &Here, span: Span) -> bool {
+        if self.enclosures.last() == Some(&Enclosure::Block) {
+            self.loose_closers += 1;
+            return true;
+        }
+        let diagnostic = Diagnostic::new(Code::StrayCloser, "this `}` closes nothing")
+            .at(span, "no `{` is open where this is run");
+        self.report(here, diagnostic);
+        false
+    }
+
+    /// Passes over what a consumer has left, and takes the `}` behind it.
+    fn close_block(&mut self, opened: Site) {
+        while let Some(token) = self.next() {
+            if let TokenKind::Block(Contents::Following) = token.kind {
+                self.inside_block(&token.here, Contents::Following, token.span, |_| {});
+            }
+        }
+        match self.frames.last_mut() {
+            Some(Frame { kind: FrameKind::Block, at, end, .. }) if *at == *end => {
+                // The literal brace was another block's.
+                self.loose_closers += 1;
+                self.pop_frame();
+            }
+            Some(Frame { here, at, end, .. })
+                if *at < *end
+                    && here.unit.ast.items[*at as usize].kind == ItemKind::Close
+                    && !self.halted =>
+            {
+                *at += 1;
+            }
+            _ if self.halted => {}
+            _ => self.never_closed(opened),
+        }
+    }
+
+    fn never_closed(&mut self, opened: Site) {
+        let diagnostic = Diagnostic::new(Code::UnclosedBlock, "this `{` is never closed")
+            .at(opened.span, "opened here, and no `}` follows where this is run")
+            .help("what one macro opens, another may close, or the text that calls it");
+        self.report_in(opened.expansion, diagnostic);
+    }
+
+    fn limit_nesting(&mut self, opened: Site) {
+        let limit = self.options.limits.nesting;
+        if self.loose_blocks <= limit {
+            return;
+        }
+        let message = format!("brackets are nested more than {limit} deep");
+        let diagnostic = Diagnostic::new(Code::NestingLimit, message)
+            .at(opened.span, "opened here once more")
+            .help("`--limit nesting=N` raises the limit");
+        self.report_in(opened.expansion, diagnostic);
+        self.halted = true;
+    }
+}
