@@ -9,6 +9,7 @@ pub mod print;
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
+pub use crate::math::transform::TransformId;
 use crate::pattern::Pattern;
 use crate::source::{Expansions, Site};
 pub use crate::vocabulary::Dialect;
@@ -27,7 +28,7 @@ macro_rules! ids {
     )*};
 }
 
-ids! { ObjectId TransformId TextureId PigmentId FinishId }
+ids! { ObjectId TextureId PigmentId FinishId }
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {

@@ -200,6 +200,8 @@ struct Evaluator<'a> {
     options: &'a EvaluateOptions,
     diagnostics: &'a mut Diagnostics,
     scene: Scene,
+    /// One for each object of the scene.
+    made: Vec<block::Made>,
     scopes: Scopes,
     macros: Vec<Rc<Macro>>,
     streams: RandomStreams,
@@ -293,6 +295,7 @@ impl<'a> Evaluator<'a> {
             options,
             diagnostics,
             scene,
+            made: Vec::new(),
             scopes,
             macros: Vec::new(),
             streams: RandomStreams::default(),

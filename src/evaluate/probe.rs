@@ -8,6 +8,7 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::geometry::{self, Geometry};
 use crate::lower::{self, LowerOptions};
+use crate::math::transform::Step;
 use crate::math::{UnitVector, Vector};
 use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId};
 use crate::shape::Ray;
@@ -183,6 +184,24 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     }
     let renamed: std::collections::BTreeMap<ObjectId, ObjectId> =
         wanted.iter().enumerate().map(|(new, &old)| (old, ObjectId(new as u32))).collect();
+    let moves = |id: &ObjectId| {
+        scene.objects[id.index()].modifiers.iter().filter_map(|modifier| match modifier.kind {
+            ModifierKind::Transform(id) => Some(id),
+            _ => None,
+        })
+    };
+    let transforms = lists(scene, wanted.iter().flat_map(moves));
+    let renamed_list: std::collections::BTreeMap<TransformId, TransformId> =
+        transforms.iter().enumerate().map(|(new, &old)| (old, TransformId(new as u32))).collect();
+    for id in &transforms {
+        let mut steps = scene.transforms[id.index()].clone();
+        for step in &mut steps {
+            if let Step::Transform(id) | Step::InverseOf(id) = step {
+                *id = renamed_list[id];
+            }
+        }
+        small.transforms.push(steps);
+    }
     for id in wanted {
         let mut copy = scene.objects[id.index()].clone();
         copy.modifiers.retain(|modifier| {
@@ -190,8 +209,7 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
         });
         for modifier in &mut copy.modifiers {
             if let ModifierKind::Transform(id) = &mut modifier.kind {
-                small.transforms.push(scene.transforms[id.index()].clone());
-                *id = TransformId(small.transforms.len() as u32 - 1);
+                *id = renamed_list[id];
             }
         }
         match &mut copy.kind {
@@ -208,6 +226,24 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     }
     small.roots.push(Root { object: renamed[&object], default_texture: TextureId(0) });
     small
+}
+
+/// These lists of steps, and those that they refer to.
+fn lists(
+    scene: &Scene,
+    wanted: impl Iterator<Item = TransformId>,
+) -> std::collections::BTreeSet<TransformId> {
+    let mut all = std::collections::BTreeSet::new();
+    let mut open: Vec<TransformId> = wanted.collect();
+    while let Some(id) = open.pop() {
+        if all.insert(id) {
+            open.extend(scene.transforms[id.index()].iter().filter_map(|step| match *step {
+                Step::Transform(part) | Step::InverseOf(part) => Some(part),
+                Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_) => None,
+            }));
+        }
+    }
+    all
 }
 
 fn children(kind: &ObjectKind) -> Vec<ObjectId> {

@@ -6,6 +6,8 @@
 //! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay six digits
 //! below what an `f64` can tell.
 
+use std::collections::BTreeMap;
+
 use super::Fault;
 use crate::diagnostic::Code;
 use crate::math::double::{Double, DoubleVector, power_of_two_near, sin_cos_degrees};
@@ -44,41 +46,34 @@ impl Affine {
     /// 2⁻⁹⁶: a rotation is a dozen roundings of 2⁻¹⁰² each.
     pub const STEP_ROUNDING: f64 = 1.0 / (1u128 << 96) as f64;
 
-    /// The map of all `steps`, in order.
+    /// This map, then one step; or, `undone`, what undoes the step. `part` says what other lists come to.
     ///
-    /// Fails with `zero-scale` when they flatten space, and with `not-a-number` when a number is
+    /// Fails with `zero-scale` when it flattens space, and with `not-a-number` when a number is
     /// not finite or becomes so.
-    pub fn from_steps(steps: &[Step]) -> Result<Self, Fault> {
-        // `inverse` nests; an explicit stack holds what is under way.
-        let mut waiting = Vec::new();
-        let (mut map, mut rest) = (Self::IDENTITY, steps.iter());
-        loop {
-            match rest.next() {
-                Some(Step::InverseOf(inner)) => {
-                    waiting.push((map, rest));
-                    (map, rest) = (Self::IDENTITY, inner.iter());
-                }
-                Some(step) => map = map.then(step)?,
-                None => {
-                    let inverse = map.checked()?;
-                    let Some((outer, outer_rest)) = waiting.pop() else { return Ok(map) };
-                    (map, rest) = (inverse.after(&outer), outer_rest);
-                }
-            }
-        }
-    }
-
-    /// This map, then one step other than `InverseOf`.
-    fn then(mut self, step: &Step) -> Result<Self, Fault> {
+    fn then(
+        mut self,
+        step: &Step,
+        undone: bool,
+        part: impl FnOnce(TransformId, bool) -> Result<Self, Fault>,
+    ) -> Result<Self, Fault> {
         match step {
-            Step::Translate(by) => self.offset = self.offset + DoubleVector::from(*by),
+            Step::Translate(by) => {
+                let by = DoubleVector::from(*by);
+                self.offset = self.offset + if undone { -by } else { by };
+            }
             Step::Scale(by) => {
                 if by.to_array().contains(&0.0) {
                     return Err(Fault::flat("a scale factor is 0"));
                 }
                 for axis in 0..3 {
-                    self.scale_row(axis, by[axis]);
+                    let factor = Double::from(by[axis]);
+                    self.scale_row(axis, if undone { Double::ONE / factor } else { factor });
                 }
+            }
+            Step::Rotate(degrees) if undone => {
+                self.turn(0, 1, -degrees.z);
+                self.turn(2, 0, -degrees.y);
+                self.turn(1, 2, -degrees.x);
             }
             Step::Rotate(degrees) => {
                 self.turn(1, 2, degrees.x);
@@ -91,16 +86,15 @@ impl Affine {
                 let row = |i: usize| DoubleVector::new(columns[0][i], columns[1][i], columns[2][i]);
                 let matrix =
                     Self { rows: [row(0), row(1), row(2)], offset, rounding: Self::STEP_ROUNDING };
-                self = matrix.after(&self);
+                self = if undone { matrix.checked()? } else { matrix }.after(&self);
             }
-            // `from_steps` opens these.
-            Step::InverseOf(steps) => self = Self::from_steps(steps)?.checked()?.after(&self),
+            Step::Transform(id) => self = part(*id, undone)?.after(&self),
+            Step::InverseOf(id) => self = part(*id, !undone)?.after(&self),
         }
         Ok(self)
     }
 
-    fn scale_row(&mut self, axis: usize, factor: f64) {
-        let factor = Double::from(factor);
+    fn scale_row(&mut self, axis: usize, factor: Double) {
         self.rows[axis] = self.rows[axis] * factor;
         let mut offset = self.offset.components();
         offset[axis] = offset[axis] * factor;
@@ -245,20 +239,62 @@ impl Affine {
     }
 }
 
-/// Each transform of the Scene, spent once.
+/// Each transform of the Scene, spent once: forward, and backward where it is undone. What undoes a list
+/// undoes its steps from the last to the first, so nothing is lost however often an inverse is
+/// inverted.
 pub struct Transforms<'s> {
     steps: &'s [Vec<Step>],
     spent: Vec<Option<Result<Affine, Fault>>>,
+    undone: BTreeMap<TransformId, Result<Affine, Fault>>,
 }
 
 impl<'s> Transforms<'s> {
     pub fn new(steps: &'s [Vec<Step>]) -> Self {
-        Self { steps, spent: vec![None; steps.len()] }
+        Self { steps, spent: vec![None; steps.len()], undone: BTreeMap::new() }
     }
 
+    /// The map that a list comes to.
     pub fn get(&mut self, id: TransformId) -> Result<Affine, Fault> {
+        // Lists refer to lists: an explicit stack holds what is under way.
+        let mut open = vec![(id, false)];
+        while let Some(&(id, undone)) = open.last() {
+            if self.known(id, undone).is_some() {
+                open.pop();
+                continue;
+            }
+            let under_way = open.len();
+            let parts = self.steps[id.index()].iter().filter_map(|step| match *step {
+                Step::Transform(part) => Some((part, undone)),
+                Step::InverseOf(part) => Some((part, !undone)),
+                Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_) => None,
+            });
+            open.extend(parts.filter(|&(part, undone)| self.known(part, undone).is_none()));
+            if open.len() == under_way {
+                let map = self.spend(id, undone);
+                match undone {
+                    false => self.spent[id.index()] = Some(map),
+                    true => drop(self.undone.insert(id, map)),
+                }
+            }
+        }
+        self.known(id, false).cloned().unwrap_or(Ok(Affine::IDENTITY))
+    }
+
+    fn known(&self, id: TransformId, undone: bool) -> Option<&Result<Affine, Fault>> {
+        if undone { self.undone.get(&id) } else { self.spent[id.index()].as_ref() }
+    }
+
+    /// A list whose parts are known.
+    fn spend(&self, id: TransformId, undone: bool) -> Result<Affine, Fault> {
         let steps = &self.steps[id.index()];
-        self.spent[id.index()].get_or_insert_with(|| Affine::from_steps(steps)).clone()
+        let part = |id, undone| self.known(id, undone).cloned().unwrap_or(Ok(Affine::IDENTITY));
+        let map = if undone {
+            steps.iter().rev().try_fold(Affine::IDENTITY, |map, step| map.then(step, true, part))?
+        } else {
+            steps.iter().try_fold(Affine::IDENTITY, |map, step| map.then(step, false, part))?
+        };
+        map.checked()?;
+        Ok(map)
     }
 
     /// All of `ids`, in order.

@@ -2,8 +2,18 @@
 
 use super::Vector;
 
+/// Names a list of steps: an index into the Scene's arena of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TransformId(pub u32);
+
+impl TransformId {
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// One step, as written.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
     Translate(Vector),
     /// Factors along x, y and z.
@@ -14,6 +24,8 @@ pub enum Step {
     /// language: `<m00, m01, m02, m10, … m32>`; a point p becomes
     /// `x·row0 + y·row1 + z·row2 + row3`.
     Matrix([Vector; 4]),
-    /// What undoes all of these steps.
-    InverseOf(Vec<Step>),
+    /// All steps of another list, which stands before this one.
+    Transform(TransformId),
+    /// What undoes all steps of another list, which stands before this one.
+    InverseOf(TransformId),
 }

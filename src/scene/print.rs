@@ -18,6 +18,9 @@ use crate::source::Sources;
 /// Deeper levels are not indented further.
 const DEEPEST_INDENT: usize = 20;
 
+/// Steps of one transform that are written.
+const MOST_STEPS: usize = 1_000;
+
 /// The Scene, a word a line.
 pub fn dump(scene: &Scene, sources: &Sources) -> String {
     let mut out = String::new();
@@ -215,31 +218,39 @@ impl Printer<'_> {
     }
 
     fn transform(&self, out: &mut String, id: TransformId, indent: &str) -> fmt::Result {
-        enum Task<'a> {
-            Step(&'a Step, usize),
-            Text(&'static str, usize),
-        }
-        let steps = &self.scene.transforms[id.index()];
-        let mut stack: Vec<Task> = steps.iter().rev().map(|step| Task::Step(step, 0)).collect();
-        while let Some(task) = stack.pop() {
-            let (Task::Step(_, depth) | Task::Text(_, depth)) = task;
+        // A list that another holds twice is written twice, and so on.
+        let mut left = MOST_STEPS;
+        let steps = |id: TransformId, depth| {
+            self.scene.transforms[id.index()].iter().rev().map(move |step| (Some(*step), depth))
+        };
+        let mut stack: Vec<(Option<Step>, usize)> = steps(id, 0).collect();
+        while let Some((step, depth)) = stack.pop() {
+            if left == 0 {
+                return writeln!(out, "{indent}…");
+            }
+            left -= 1;
+            if let Some(Step::Transform(id)) = step {
+                stack.extend(steps(id, depth));
+                continue;
+            }
             write!(out, "{indent}{}", "  ".repeat(depth.min(DEEPEST_INDENT)))?;
-            match task {
-                Task::Text(text, _) => writeln!(out, "{text}")?,
-                Task::Step(Step::Translate(v), _) => writeln!(out, "translate {}", vector(*v))?,
-                Task::Step(Step::Scale(v), _) => writeln!(out, "scale {}", vector(*v))?,
-                Task::Step(Step::Rotate(v), _) => writeln!(out, "rotate {}", vector(*v))?,
-                Task::Step(Step::Matrix(rows), _) => {
+            match step {
+                None => writeln!(out, "nothing")?,
+                Some(Step::Translate(v)) => writeln!(out, "translate {}", vector(v))?,
+                Some(Step::Scale(v)) => writeln!(out, "scale {}", vector(v))?,
+                Some(Step::Rotate(v)) => writeln!(out, "rotate {}", vector(v))?,
+                Some(Step::Matrix(rows)) => {
                     let numbers: Vec<String> =
                         rows.iter().flat_map(|v| [v.x, v.y, v.z]).map(|n| n.to_string()).collect();
                     writeln!(out, "matrix <{}>", numbers.join(", "))?;
                 }
-                Task::Step(Step::InverseOf(inner), _) => {
+                Some(Step::Transform(_)) => {}
+                Some(Step::InverseOf(id)) => {
                     writeln!(out, "inverse of")?;
-                    if inner.is_empty() {
-                        stack.push(Task::Text("nothing", depth + 1));
+                    if self.scene.transforms[id.index()].is_empty() {
+                        stack.push((None, depth + 1));
                     }
-                    stack.extend(inner.iter().rev().map(|step| Task::Step(step, depth + 1)));
+                    stack.extend(steps(id, depth + 1));
                 }
             }
         }

@@ -25,6 +25,7 @@ use crate::vocabulary::{Family, Word};
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
+pub(in crate::evaluate) use object::Made;
 pub(in crate::evaluate) use place::Place;
 
 impl Evaluator<'_> {

@@ -10,6 +10,25 @@ use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Place, is_object_word};
 
+/// What an object is in the end, through all uses of uses.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::evaluate) struct Made {
+    /// The word of its kind.
+    word: Word,
+    /// It, or what it is a use of, has a texture of its own.
+    textured: bool,
+}
+
+fn own_word(kind: &ObjectKind) -> Word {
+    match kind {
+        ObjectKind::Sphere { .. } => Word::Sphere,
+        ObjectKind::Plane { .. } => Word::Plane,
+        ObjectKind::Box { .. } => Word::Box,
+        ObjectKind::Union(_) | ObjectKind::Use(_) => Word::Union,
+        ObjectKind::LightSource(_) => Word::LightSource,
+    }
+}
+
 impl Evaluator<'_> {
     /// The object that `token` opens: an object, or poison.
     pub(super) fn object(&mut self, token: &Token, word: Word) -> Outcome<Value> {
@@ -46,6 +65,15 @@ impl Evaluator<'_> {
             .help("raise the limit with `--limit objects=N`");
             return Err(self.report_in(expansion, diagnostic));
         }
+        let used = match object.kind {
+            ObjectKind::Use(used) => self.made.get(used.index()).copied(),
+            _ => None,
+        };
+        let textured = |m: &Modifier| matches!(m.kind, ModifierKind::Texture(_));
+        self.made.push(Made {
+            word: used.map_or_else(|| own_word(&object.kind), |used| used.word),
+            textured: object.modifiers.iter().any(textured) || used.is_some_and(|u| u.textured),
+        });
         self.scene.objects.push(object);
         Ok(ObjectId(self.scene.objects.len() as u32 - 1))
     }
@@ -67,7 +95,7 @@ impl Evaluator<'_> {
                 evaluator.skip_parts();
             }
             let mut modifiers = Vec::new();
-            let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.is_textured(used));
+            let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.made[used.index()].textured);
             let failed = evaluator.modifiers(word, textured, &mut modifiers);
             Ok((kind, modifiers, failed))
         })?;
@@ -127,17 +155,7 @@ impl Evaluator<'_> {
         word: Word,
         object: ObjectId,
     ) -> Option<Reported> {
-        let mut kind = &self.scene.objects[object.index()].kind;
-        while let ObjectKind::Use(inner) = kind {
-            kind = &self.scene.objects[inner.index()].kind;
-        }
-        let own = match kind {
-            ObjectKind::Sphere { .. } => Word::Sphere,
-            ObjectKind::Plane { .. } => Word::Plane,
-            ObjectKind::Box { .. } => Word::Box,
-            ObjectKind::Union(_) | ObjectKind::Use(_) => Word::Union,
-            ObjectKind::LightSource(_) => Word::LightSource,
-        };
+        let own = self.made[object.index()].word;
         if own == word || matches!(word, Word::Object | Word::Union) {
             return None;
         }
@@ -257,19 +275,6 @@ impl Evaluator<'_> {
             }
         }
         Ok(ObjectKind::Union(children))
-    }
-
-    /// Whether the object, or what it is a use of, has a texture of its own.
-    fn is_textured(&self, object: ObjectId) -> bool {
-        let mut next = Some(object);
-        while let Some(id) = next {
-            let Object { kind, modifiers, .. } = &self.scene.objects[id.index()];
-            if modifiers.iter().any(|m| matches!(m.kind, ModifierKind::Texture(_))) {
-                return true;
-            }
-            next = if let ObjectKind::Use(used) = kind { Some(*used) } else { None };
-        }
-        false
     }
 
     /// Everything after the parts. `textured`: what is modified has a texture already, which a

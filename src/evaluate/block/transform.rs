@@ -16,18 +16,25 @@ use super::Place;
 impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
     pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
+        let step = self.step_from(token)?;
+        Some(step.map(|step| self.add_transform(vec![step])))
+    }
+
+    fn step_from(&mut self, token: &Token) -> Option<Outcome<Step>> {
         let TokenKind::Word(word) = token.kind else { return None };
-        let outcome = match word {
+        match word {
             Word::Translate | Word::Rotate | Word::Scale | Word::Matrix => {
-                self.step(token, word).map(|step| self.add_transform(vec![step]))
+                Some(self.step(token, word))
             }
-            Word::TransformWord => self.transform_block(token),
-            _ => return None,
-        };
-        Some(outcome)
+            Word::TransformWord => Some(self.transform_block(token).map(Step::Transform)),
+            _ => None,
+        }
     }
 
     fn add_transform(&mut self, steps: Vec<Step>) -> TransformId {
+        if let [Step::Transform(whole)] = steps[..] {
+            return whole;
+        }
         self.scene.transforms.push(steps);
         TransformId(self.scene.transforms.len() as u32 - 1)
     }
@@ -122,20 +129,16 @@ impl Evaluator<'_> {
             let mut steps = Vec::new();
             let mut failed = false;
             while let Some(token) = evaluator.next() {
-                match evaluator.transform_from(&token) {
-                    Some(Ok(id)) => {
-                        steps.extend(evaluator.scene.transforms[id.index()].iter().cloned())
-                    }
+                match evaluator.step_from(&token) {
+                    Some(Ok(step)) => steps.push(step),
                     Some(Err(Reported)) => failed = true,
                     None => match token.kind {
                         TokenKind::Word(Word::Inverse) => {
-                            steps = vec![Step::InverseOf(std::mem::take(&mut steps))];
+                            let all = evaluator.add_transform(std::mem::take(&mut steps));
+                            steps.push(Step::InverseOf(all));
                         }
                         TokenKind::Expression(id) => match evaluator.named(&token, id) {
-                            Some(Value::Transform(id)) => {
-                                steps
-                                    .extend(evaluator.scene.transforms[id.index()].iter().cloned());
-                            }
+                            Some(Value::Transform(id)) => steps.push(Step::Transform(id)),
                             _ => {
                                 evaluator.unexpected(&token, Place::TRANSFORM);
                                 failed = true;

@@ -66,12 +66,25 @@ fn an_ellipsoid_does_not_remember_how_its_sphere_was_turned() {
 #[test]
 fn what_is_undone_was_never_done() {
     let there = || vec![scale(3.0, 7.0, 11.0), rotate(12.0, 34.0, 56.0), translate(0.1, 0.2, 0.3)];
-    let mut back = there();
-    back.push(Step::InverseOf(there()));
-    let ours = spend(sphere(1.0, 2.0, 3.0, 4.0), back);
+    let ball = || sphere(1.0, 2.0, 3.0, 4.0);
+    let under = |last: &dyn Fn(&mut Build) -> Vec<Step>| {
+        let mut build = Build::new();
+        let steps = last(&mut build);
+        let object = build.moved(ball(), steps);
+        build.root(object);
+        build.world()
+    };
+    let ours = under(&|build| {
+        let mut back = there();
+        back.push(Step::InverseOf(build.transform(there())));
+        back
+    });
     assert_eq!(ours.spheres, spend(sphere(1.0, 2.0, 3.0, 4.0), vec![]).spheres);
-    let nested = Step::InverseOf(vec![Step::InverseOf(there())]);
-    let twice = spend(sphere(1.0, 2.0, 3.0, 4.0), vec![nested]);
+    let twice = under(&|build| {
+        let once = build.transform(there());
+        let undone = build.transform(vec![Step::InverseOf(once)]);
+        vec![Step::InverseOf(undone)]
+    });
     let once = spend(sphere(1.0, 2.0, 3.0, 4.0), there());
     let (twice, once) = (twice.ellipsoids[0].placement, once.ellipsoids[0].placement);
     assert!(twice.world_from_local.abs_diff_eq(once.world_from_local, 1e-14));
