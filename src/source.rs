@@ -2,6 +2,7 @@
 //!
 //! **Invariant:** a [`Source`] never changes after reading; every [`Span`] indexes into one.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Names one [`Source`] in [`Sources`].
@@ -58,36 +59,63 @@ impl ExpansionId {
 }
 
 /// Why a text is being evaluated: a call of a macro or an include.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
     /// The expansion that contains the call.
     pub parent: ExpansionId,
     /// The call itself.
     pub call: Span,
     pub kind: ExpansionKind,
+    /// Index into the names that [`Expansions`] keeps, each once.
+    name: u32,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExpansionKind {
-    /// A call of the named macro.
-    Macro(String),
-    /// An `#include` of the named file.
-    Include(String),
+    /// A call of a macro.
+    Macro,
+    /// An `#include` of a file.
+    Include,
 }
 
 /// Every expansion of one evaluation, parents before children. Entry `n` has the id `n + 1`.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Expansions(Vec<Expansion>);
+pub struct Expansions {
+    list: Vec<Expansion>,
+    names: Vec<String>,
+    by_name: BTreeMap<String, u32>,
+}
 
 impl Expansions {
-    pub fn add(&mut self, expansion: Expansion) -> ExpansionId {
-        self.0.push(expansion);
-        ExpansionId(self.0.len() as u32)
+    /// Adds a call of the macro, or the include of the file, called `name`.
+    pub fn add(
+        &mut self,
+        parent: ExpansionId,
+        call: Span,
+        kind: ExpansionKind,
+        name: &str,
+    ) -> ExpansionId {
+        let name = match self.by_name.get(name) {
+            Some(&known) => known,
+            None => {
+                let new = self.names.len() as u32;
+                self.names.push(name.to_owned());
+                self.by_name.insert(name.to_owned(), new);
+                new
+            }
+        };
+        self.list.push(Expansion { parent, call, kind, name });
+        ExpansionId(self.list.len() as u32)
     }
 
     /// The expansion, or `None` for [`ExpansionId::MAIN`].
     pub fn get(&self, id: ExpansionId) -> Option<&Expansion> {
-        self.0.get((id.0 as usize).checked_sub(1)?)
+        self.list.get((id.0 as usize).checked_sub(1)?)
+    }
+
+    /// What is called or included.
+    pub fn name(&self, expansion: &Expansion) -> &str {
+        &self.names[expansion.name as usize]
     }
 
     /// The calls that led to `id`, innermost first.

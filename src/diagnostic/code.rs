@@ -100,6 +100,7 @@ codes! {
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
+    RepeatedParameter "repeated-parameter" lint "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
     // files
     MissingInclude "missing-include" error "an included file is not found";

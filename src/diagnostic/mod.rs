@@ -103,7 +103,7 @@ impl Diagnostic {
             let times = times.entry(expansion.call).or_default();
             *times += 1;
             if *times == 1 {
-                self.trace.push(TraceStep::of(expansion));
+                self.trace.push(TraceStep::of(expansion, expansions.name(expansion)));
             }
         }
         for step in &mut self.trace {
@@ -120,10 +120,10 @@ impl Diagnostic {
 }
 
 impl TraceStep {
-    fn of(expansion: &Expansion) -> Self {
-        let text = match &expansion.kind {
-            ExpansionKind::Macro(name) => format!("in this call of macro `{name}`"),
-            ExpansionKind::Include(name) => format!("in this include of `{name}`"),
+    fn of(expansion: &Expansion, name: &str) -> Self {
+        let text = match expansion.kind {
+            ExpansionKind::Macro => format!("in this call of macro `{name}`"),
+            ExpansionKind::Include => format!("in this include of `{name}`"),
         };
         Self { span: expansion.call, text }
     }

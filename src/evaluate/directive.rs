@@ -1,24 +1,14 @@
 //! Directives: run where they stand, between two items of whoever is reading.
 
-use std::rc::Rc;
-
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::source::{Expansion, ExpansionKind, Span};
+use crate::source::Span;
 use crate::syntax::ast::{
-    Argument, Arguments, Body, Callee, DirectiveId, DirectiveKind, ExpressionId, ExpressionKind,
-    Items, Target, Test,
+    DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target, Test,
 };
 
-use super::scope::{MacroId, Slot};
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
-use super::{Evaluator, Here, Limits, Macro, MacroBody, Outcome, Reported};
-
-/// What a parameter is bound to.
-enum Bound {
-    Variable(Slot),
-    Value(Value),
-}
+use super::{Evaluator, Here, Outcome, Reported};
 
 impl Evaluator<'_> {
     pub(super) fn directive(&mut self, here: &Here, id: DirectiveId) -> Outcome<()> {
@@ -90,24 +80,7 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
             DirectiveKind::Macro { name, name_span, parameters, body } => {
-                let symbol = here.symbol(*name);
-                let id = MacroId(self.macros.len() as u32);
-                self.macros.push(Rc::new(Macro {
-                    name: symbol,
-                    parameters: parameters
-                        .iter()
-                        .map(|parameter| here.symbol(parameter.name))
-                        .collect(),
-                    body: match body {
-                        Body::Items(items) => MacroBody::Items(*items),
-                        Body::Raw(_) => MacroBody::Raw,
-                    },
-                    unit: here.unit.clone(),
-                    defined: *name_span,
-                }));
-                let in_main = self.in_main();
-                self.scopes.note_declaration(symbol, here.site(*name_span), in_main);
-                self.scopes.assign(symbol, Value::Macro(id));
+                self.define_macro(here, *name, *name_span, parameters, body);
                 Ok(())
             }
             DirectiveKind::Include(file) => self.include(here, *file, directive.head),
@@ -211,140 +184,6 @@ impl Evaluator<'_> {
         }
         self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
-    }
-
-    // Macros.
-
-    /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
-    /// expression is no such call.
-    pub(super) fn splices_macro(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
-        let expression = *here.unit.expression(id);
-        let ExpressionKind::Call(Callee::Name(name, _), arguments) = expression.kind else {
-            return Ok(false);
-        };
-        let Some(Value::Macro(macro_id)) = self.scopes.read(here.symbol(name)) else {
-            return Ok(false);
-        };
-        let definition = self.macros[macro_id.0 as usize].clone();
-        let MacroBody::Items(body) = definition.body else {
-            return Err(self.raw_macro(here, expression.span));
-        };
-        let expansion = self.enter_macro(here, &definition, arguments, expression.span)?;
-        self.push_macro(&definition.unit, expansion, body);
-        Ok(true)
-    }
-
-    /// Runs a macro called inside an expression: it leaves one value.
-    pub(super) fn macro_value(
-        &mut self,
-        here: &Here,
-        id: MacroId,
-        arguments: Arguments,
-        span: Span,
-    ) -> Outcome<Value> {
-        let definition = self.macros[id.0 as usize].clone();
-        let MacroBody::Items(body) = definition.body else {
-            return Err(self.raw_macro(here, span));
-        };
-        let expansion = self.enter_macro(here, &definition, arguments, span)?;
-        self.macro_depth += 1;
-        let inner = Here { unit: definition.unit.clone(), expansion };
-        let value = self.inside(&inner, body, |evaluator| evaluator.only_value(here, span));
-        self.macro_depth -= 1;
-        self.scopes.close();
-        value
-    }
-
-    fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
-        let diagnostic = Diagnostic::new(
-            Code::NotSupportedYet,
-            "a macro whose brackets do not balance is not supported yet",
-        )
-        .at(span, "this call opens or closes a bracket of its surroundings");
-        self.report(here, diagnostic)
-    }
-
-    /// Evaluates the arguments, then opens the macro's table with its parameters bound.
-    fn enter_macro(
-        &mut self,
-        here: &Here,
-        definition: &Macro,
-        arguments: Arguments,
-        span: Span,
-    ) -> Outcome<crate::source::ExpansionId> {
-        let unit = here.unit.clone();
-        let list = unit.ast.arguments(arguments);
-        let name = self.scopes.name(definition.name).to_owned();
-        if list.len() != definition.parameters.len() {
-            let (wanted, found) = (definition.parameters.len(), list.len());
-            let diagnostic = Diagnostic::new(
-                Code::WrongArity,
-                format!(
-                    "macro `{name}` takes {}, and is given {found}",
-                    super::report::count(&(wanted..=wanted), "argument")
-                ),
-            )
-            .at(span, format!("expected {}", super::report::count(&(wanted..=wanted), "argument")))
-            .also(definition.defined, "defined here");
-            return Err(self.report(here, diagnostic));
-        }
-        if self.macro_depth >= self.options.limits.macro_depth {
-            self.halted = true;
-            let limit = self.options.limits.macro_depth;
-            let diagnostic = Diagnostic::new(Code::MacroLimit, format!("macros call each other more than {limit} deep"))
-                .at(span, format!("this call of `{name}` is one too many"))
-                .also(definition.defined, "defined here")
-                .help("a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit");
-            return Err(self.report(here, diagnostic));
-        }
-        let mut bound = Vec::with_capacity(list.len());
-        for argument in list {
-            bound.push(self.bound(here, argument, span));
-        }
-        let expansion = self.scene.expansions.add(Expansion {
-            parent: here.expansion,
-            call: span,
-            kind: ExpansionKind::Macro(name),
-        });
-        let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
-        if u64::from(expansion.0) > most {
-            self.halted = true;
-            let name = self.scopes.name(definition.name);
-            let message = format!("macros and includes have been called {most} times");
-            let diagnostic = Diagnostic::new(Code::MacroLimit, message)
-                .at(span, format!("this call of `{name}` is one too many"))
-                .also(definition.defined, "defined here")
-                .help("`--limit loop-turns=N` raises the limit, which is a multiple of it");
-            return Err(self.report(here, diagnostic));
-        }
-        self.scopes.open();
-        for (&parameter, bound) in definition.parameters.iter().zip(bound) {
-            match bound {
-                Bound::Variable(slot) => self.scopes.bind(parameter, slot),
-                Bound::Value(value) => self.scopes.bind_value(parameter, value),
-            }
-        }
-        Ok(expansion)
-    }
-
-    /// A lone name is passed by reference, all else by value.
-    fn bound(&mut self, here: &Here, argument: &Argument, span: Span) -> Bound {
-        match *argument {
-            Argument::Expression(id) => {
-                if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
-                    let symbol = here.symbol(name);
-                    self.scopes.mark_used(symbol);
-                    if let Some(slot) = self.scopes.slot(symbol) {
-                        return Bound::Variable(slot);
-                    }
-                }
-                Bound::Value(self.expression(here, id).unwrap_or(Value::Broken))
-            }
-            Argument::Items(items) => {
-                let value = self.inside(here, items, |evaluator| evaluator.only_value(here, span));
-                Bound::Value(value.unwrap_or(Value::Broken))
-            }
-        }
     }
 
     /// Evaluates an expression for what it does. Its vectors may have any number of components: those

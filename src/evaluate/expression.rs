@@ -108,13 +108,27 @@ impl Evaluator<'_> {
 
     /// Operations lean to the left as deep as they are long: from the leftmost operand on, one by one.
     fn sum(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let mut first = id;
+        while let ExpressionKind::Binary(_, left, _) = here.unit.expression(first).kind {
+            first = left;
+        }
+        self.sum_from(here, id, first)
+    }
+
+    /// As [`Self::expression`], with another leftmost operand than is written.
+    pub(super) fn sum_from(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        leftmost: ExpressionId,
+    ) -> Outcome<Value> {
         let mut operations = Vec::new();
         let mut first = id;
         while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
             operations.push((operator, left, right, here.unit.expression(first).span));
             first = left;
         }
-        let mut value = self.expression(here, first);
+        let mut value = self.expression(here, leftmost);
         for (operator, left, right, span) in operations.into_iter().rev() {
             // Both sides are evaluated before either fails: each may report, and both draw from streams.
             let operand = self.expression(here, right);

@@ -1,11 +1,12 @@
 //! `#include`: another file's items, read where the directive stands.
 //!
-//! **Invariant:** a file is parsed once, however often it is included.
+//! **Invariant:** a file is parsed once, however often it is included, and looked for once for each file that
+//! includes it: files do not change while a scene is read.
 
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{Expansion, ExpansionKind, FileError, Source, Span, decode};
+use crate::source::{ExpansionKind, FileError, Source, Span, decode};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
 
@@ -41,24 +42,30 @@ impl Evaluator<'_> {
             return Err(self.include_limit(here, &name, span));
         }
         let from = self.sources.get(head.file).name.clone();
-        let found = match self.files.read(&name, &from) {
-            Ok(found) => found,
-            Err(error) => {
-                let diagnostic = missing_file(&name, span, error);
-                self.lacks_include = true;
-                return Err(self.report(here, diagnostic));
+        let known = self.found.get(&(name.clone(), head.file));
+        let (path, unit) = match known.and_then(|path| self.parsed.get_key_value(path)) {
+            Some((path, unit)) => (path.clone(), unit.clone()),
+            None => {
+                let found = match self.files.read(&name, &from) {
+                    Ok(found) => found,
+                    Err(error) => {
+                        let diagnostic = missing_file(&name, span, error);
+                        self.lacks_include = true;
+                        return Err(self.report(here, diagnostic));
+                    }
+                };
+                self.found.insert((name.clone(), head.file), found.name.clone());
+                let unit = match self.parsed.get(&found.name) {
+                    Some(unit) => unit.clone(),
+                    None => self.read_unit(here, span, &found.name, found.bytes),
+                };
+                (found.name, unit)
             }
         };
-        let unit = match self.parsed.get(&found.name) {
-            Some(unit) => unit.clone(),
-            None => self.read_unit(here, span, &found.name, found.bytes),
-        };
-        let expansion = self.scene.expansions.add(Expansion {
-            parent: here.expansion,
-            call: head.to(span),
-            kind: ExpansionKind::Include(name),
-        });
-        self.push_include(&unit, expansion, found.name);
+        let call = head.to(span);
+        let expansion =
+            self.scene.expansions.add(here.expansion, call, ExpansionKind::Include, &name);
+        self.push_include(&unit, expansion, path);
         Ok(())
     }
 

@@ -11,6 +11,7 @@ mod call;
 mod directive;
 mod enclosure;
 mod endless;
+mod expand;
 mod expression;
 mod include;
 mod lint;
@@ -33,12 +34,13 @@ use crate::scene::{
     TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, Items, NameId};
+use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, NameId};
 
 use crate::vocabulary::PREDECLARED;
 
 use builtin::RandomStreams;
 use enclosure::Enclosure;
+use expand::Macro;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Token};
 use value::{Poison, Value};
@@ -176,24 +178,6 @@ impl Here {
     }
 }
 
-/// A macro as it was defined.
-#[derive(Debug)]
-struct Macro {
-    name: Symbol,
-    parameters: Vec<Symbol>,
-    body: MacroBody,
-    unit: Rc<Unit>,
-    /// Its name, where it is defined.
-    defined: Span,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum MacroBody {
-    Items(Items),
-    /// Its brackets do not balance.
-    Raw,
-}
-
 struct Evaluator<'a> {
     sources: &'a mut Sources,
     files: &'a dyn Files,
@@ -219,6 +203,8 @@ struct Evaluator<'a> {
     calls_wait: bool,
     /// Files already read and parsed, by the name they were found under.
     parsed: HashMap<String, Rc<Unit>>,
+    /// The name that a file was found under, by what an including file calls it.
+    found: HashMap<(String, FileId), String>,
     /// The names of the files that include each other now.
     including: Vec<String>,
     default_texture: TextureId,
@@ -307,6 +293,7 @@ impl<'a> Evaluator<'a> {
             hold: None,
             calls_wait: false,
             parsed: HashMap::new(),
+            found: HashMap::new(),
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,

@@ -153,7 +153,7 @@ impl Evaluator<'_> {
         let parameters: Vec<String> = match self.scopes.read(symbol) {
             Some(&Value::Macro(id)) => {
                 let parameters = &self.macros[id.0 as usize].parameters;
-                parameters.iter().map(|&symbol| self.scopes.name(symbol).to_owned()).collect()
+                parameters.iter().map(|&(symbol, _)| self.scopes.name(symbol).to_owned()).collect()
             }
             _ => Vec::new(),
         };

@@ -22,6 +22,11 @@ pub struct MacroId(pub u32);
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slot(u32);
 
+impl Slot {
+    /// Of an optional parameter that a call left out: it hides what else has its name.
+    const NONE: Self = Self(u32::MAX);
+}
+
 /// What is known of a declared name: for messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Declared {
@@ -88,7 +93,14 @@ impl Scopes {
     }
 
     pub fn slot(&self, symbol: Symbol) -> Option<Slot> {
-        self.states[symbol.0 as usize].bindings.last().map(|&(_, slot)| slot)
+        let &(_, slot) = self.states[symbol.0 as usize].bindings.last()?;
+        (slot != Slot::NONE).then_some(slot)
+    }
+
+    /// Whether the name is an optional parameter that was left out.
+    pub fn is_left_out(&self, symbol: Symbol) -> bool {
+        let bindings = &self.states[symbol.0 as usize].bindings;
+        bindings.last().is_some_and(|&(_, slot)| slot == Slot::NONE)
     }
 
     /// The value of a name; reading it counts as a use.
@@ -98,7 +110,7 @@ impl Scopes {
             declared.used = true;
         }
         let &(_, slot) = state.bindings.last()?;
-        Some(&self.slots[slot.0 as usize])
+        self.slots.get(slot.0 as usize)
     }
 
     pub fn open(&mut self) {
@@ -122,24 +134,13 @@ impl Scopes {
 
     /// `#local`: in the newest table, unless that has the name already.
     pub fn assign_local(&mut self, symbol: Symbol, value: Value) {
-        let depth = self.tables.len() as u32 - 1;
-        match self.states[symbol.0 as usize].bindings.last() {
-            Some(&(at, slot)) if at == depth => self.slots[slot.0 as usize] = value,
-            _ => self.bind_value(symbol, value),
-        }
+        self.assign_in(self.home(symbol, true), symbol, value);
     }
 
     /// `#declare`: where the name is found, be it local in a caller (so a parameter passes the value out);
     /// else in the main file's table.
     pub fn assign(&mut self, symbol: Symbol, value: Value) {
-        match self.slot(symbol) {
-            Some(slot) => self.slots[slot.0 as usize] = value,
-            None => {
-                let slot = self.new_slot(value);
-                self.states[symbol.0 as usize].bindings.insert(0, (0, slot));
-                self.tables[0].push((symbol, true));
-            }
-        }
+        self.assign_in(self.home(symbol, false), symbol, value);
     }
 
     /// The table that `#declare` (or `#local`) of a name would assign in now. Its value may come from a
@@ -155,6 +156,14 @@ impl Scopes {
         let bindings = &self.states[symbol.0 as usize].bindings;
         let at = bindings.partition_point(|&(other, _)| other <= depth);
         match bindings[..at].last() {
+            Some(&(other, Slot::NONE)) if other == depth => {
+                let slot = self.new_slot(value);
+                self.states[symbol.0 as usize].bindings[at - 1].1 = slot;
+                let table = &mut self.tables[depth as usize];
+                if let Some((_, own)) = table.iter_mut().rev().find(|(other, _)| *other == symbol) {
+                    *own = true;
+                }
+            }
             Some(&(other, slot)) if other == depth => self.slots[slot.0 as usize] = value,
             _ => {
                 let slot = self.new_slot(value);
@@ -180,6 +189,11 @@ impl Scopes {
     /// Binds a parameter to the caller's variable.
     pub fn bind(&mut self, symbol: Symbol, slot: Slot) {
         self.bind_slot(symbol, slot, false);
+    }
+
+    /// Binds a parameter that was left out: its name is not declared until it is assigned.
+    pub fn bind_nothing(&mut self, symbol: Symbol) {
+        self.bind_slot(symbol, Slot::NONE, false);
     }
 
     fn bind_slot(&mut self, symbol: Symbol, slot: Slot, own: bool) {
@@ -228,9 +242,9 @@ impl Scopes {
     /// The names that have a value now, in the order they were first seen.
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
-            let slot = state.bindings.last().map(|&(_, slot)| slot);
+            let value = state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
             // A name that was itself reported is no suggestion for another.
-            slot.is_some_and(|slot| self.slots[slot.0 as usize] != Value::Broken)
+            value.is_some_and(|value| *value != Value::Broken)
         });
         self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())
     }
@@ -238,7 +252,7 @@ impl Scopes {
     /// Every name that was declared and is still bound, with its value.
     pub fn declarations(&self) -> impl Iterator<Item = (&str, &Declared, Option<&Value>)> {
         self.names.iter().zip(&self.states).filter_map(|(name, state)| {
-            let value = state.bindings.last().map(|&(_, slot)| &self.slots[slot.0 as usize]);
+            let value = state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
             Some((name.as_str(), state.declared.as_ref()?, value))
         })
     }

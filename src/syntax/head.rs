@@ -1,12 +1,15 @@
 //! Heads of directives without parentheses: `#declare A =`, `#include "name"`, `#macro M(a, b)`.
 
+use std::collections::BTreeMap;
+
 use super::ast::{
-    Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Parameter,
-    Target,
+    Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, NameId,
+    Parameter, Target,
 };
 use super::directive::Body;
 use super::nest::{Frame, FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Role, Word};
 
@@ -264,7 +267,24 @@ impl<'a> Nest<'a> {
                 }
             }
         }
+        self.lint_repeated(&parameters);
         parameters
+    }
+
+    /// As POV-Ray has it (measured), the last parameter of a name is the one that is seen.
+    fn lint_repeated(&mut self, parameters: &[Parameter]) {
+        let mut seen: BTreeMap<NameId, Span> = BTreeMap::new();
+        for parameter in parameters {
+            if let Some(before) = seen.insert(parameter.name, parameter.span) {
+                let name = self.slice(parameter.span);
+                let message = format!("two parameters of this macro are called `{name}`");
+                self.report(
+                    Diagnostic::new(Code::RepeatedParameter, message)
+                        .at(parameter.span, "only this one is seen inside")
+                        .also(before, "this one cannot be reached"),
+                );
+            }
+        }
     }
 }
 

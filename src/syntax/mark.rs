@@ -1,9 +1,9 @@
 //! Operators and separators.
 
-use super::ast::{Component, ExpressionKind, ItemKind, UnaryOperator};
+use super::ast::{Argument, Callee, Component, ExpressionKind, ItemKind, UnaryOperator};
 use super::expression::{self, Operator, OperatorKind};
 use super::nest::{FrameKind, Nest, State};
-use super::token::{Mark, Token, TokenKind};
+use super::token::{Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -170,11 +170,19 @@ impl<'a> Nest<'a> {
             }
             FrameKind::Call(_) | FrameKind::List(..) => {
                 let empty = self.items.len() == self.frames[self.frames.len() - 1].items;
-                if idle
-                    && empty
-                    && let FrameKind::Call(_) = self.top().kind
-                {
-                    self.missing_before(span, "an argument");
+                if idle && empty {
+                    let in_macro_head = self.in_macro_head();
+                    match self.top().kind {
+                        // A macro's optional parameter may be left empty.
+                        FrameKind::Call(Callee::Name(..)) if !in_macro_head => {
+                            let items = self.take_items(self.items.len());
+                            return self.arguments.push(Argument::Items(items));
+                        }
+                        FrameKind::Call(_) => {
+                            self.missing_before(span, "an argument");
+                        }
+                        _ => {}
+                    }
                 }
                 self.finish_expression();
                 self.end_argument();
@@ -189,6 +197,12 @@ impl<'a> Nest<'a> {
             | FrameKind::Default(_)
             | FrameKind::Body(_) => self.item(ItemKind::Comma, span),
         }
+    }
+
+    /// Among the parameters of a `#macro`.
+    fn in_macro_head(&self) -> bool {
+        let outer = self.frames.len().checked_sub(2).map(|outer| &self.frames[outer].kind);
+        matches!(outer, Some(FrameKind::Head(Head::Macro)))
     }
 
     pub(super) fn missing_before(&mut self, span: Span, what: &str) {

@@ -92,7 +92,7 @@ finish { kd kd ks 0.4 #if (a) phong_exponent 20 #end }
 camera { shift <0, 0.5> }
 sphere { shift, kd }
 "#;
-    a_macro_that_pairs_only_after_expansion_stays_raw: r#"
+    a_brace_that_pairs_only_after_expansion_is_loose: r#"
 #macro M(a)
   #if (a) merge { #else union { #end
     sphere { 0, 1 }

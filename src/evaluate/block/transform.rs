@@ -4,8 +4,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::scene::TransformId;
-use crate::syntax::ast::Argument;
-use crate::syntax::ast::ExpressionKind;
+use crate::source::Span;
+use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -153,14 +153,38 @@ impl Evaluator<'_> {
     }
 
     /// A name that is a word in the block that `block` opened, where only running it shows that it stands
-    /// there: in a macro's body, in an include.
-    pub(super) fn contextual_word(&self, token: &Token, block: Word) -> Option<Word> {
+    /// there: in a macro's body, in an include. What looks like a call of it, `ks (1 - A)*2`, is the word
+    /// and its value, which comes next.
+    pub(super) fn contextual_word(&mut self, token: &Token, block: Word) -> Option<Word> {
         let TokenKind::Expression(id) = token.kind else { return None };
-        let unit = &token.here.unit;
-        let ExpressionKind::Name(name) = unit.expression(id).kind else { return None };
-        let free = self.scopes.slot(token.here.symbol(name)).is_none();
-        (free && self.options.dialect == Dialect::Scene)
-            .then(|| Word::contextual(unit.ast.name(name), block))?
+        let unit = token.here.unit.clone();
+        let mut leftmost = id;
+        while let ExpressionKind::Binary(_, left, _) = unit.expression(leftmost).kind {
+            leftmost = left;
+        }
+        let (name, value) = match unit.expression(leftmost).kind {
+            ExpressionKind::Name(name) if leftmost == id => (name, None),
+            ExpressionKind::Call(Callee::Name(name, span), arguments) => {
+                match *unit.ast.arguments(arguments) {
+                    [Argument::Expression(value)] => (name, Some((span, value))),
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        };
+        if self.options.dialect != Dialect::Scene
+            || self.scopes.slot(token.here.symbol(name)).is_some()
+        {
+            return None;
+        }
+        let word = Word::contextual(unit.ast.name(name), block)?;
+        if let Some((name, value)) = value {
+            let value = self.sum_from(&token.here, id, value).unwrap_or(Value::Broken);
+            let span = Span { start: name.end, ..token.span };
+            let here = token.here.clone();
+            self.peeked = Some(Token { kind: TokenKind::Literal(value), span, here });
+        }
+        Some(word)
     }
 
     /// The value of a token that is a lone declared name, or a call; nothing is reported.

@@ -1,0 +1,237 @@
+//! Macros: how they are defined, called and given their parameters.
+//!
+//! **Invariant:** as in POV-Ray a lone name is passed by reference and all else by value. An optional
+//! parameter that a call leaves out, at its end or empty between commas, is not declared inside
+//! (`optional` is version 3.8's; 3.7 has no such word).
+
+use std::rc::Rc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{ExpansionId, ExpansionKind, Span};
+use crate::syntax::ast::{
+    Argument, Arguments, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
+};
+
+use super::report::count;
+use super::scope::{MacroId, Slot, Symbol};
+use super::value::Value;
+use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
+
+/// A macro as it was defined.
+#[derive(Debug)]
+pub(super) struct Macro {
+    pub name: Symbol,
+    /// Each with whether it is optional.
+    pub parameters: Vec<(Symbol, bool)>,
+    body: MacroBody,
+    unit: Rc<Unit>,
+    /// Its name, where it is defined.
+    defined: Span,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum MacroBody {
+    Items(Items),
+    /// Its parentheses do not pair where they are written.
+    Raw,
+}
+
+/// What a parameter is bound to.
+enum Bound {
+    Variable(Slot),
+    Value(Value),
+    Nothing,
+}
+
+impl Evaluator<'_> {
+    pub(super) fn define_macro(
+        &mut self,
+        here: &Here,
+        name: NameId,
+        name_span: Span,
+        parameters: &[Parameter],
+        body: &Body,
+    ) {
+        let symbol = here.symbol(name);
+        let id = MacroId(self.macros.len() as u32);
+        let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
+        self.macros.push(Rc::new(Macro {
+            name: symbol,
+            parameters,
+            body: match body {
+                Body::Items(items) => MacroBody::Items(*items),
+                Body::Raw(_) => MacroBody::Raw,
+            },
+            unit: here.unit.clone(),
+            defined: name_span,
+        }));
+        let in_main = self.in_main();
+        self.scopes.note_declaration(symbol, here.site(name_span), in_main);
+        self.scopes.assign(symbol, Value::Macro(id));
+    }
+
+    /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
+    /// expression is no such call.
+    pub(super) fn splices_macro(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
+        let expression = *here.unit.expression(id);
+        let ExpressionKind::Call(Callee::Name(name, _), arguments) = expression.kind else {
+            return Ok(false);
+        };
+        let Some(Value::Macro(macro_id)) = self.scopes.read(here.symbol(name)) else {
+            return Ok(false);
+        };
+        let definition = self.macros[macro_id.0 as usize].clone();
+        let MacroBody::Items(body) = definition.body else {
+            return Err(self.raw_macro(here, expression.span));
+        };
+        let expansion = self.enter_macro(here, &definition, arguments, expression.span)?;
+        self.push_macro(&definition.unit, expansion, body);
+        Ok(true)
+    }
+
+    /// Runs a macro called inside an expression: it leaves one value.
+    pub(super) fn macro_value(
+        &mut self,
+        here: &Here,
+        id: MacroId,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
+        let definition = self.macros[id.0 as usize].clone();
+        let MacroBody::Items(body) = definition.body else {
+            return Err(self.raw_macro(here, span));
+        };
+        let expansion = self.enter_macro(here, &definition, arguments, span)?;
+        self.macro_depth += 1;
+        let inner = Here { unit: definition.unit.clone(), expansion };
+        let value = self.inside(&inner, body, |evaluator| evaluator.only_value(here, span));
+        self.macro_depth -= 1;
+        self.scopes.close();
+        value
+    }
+
+    fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
+        let diagnostic = Diagnostic::new(
+            Code::NotSupportedYet,
+            "a macro whose parentheses do not pair is not supported yet",
+        )
+        .at(span, "a parenthesis of its body is closed only where it is run");
+        self.report(here, diagnostic)
+    }
+
+    /// Evaluates the arguments, then opens the macro's table with its parameters bound.
+    fn enter_macro(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<ExpansionId> {
+        let unit = here.unit.clone();
+        let list = unit.ast.arguments(arguments);
+        self.check_arguments(here, definition, list, span)?;
+        if self.macro_depth >= self.options.limits.macro_depth {
+            let limit = self.options.limits.macro_depth;
+            let message = format!("macros call each other more than {limit} deep");
+            let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit";
+            return Err(self.too_many_calls(here, definition, span, message, help));
+        }
+        let mut bound = Vec::with_capacity(definition.parameters.len());
+        for (argument, &(_, optional)) in list.iter().zip(&definition.parameters) {
+            bound.push(self.bound(here, argument, optional, span));
+        }
+        bound.resize_with(definition.parameters.len(), || Bound::Nothing);
+        let name = self.scopes.name(definition.name);
+        let expansion =
+            self.scene.expansions.add(here.expansion, span, ExpansionKind::Macro, name);
+        let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
+        if u64::from(expansion.0) > most {
+            let message = format!("macros and includes have been called {most} times");
+            let help = "`--limit loop-turns=N` raises the limit, which is a multiple of it";
+            return Err(self.too_many_calls(here, definition, span, message, help));
+        }
+        self.scopes.open();
+        for (&(parameter, _), bound) in definition.parameters.iter().zip(bound) {
+            match bound {
+                Bound::Variable(slot) => self.scopes.bind(parameter, slot),
+                Bound::Value(value) => self.scopes.bind_value(parameter, value),
+                Bound::Nothing => self.scopes.bind_nothing(parameter),
+            }
+        }
+        Ok(expansion)
+    }
+
+    /// As many arguments as parameters; the optional ones may be left out.
+    fn check_arguments(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        list: &[Argument],
+        span: Span,
+    ) -> Outcome<()> {
+        let parameters = &definition.parameters;
+        let required = parameters.iter().rposition(|&(_, optional)| !optional).map_or(0, |n| n + 1);
+        let wanted = required..=parameters.len();
+        let name = self.scopes.name(definition.name);
+        let diagnostic = if !wanted.contains(&list.len()) {
+            let wanted = count(&wanted, "argument");
+            let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
+            Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"))
+        } else if let Some(empty) =
+            list.iter().zip(parameters).position(|(argument, (_, optional))| {
+                !optional && matches!(argument, Argument::Items(items) if items.is_empty())
+            })
+        {
+            let parameter = self.scopes.name(parameters[empty].0);
+            let message = format!("`{parameter}` of macro `{name}` is left empty");
+            Diagnostic::new(Code::WrongArity, message)
+                .at(span, format!("expected a value for `{parameter}`"))
+                .help("only a parameter that is declared `optional` may be left out")
+        } else {
+            return Ok(());
+        };
+        Err(self.report(here, diagnostic.also(definition.defined, "defined here")))
+    }
+
+    /// Nothing further is evaluated.
+    fn too_many_calls(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        span: Span,
+        message: String,
+        help: &str,
+    ) -> Reported {
+        self.halted = true;
+        let name = self.scopes.name(definition.name);
+        let diagnostic = Diagnostic::new(Code::MacroLimit, message)
+            .at(span, format!("this call of `{name}` is one too many"))
+            .also(definition.defined, "defined here")
+            .help(help);
+        self.report(here, diagnostic)
+    }
+
+    /// A lone name is passed by reference, all else by value.
+    fn bound(&mut self, here: &Here, argument: &Argument, optional: bool, span: Span) -> Bound {
+        match *argument {
+            Argument::Expression(id) => {
+                if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
+                    let symbol = here.symbol(name);
+                    self.scopes.mark_used(symbol);
+                    if let Some(slot) = self.scopes.slot(symbol) {
+                        return Bound::Variable(slot);
+                    }
+                    if optional && self.scopes.is_left_out(symbol) {
+                        return Bound::Nothing;
+                    }
+                }
+                Bound::Value(self.expression(here, id).unwrap_or(Value::Broken))
+            }
+            Argument::Items(items) if items.is_empty() => Bound::Nothing,
+            Argument::Items(items) => {
+                let value = self.inside(here, items, |evaluator| evaluator.only_value(here, span));
+                Bound::Value(value.unwrap_or(Value::Broken))
+            }
+        }
+    }
+}
