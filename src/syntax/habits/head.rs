@@ -29,7 +29,9 @@ impl Reader<'_> {
             | Head::Switch
             | Head::Case
             | Head::Ifdef
-            | Head::Ifndef => self.condition(head, meant) || self.body(head, meant),
+            | Head::Ifndef => {
+                self.condition(head, meant) || self.then(meant) || self.body(head, meant)
+            }
             Head::Else => self.body(head, meant),
             Head::Declare | Head::Local => self.value(head, meant),
             _ => false,
@@ -278,6 +280,29 @@ impl Reader<'_> {
         true
     }
 
+    /// `#if (A) then`, `#while (A):`.
+    fn then(&mut self, meant: &mut Vec<Token>) -> bool {
+        let Some(close) = self.closed(1, Bracket::Round) else { return false };
+        if !(self.is(close + 1, Mark::Colon) || self.slice_is(close + 1, "then")) {
+            return false;
+        }
+        let (span, condition) = (self.span(close + 1, close + 1), self.span(close, close));
+        let text = self.slice(close + 1).to_owned();
+        let message = format!("no `{text}` stands after a condition");
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(span, "a sign of another language")
+            .help("the body begins right after the parenthesis")
+            .fix(Span { start: condition.end, ..span }, "");
+        self.diagnostics.push(diagnostic);
+        self.dropped.insert(self.at + close + 1, false);
+        self.take(meant);
+        true
+    }
+
+    fn slice_is(&self, ahead: usize, text: &str) -> bool {
+        self.kind(ahead) == Some(TokenKind::Name) && self.slice(ahead) == text
+    }
+
     /// `#if (A) { … }`, `#else { … }`: a body in braces, and no `#end` to it.
     fn body(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         // `object #if (A) { B } #end`: the braces belong to the word.
@@ -344,14 +369,14 @@ impl Reader<'_> {
         );
         let end = if goes_on || ended { "" } else { "#end" };
         let (open_span, close_span) = (self.span(ahead, ahead), self.span(close, close));
-        self.braces.insert(self.at + ahead, false);
-        self.braces.insert(self.at + close, !end.is_empty());
+        self.dropped.insert(self.at + ahead, false);
+        self.dropped.insert(self.at + close, !end.is_empty());
         (diagnostic.fix(open_span, "").fix(close_span, end), true)
     }
 
-    /// A brace that is meant as the end of a body, or as nothing.
-    pub(super) fn brace(&mut self, meant: &mut Vec<Token>) -> bool {
-        let Some(&ends) = self.braces.get(&self.at) else { return false };
+    /// A token that is meant as the end of a body, or as nothing.
+    pub(super) fn dropped(&mut self, meant: &mut Vec<Token>) -> bool {
+        let Some(&ends) = self.dropped.get(&self.at) else { return false };
         if ends {
             meant.push(Token { kind: TokenKind::Directive(Head::End), ..self.tokens[self.at] });
         }

@@ -1,5 +1,5 @@
 //! Habits of other languages: a directive without its `#`, `let A = 1`, `A += 1`, `==`, `&&`; the heads of
-//! directives (`head.rs`) and the parts of blocks (`part.rs`) as other languages write them.
+//! directives (`head.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -8,8 +8,11 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 
 mod head;
+mod letter;
+mod map;
 mod part;
 
+use self::letter::Foreign;
 use self::part::Inside;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -34,9 +37,11 @@ pub(super) fn translate(
         text,
         file,
         inside: Vec::new(),
-        braces: HashMap::new(),
+        dropped: HashMap::new(),
         closers: OnceCell::new(),
         missing_ends: OnceCell::new(),
+        foreign: Foreign::new(),
+        ascii: text.is_ascii(),
         diagnostics,
     };
     let mut meant = Vec::with_capacity(tokens.len());
@@ -48,6 +53,9 @@ pub(super) fn translate(
     while let Some(inside) = reader.inside.pop() {
         reader.leave(inside);
     }
+    for told in std::mem::take(&mut reader.foreign).into_values() {
+        reader.diagnostics.push(told);
+    }
     meant
 }
 
@@ -58,12 +66,15 @@ struct Reader<'a> {
     file: FileId,
     /// The brackets around the place reached.
     inside: Vec<Inside>,
-    /// The braces of directives' bodies, and whether each is meant as `#end`.
-    braces: HashMap<usize, bool>,
+    /// Tokens to be left out, such as the braces of a directive's body; and whether each is meant as `#end`.
+    dropped: HashMap<usize, bool>,
     /// Where the bracket that opens at a token closes.
     closers: OnceCell<HashMap<usize, usize>>,
     /// How many directives lack their `#end`.
     missing_ends: OnceCell<isize>,
+    foreign: Foreign,
+    /// The text has no character beyond ASCII.
+    ascii: bool,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -112,13 +123,23 @@ impl Reader<'_> {
 
     /// Takes a habit that starts here, if one does.
     fn habit(&mut self, meant: &mut Vec<Token>) -> bool {
-        match self.tokens[self.at].kind {
+        if !self.dropped.is_empty() && self.dropped(meant) {
+            return true;
+        }
+        let kind = self.tokens[self.at].kind;
+        if !self.ascii
+            && matches!(kind, TokenKind::Name | TokenKind::Word(_) | TokenKind::Stray)
+            && self.letters(meant)
+        {
+            return true;
+        }
+        match kind {
             TokenKind::Word(word) => self.head_without_hash(word, meant) || self.part(meant),
             TokenKind::Name => self.declarer(meant) || self.changes(meant) || self.part(meant),
             TokenKind::Directive(head) => self.head(head, meant),
-            TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Close(Bracket::Brace)) => {
-                self.brace(meant)
-            }
+            TokenKind::Stray if !self.ascii => self.sign(meant),
+            TokenKind::Number | TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant),
+            TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
             }
@@ -131,9 +152,9 @@ impl Reader<'_> {
         let after_paren = self.is(1, Mark::Open(Bracket::Round));
         let names = matches!(self.kind(1), Some(TokenKind::Name));
         let fits = match word {
+            Word::For => after_paren || names,
             Word::If
             | Word::While
-            | Word::For
             | Word::Switch
             | Word::Elseif
             | Word::Ifdef

@@ -14,7 +14,18 @@ pub(super) struct Inside {
     /// How many parts have been named.
     parts: usize,
     /// What is said of all of them together.
-    told: Option<Diagnostic>,
+    pub(super) told: Option<Diagnostic>,
+}
+
+impl Inside {
+    /// The brace after a word.
+    pub(super) fn opens(&self, word: Word) -> bool {
+        self.bracket == Bracket::Brace && self.word == Some(word)
+    }
+
+    pub(super) fn is(&self, bracket: Bracket) -> bool {
+        self.bracket == bracket
+    }
 }
 
 /// What other tools call the parts of a block that ours gives in an order: the parts in words, and their
