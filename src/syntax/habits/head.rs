@@ -68,11 +68,16 @@ impl Reader<'_> {
         };
         let certain = !count.last_text.is_empty();
         let diagnostic = match signed {
-            true => Diagnostic::new(
-                Code::ExpectedExpression,
-                "`#for` takes a name, a start and an end, with commas between them",
-            )
-            .at(span, "the head of a loop of another language"),
+            true => {
+                let message = "`#for` takes a name, a start and an end, with commas between them";
+                let told = Diagnostic::new(Code::ExpectedExpression, message);
+                // `#for (I = 0, 3)`: all but one sign is right.
+                let sign = round && certain && self.is(from + 1, Mark::Equal);
+                match sign && (from..to).filter(|&at| self.is(at, Mark::Comma)).count() == 1 {
+                    true => told.at(self.span(from + 1, from + 1), "expected a comma"),
+                    false => told.at(span, "the head of a loop of another language"),
+                }
+            }
             false => Diagnostic::new(Code::UnknownDirective, "a loop of another language")
                 .at(span, "`#for` is a directive here, and counts by itself"),
         };
@@ -123,7 +128,8 @@ impl Reader<'_> {
     /// Reads the head of a loop between two tokens.
     fn count(&self, from: usize, to: usize) -> Option<Count> {
         let is_name = |at: usize| at < to && self.kind(at) == Some(TokenKind::Name);
-        let declares = is_name(from) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
+        let int = self.kind(from) == Some(TokenKind::Word(Word::Int));
+        let declares = (int || is_name(from)) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
         let name = if declares { from + 1 } else { from };
         if !is_name(name) || (self.kind(name + 1).is_none()) {
             return None;
@@ -396,39 +402,45 @@ impl Reader<'_> {
         };
         let colon = self.is(2, Mark::Colon);
         let assigns = colon && self.is(3, Mark::Equal) && self.touches(3);
-        if !colon && !starts(self.kind(2)) {
+        let misses = colon || starts(self.kind(2));
+        let word = head.word();
+        let theirs = self.slice(0).trim_start_matches(['#', ' ', '\t']).to_owned();
+        if !misses && theirs == word {
             return false;
         }
-        let word = head.word();
-        let name = self.slice(1).to_owned();
-        // `#define A 1` is told by its first word.
-        let foreign = !self.slice(0).ends_with(word);
         let used = if assigns { 4 } else { 2 + usize::from(colon) };
-        let (span, fix) = match colon {
-            true => {
-                let sign = self.span(2, used - 1);
-                let touches = self.touches(2);
-                (sign, if touches { " =" } else { "=" })
-            }
+        let (place, fix) = match colon {
+            true => (self.span(2, used - 1), if self.touches(2) { " =" } else { "=" }),
             false => (self.span(1, 1).after(), " ="),
         };
-        let at = if colon { span } else { self.span(1, 1) };
-        let label = if colon { "expected `=`" } else { "expected `=` after this" };
-        let mut diagnostic = Diagnostic::new(
-            Code::ExpectedExpression,
-            format!("`#{word}` gives a name its value by `=`"),
-        )
-        .at(at, label)
-        .help(format!("write `#{word} {name} = …`"));
-        diagnostic = diagnostic.fix(span, fix);
-        if foreign && !colon {
-            // The same author's second slip: mended together with the first.
-            diagnostic = diagnostic.help("`#define` of other languages has no `=`");
+        let mut diagnostic = if theirs == word {
+            let (at, label) = match colon {
+                true => (place, "expected `=`"),
+                false => (self.span(1, 1), "expected `=` after this"),
+            };
+            let message = format!("`#{word}` gives a name its value by `=`");
+            let name = self.slice(1);
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(at, label)
+                .help(format!("write `#{word} {name} = …`"))
+        } else {
+            // `#define A 3`
+            let span = self.span(0, 0);
+            let start = span.end - theirs.len() as u32;
+            Diagnostic::new(Code::UnknownDirective, format!("`#{theirs}` is not a directive"))
+                .at(span, "unknown word after `#`")
+                .help(format!("did you mean `#{word}`?"))
+                .fix(Span { start, ..span }, word)
+        };
+        if misses {
+            diagnostic = diagnostic.fix(place, fix);
         }
         self.diagnostics.push(diagnostic);
         meant.extend([self.tokens[self.at], self.tokens[self.at + 1]]);
-        meant.push(Token { kind: TokenKind::Mark(Mark::Equal), ..self.tokens[self.at + 1] });
-        self.at += used;
+        if misses {
+            meant.push(Token { kind: TokenKind::Mark(Mark::Equal), ..self.tokens[self.at + 1] });
+        }
+        self.at += if misses { used } else { 2 };
         true
     }
 }

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::Word;
 
@@ -45,11 +44,14 @@ impl Reader<'_> {
             (Some(told), Some(plain)) => told.fixes.push(Fix { span, text: plain.clone() }),
             (Some(_), None) => {}
             (None, _) => {
-                let mut told = Diagnostic::new(
-                    Code::UnexpectedCharacter,
-                    format!("`{name}` is no name: names are written with a to z, digits and `_`"),
-                )
-                .at(span, "a letter beyond ASCII stands in it");
+                let message = match name.as_str() {
+                    "π" => "`π` is written `pi`".to_owned(),
+                    _ => format!(
+                        "`{name}` is no name: names are written with a to z, digits and `_`"
+                    ),
+                };
+                let mut told = Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(span, "a letter beyond ASCII stands in it");
                 if let Some(plain) = plain {
                     told = told.help(format!("write `{plain}`")).fix(span, plain);
                 }
