@@ -20,7 +20,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lucarne::diagnostic::Diagnostic;
+use lucarne::diagnostic::mend::{apply, mend};
+use lucarne::diagnostic::{Code, Diagnostic, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::{FileError, FileId, Files, Found, Sources, Span};
@@ -212,18 +213,27 @@ fn shown(said: &Expected) -> String {
     text
 }
 
+impl Case {
+    fn bytes(&self, text: &str) -> Vec<u8> {
+        match self.title.contains("(escaped)") {
+            true => unescaped(text),
+            false => text.as_bytes().to_vec(),
+        }
+    }
+
+    fn files(&self) -> Includes {
+        let files = self.files.iter();
+        Includes(files.map(|(name, text)| (name.clone(), self.bytes(text))).collect())
+    }
+
+    fn name(&self) -> &'static str {
+        if self.title.contains("(pov)") { "main.pov" } else { "main.scene" }
+    }
+}
+
 /// Why a case fails; empty when it does not.
 fn failures(case: &Case) -> String {
-    let bytes = |text: &str| match case.title.contains("(escaped)") {
-        true => unescaped(text),
-        false => text.as_bytes().to_vec(),
-    };
-    let mut files = Includes::default();
-    for (name, text) in &case.files {
-        files.0.insert(name.clone(), bytes(text));
-    }
-    let name = if case.title.contains("(pov)") { "main.pov" } else { "main.scene" };
-    let (found, sources) = messages(name, bytes(&case.scene), &files);
+    let (found, sources) = messages(case.name(), case.bytes(&case.scene), &case.files());
     let mut found: Vec<Expected> = found.iter().map(|one| said(one, &sources)).collect();
     let mut wrong = String::new();
     for wanted in &case.expected {
@@ -277,6 +287,58 @@ fn every_broken_scene_is_told_what_is_wrong_with_it_and_nothing_else() {
         corpus.len(),
         failures.concat()
     );
+}
+
+/// What is wrong with the fix of each message of a case.
+fn bad_fixes(case: &Case) -> String {
+    let Ok(text) = String::from_utf8(case.bytes(&case.scene)) else { return String::new() };
+    let text = text.trim_start_matches('\u{feff}');
+    let files = case.files();
+    let run = |text: &str| messages(case.name(), text.as_bytes().to_vec(), &files).0;
+    let weight = |found: &[Diagnostic]| {
+        let errors = found.iter().filter(|one| one.severity == Severity::Error).count();
+        // Where an error goes, lints of the whole scene may come.
+        if errors == 0 { (0, found.len()) } else { (errors, 0) }
+    };
+    let before = run(text);
+    let mut wrong = String::new();
+    for one in &before {
+        let (fixed, used) = apply(text, std::iter::once(one));
+        if used.is_empty() {
+            continue;
+        }
+        let after = run(&fixed);
+        let said_before = |other: &&Diagnostic| {
+            other.severity == Severity::Error && before.iter().all(|old| (old.code, &old.message) != (other.code, &other.message))
+        };
+        let new: Vec<&str> =
+            after.iter().filter(said_before).map(|other| other.message.as_str()).collect();
+        // A missing closer may hide other mistakes, and they are told once it stands.
+        // So may a name in other quotes: whether there is such a file.
+        let hides = one.code.shifts_what_follows()
+            || after.iter().any(|other| other.code == Code::MissingInclude);
+        let fewer = weight(&after) < weight(&before);
+        if !hides && (!fewer || !new.is_empty()) {
+            let message = &one.message;
+            wrong += &format!("  ! the fix of `{message}` gives {new:?}:\n{fixed}\n");
+        }
+    }
+    if let Some((mended, _)) = mend(text, run)
+        && let Some((again, _)) = mend(&mended, run)
+    {
+        wrong += &format!("  ! mending twice goes on: {again}\n");
+    }
+    match wrong.is_empty() {
+        true => wrong,
+        false => format!("{}:{} {}\n{wrong}", case.file, case.line, case.title),
+    }
+}
+
+#[test]
+fn a_fix_leaves_fewer_messages_and_none_new_and_mending_again_changes_nothing() {
+    let failures: Vec<String> =
+        corpus().iter().map(bad_fixes).filter(|failure| !failure.is_empty()).collect();
+    assert!(failures.is_empty(), "{} cases\n{}", failures.len(), failures.concat());
 }
 
 fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {

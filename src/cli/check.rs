@@ -4,17 +4,13 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use lucarne::diagnostic::{Diagnostic, Fix};
+use lucarne::diagnostic::mend::mend;
 use lucarne::road::Road;
-use lucarne::source::FileId;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome, reason};
 use super::files::{DiskFiles, read_main};
 use super::messages::{self, Messages};
-
-/// One fix may bring out another; more rounds than this are not made.
-const MOST_ROUNDS: usize = 8;
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
@@ -61,64 +57,24 @@ fn compiled<T>(
     then(&road)
 }
 
-/// Applies the fixes that messages offer for this file, until there are none.
+/// Applies the fixes that messages offer for this file, where that makes it better.
 fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
-    let mut fixed = 0;
-    for _ in 0..MOST_ROUNDS {
-        let bytes = read_main(file)?;
-        let mark = bytes.starts_with(BYTE_ORDER_MARK);
-        if std::str::from_utf8(&bytes).is_err() {
-            let sentence = format!("cannot fix `{}`: it is not UTF-8", file.display());
-            return Err(Failure::file(sentence).help("save it as UTF-8 first"));
-        }
-        let (text, applied) = compiled(file, bytes, arguments, |road| {
-            apply(&road.sources.get(FileId(0)).text, road.diagnostics.iter())
-        });
-        if applied == 0 {
-            break;
-        }
-        let mut bytes = if mark { BYTE_ORDER_MARK.to_vec() } else { Vec::new() };
-        bytes.extend_from_slice(text.as_bytes());
-        replace(file, &bytes)?;
-        fixed += applied;
-    }
-    if fixed > 0 {
+    let bytes = read_main(file)?;
+    let mark: &[u8] = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { b"" };
+    let Ok(text) = std::str::from_utf8(&bytes[mark.len()..]) else {
+        let sentence = format!("cannot fix `{}`: it is not UTF-8", file.display());
+        return Err(Failure::file(sentence).help("save it as UTF-8 first"));
+    };
+    let messages = |text: &str| {
+        let bytes = text.as_bytes().to_vec();
+        compiled(file, bytes, arguments, |road| road.diagnostics.iter().cloned().collect())
+    };
+    if let Some((text, fixed)) = mend(text, messages) {
+        replace(file, &[mark, text.as_bytes()].concat())?;
         let es = if fixed == 1 { "" } else { "es" };
         messages::eprint(&format!("{}: {fixed} fix{es} applied\n", file.display()));
     }
     Ok(())
-}
-
-/// The main text with all fixes that do not overlap an earlier one, and how many messages they
-/// mend. The fixes of one message are applied together or not at all.
-fn apply<'a>(text: &str, diagnostics: impl Iterator<Item = &'a Diagnostic>) -> (String, usize) {
-    let mut chosen: Vec<&Fix> = Vec::new();
-    let mut mended = 0;
-    for diagnostic in diagnostics {
-        let fixes = &diagnostic.fixes;
-        let free = |fix: &Fix| {
-            let (start, end) = (fix.span.start, fix.span.end);
-            // Two insertions at one place have no order: the second waits too.
-            let apart = |other: &Fix| {
-                let before = other.span.end <= start && other.span.start < start;
-                before || (end <= other.span.start && start < other.span.start)
-            };
-            fix.span.file == FileId(0) && chosen.iter().all(|other| apart(other))
-        };
-        if !fixes.is_empty() && fixes.iter().all(free) {
-            chosen.extend(fixes);
-            mended += 1;
-        }
-    }
-    chosen.sort_by_key(|fix| fix.span.start);
-    let (mut out, mut at) = (String::with_capacity(text.len()), 0);
-    for fix in chosen {
-        out.push_str(&text[at..fix.span.start as usize]);
-        out.push_str(&fix.text);
-        at = fix.span.end as usize;
-    }
-    out.push_str(&text[at..]);
-    (out, mended)
 }
 
 /// Writes the file anew, beside and renamed, with the permissions it had.
@@ -137,37 +93,4 @@ fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     }
     beside.persist(&path).map_err(|error| cannot(reason(&error.error)))?;
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use lucarne::diagnostic::Code;
-    use lucarne::source::Span;
-
-    fn wrong(fixes: &[(usize, usize, &str)]) -> Diagnostic {
-        let start = Diagnostic::new(Code::UnknownWord, "wrong");
-        fixes.iter().fold(start, |diagnostic, &(start, end, text)| {
-            diagnostic.fix(Span::new(FileId(0), start, end), text)
-        })
-    }
-
-    #[test]
-    fn fixes_are_applied_in_any_order() {
-        let list = [wrong(&[(4, 7, "two")]), wrong(&[(0, 3, "one"), (7, 7, "!")]), wrong(&[])];
-        assert_eq!(apply("eno owt", list.iter()), ("one two!".to_owned(), 2));
-    }
-
-    #[test]
-    fn fixes_that_overlap_wait_for_the_next_round() {
-        let list = [wrong(&[(0, 3, "a")]), wrong(&[(2, 5, "b")]), wrong(&[(0, 0, "c")])];
-        assert_eq!(apply("123456", list.iter()), ("a456".to_owned(), 1));
-    }
-
-    #[test]
-    fn a_fix_in_another_file_is_left_alone() {
-        let other =
-            Diagnostic::new(Code::UnknownWord, "wrong").fix(Span::new(FileId(1), 0, 1), "a");
-        assert_eq!(apply("1", [other].iter()), ("1".to_owned(), 0));
-    }
 }

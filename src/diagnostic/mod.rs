@@ -6,6 +6,7 @@
 mod code;
 mod excerpt;
 pub mod json;
+pub mod mend;
 pub mod render;
 pub mod suggest;
 

@@ -1,5 +1,6 @@
 //! Lints: what a right scene might contain, and probably does not.
 
+use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{FileId, Span};
@@ -121,6 +122,19 @@ impl Evaluator<'_> {
             };
             self.report(here, diagnostic);
         }
+    }
+
+    /// A surface that takes light away, or mirrors more than it gets.
+    pub(super) fn lint_strength(&mut self, here: &Here, span: Span, word: Word, light: Rgb) {
+        let name = word.name();
+        let (message, label) = if light.red.min(light.green).min(light.blue) < 0.0 {
+            (format!("a negative `{name}` takes light away"), "expected 0 or more")
+        } else if word == Word::Reflection && light.largest() > 1.0 {
+            (format!("this `{name}` gives back more light than arrives"), "expected 0 to 1")
+        } else {
+            return;
+        };
+        self.report(here, Diagnostic::new(Code::UnlikelyFinish, message).at(span, label));
     }
 
     pub(super) fn lint_negative_radius(&mut self, here: &Here, span: Span, radius: f64) {

@@ -146,7 +146,11 @@ impl Probe {
                 .map_or((Vector::splat(-UNBOUNDED), Vector::splat(UNBOUNDED)), |b| (b.low, b.high));
             (low, high) = (low.min(from), high.max(to));
         }
-        if self.world.objects.is_empty() { (Vector::ZERO, Vector::ZERO) } else { (low, high) }
+        if self.world.objects.is_empty() {
+            return (Vector::ZERO, Vector::ZERO);
+        }
+        // Zero has no sign where people read it.
+        (low + Vector::ZERO, high + Vector::ZERO)
     }
 
     fn contains(&self, point: Vector) -> bool {

@@ -78,6 +78,10 @@ impl Evaluator<'_> {
             format!("`{}` is not supported yet", poison.word.name()),
         )
         .at(poison.site.span, "the language has it, this version does not build it");
+        diagnostic = match built_beside(poison.word).as_slice() {
+            [] => diagnostic.help("leave it out for now"),
+            built => diagnostic.help(format!("built so far beside it: {}", built.join(", "))),
+        };
         if let Some(used) = used.filter(|used| *used != poison.site.span) {
             diagnostic = diagnostic.also(used, "needed by this");
         }
@@ -265,6 +269,17 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
         (low, high) if low + 1 == high => format!("{low} or {high} {what}s"),
         (low, high) => format!("{low} to {high} {what}s"),
     }
+}
+
+/// The words of a word's family that can stand where it stands, and are built.
+fn built_beside(word: Word) -> Vec<String> {
+    let fits = |other: &&Word| {
+        other.is_built()
+            && other.family() == word.family()
+            && other.block() == word.block()
+            && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())
+    };
+    Word::ALL.iter().filter(fits).map(|word| format!("`{}`", word.name())).collect()
 }
 
 /// The word of the language that an author who wrote `name` most likely meant.

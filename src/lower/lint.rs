@@ -22,15 +22,19 @@ impl Lowering<'_, '_> {
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
             self.reporter.diagnostics.push(Diagnostic::new(Code::NoCamera, message).help(help));
         }
-        if let [ignored @ .., last] = cameras.as_slice() {
-            for camera in ignored {
-                let message = "the scene has more than one camera; the last one is used";
-                let diagnostic = Diagnostic::new(Code::DuplicateCamera, message)
-                    .at(camera.site.span, "this one is not used")
-                    .also(last.site.span, "this one is")
-                    .traced(camera.site, self.reporter.expansions);
-                self.reporter.diagnostics.push(diagnostic);
-            }
+        if let [ignored @ .., last] = cameras.as_slice()
+            && !ignored.is_empty()
+        {
+            let count = cameras.len();
+            let message = format!("the scene has {count} cameras; the last one is used");
+            let told = Diagnostic::new(Code::DuplicateCamera, message)
+                .at(last.site.span, "the picture is seen from this one")
+                .help("keep one; or `#declare` them, and choose with `camera { Name }`");
+            let told = ignored
+                .iter()
+                .fold(told, |told, camera| told.also(camera.site.span, "this one is not used"));
+            let told = told.traced(last.site, self.reporter.expansions);
+            self.reporter.diagnostics.push(told);
         }
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();

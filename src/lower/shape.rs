@@ -95,11 +95,8 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let half_widths = ((b - a) * half).map(Double::abs).components();
     match half_widths.iter().filter(|w| w.is_zero()).count() {
         0 | 1 => {}
-        2 => {
-            return Err(Fault::new(Code::DegenerateShape, "this box is a line and cannot be seen")
-                .label("two of its three sides have no length"));
-        }
-        _ => return Err(no_size("both corners of this box are the same point")),
+        // Evaluation tells it, with the corners as written.
+        _ => return Err(no_size(FLAT)),
     }
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
     let mut sides = Vec::with_capacity(3);

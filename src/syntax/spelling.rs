@@ -12,7 +12,6 @@ const FOREIGN: &[(&str, &str)] = &[
     ("endmacro", "end"),
     ("elif", "elseif"),
     ("elsif", "elseif"),
-    ("define", "declare"),
     ("import", "include"),
     ("print", "debug"),
 ];
@@ -30,6 +29,11 @@ pub(super) fn correct_heads(
         }
         let span = Span::new(file, token.start as usize, token.end as usize);
         let word = text.get(span.range()).unwrap_or("").trim_start_matches(['#', ' ', '\t']);
+        if word == "define" {
+            // Told with what follows it, which is written otherwise too (habits/head.rs).
+            token.kind = TokenKind::Directive(Head::Declare);
+            continue;
+        }
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");

@@ -168,11 +168,11 @@ impl Evaluator<'_> {
         match word {
             Word::Ambient => finish.ambient = self.intensity_after(token)?,
             Word::Emission => finish.emission = self.intensity_after(token)?,
-            Word::Diffuse => finish.diffuse = self.number_after(token, "a number")?.value,
+            Word::Diffuse => finish.diffuse = self.strength_after(token, word)?,
             Word::Brilliance => finish.brilliance = self.at_least_zero(token, word)?,
-            Word::Phong => finish.phong = self.number_after(token, "a number")?.value,
+            Word::Phong => finish.phong = self.strength_after(token, word)?,
             Word::PhongSize => finish.phong_size = self.at_least_zero(token, word)?,
-            Word::Specular => finish.specular = self.number_after(token, "a number")?.value,
+            Word::Specular => finish.specular = self.strength_after(token, word)?,
             Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
             Word::Reflection => {
@@ -190,7 +190,18 @@ impl Evaluator<'_> {
 
     /// A colour of light, or a number for white light.
     fn intensity_after(&mut self, token: &Token) -> Outcome<Rgb> {
-        Ok(self.color_after(token, "a number or a colour")?.value.rgb)
+        let given = self.color_after(token, "a number or a colour")?;
+        if let TokenKind::Word(word) = token.kind {
+            self.lint_strength(&given.here, given.span, word, given.value.rgb);
+        }
+        Ok(given.value.rgb)
+    }
+
+    /// How strongly a surface answers light.
+    fn strength_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
+        let given = self.number_after(token, "a number")?;
+        self.lint_strength(&given.here, given.span, word, Rgb::gray(given.value));
+        Ok(given.value)
     }
 
     /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. What a finish had

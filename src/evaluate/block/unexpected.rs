@@ -200,8 +200,10 @@ impl Evaluator<'_> {
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
-        let here = suggest::closest(&name, words())
-            .or_else(|| suggest::foreign(&name).filter(|word| words().any(|other| other == *word)));
+        // A word that another tool has is meant as there, whatever it resembles.
+        let here = suggest::foreign(&name)
+            .filter(|word| words().any(|other| other == *word))
+            .or_else(|| suggest::closest(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol {
             let declared = suggest::closest(&name, self.scopes.visible()).is_some();
@@ -230,6 +232,10 @@ impl Evaluator<'_> {
         let mut diagnostic =
             Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
         diagnostic = match near {
+            // The right word would be the next error: no fix.
+            Some(near) if !is_built(&near) => diagnostic
+                .at(span, format!("did you mean `{near}`?"))
+                .help(format!("`{near}` is not supported yet")),
             Some(near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
@@ -402,6 +408,10 @@ impl Evaluator<'_> {
 /// The first character of a bracketed span.
 fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
+}
+
+fn is_built(name: &str) -> bool {
+    Word::ALL.iter().any(|word| word.name() == name && word.is_built())
 }
 
 /// The block in which a name is a word.

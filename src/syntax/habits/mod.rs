@@ -1,8 +1,19 @@
-//! Habits of other languages: a directive without its `#`, `let A = 1`, `A += 1`, `==`, `&&`.
+//! Habits of other languages: a directive without its `#`, `let A = 1`, `A += 1`, `==`, `&&`; the heads of
+//! directives (`head.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
 
+use std::cell::OnceCell;
+use std::collections::HashMap;
+
+mod head;
+mod letter;
+mod map;
+mod part;
+
+use self::letter::Foreign;
+use self::part::Inside;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -20,13 +31,30 @@ pub(super) fn translate(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Token> {
-    let mut reader = Reader { tokens: &tokens, at: 0, text, file, diagnostics };
+    let mut reader = Reader {
+        tokens: &tokens,
+        at: 0,
+        text,
+        file,
+        inside: Vec::new(),
+        dropped: HashMap::new(),
+        closers: OnceCell::new(),
+        missing_ends: OnceCell::new(),
+        foreign: Foreign::new(),
+        ascii: text.is_ascii(),
+        diagnostics,
+    };
     let mut meant = Vec::with_capacity(tokens.len());
     while reader.at < tokens.len() {
         if !reader.habit(&mut meant) {
-            meant.push(tokens[reader.at]);
-            reader.at += 1;
+            reader.take(&mut meant);
         }
+    }
+    while let Some(inside) = reader.inside.pop() {
+        reader.leave(inside);
+    }
+    for told in std::mem::take(&mut reader.foreign).into_values() {
+        reader.diagnostics.push(told);
     }
     meant
 }
@@ -36,10 +64,37 @@ struct Reader<'a> {
     at: usize,
     text: &'a str,
     file: FileId,
+    /// The brackets around the place reached.
+    inside: Vec<Inside>,
+    /// Tokens to be left out, such as the braces of a directive's body; and whether each is meant as `#end`.
+    dropped: HashMap<usize, bool>,
+    /// Where the bracket that opens at a token closes.
+    closers: OnceCell<HashMap<usize, usize>>,
+    /// How many directives lack their `#end`.
+    missing_ends: OnceCell<isize>,
+    foreign: Foreign,
+    /// The text has no character beyond ASCII.
+    ascii: bool,
     diagnostics: &'a mut Diagnostics,
 }
 
 impl Reader<'_> {
+    /// Takes a token as it stands.
+    fn take(&mut self, meant: &mut Vec<Token>) {
+        let token = self.tokens[self.at];
+        match token.kind {
+            TokenKind::Mark(Mark::Open(bracket)) => self.enter(bracket, meant.last()),
+            TokenKind::Mark(Mark::Close(_)) => {
+                if let Some(inside) = self.inside.pop() {
+                    self.leave(inside);
+                }
+            }
+            _ => {}
+        }
+        meant.push(token);
+        self.at += 1;
+    }
+
     fn kind(&self, ahead: usize) -> Option<TokenKind> {
         self.tokens.get(self.at + ahead).map(|token| token.kind)
     }
@@ -68,9 +123,23 @@ impl Reader<'_> {
 
     /// Takes a habit that starts here, if one does.
     fn habit(&mut self, meant: &mut Vec<Token>) -> bool {
-        match self.tokens[self.at].kind {
-            TokenKind::Word(word) => self.head_without_hash(word, meant),
-            TokenKind::Name => self.declarer(meant) || self.changes(meant),
+        if !self.dropped.is_empty() && self.dropped(meant) {
+            return true;
+        }
+        let kind = self.tokens[self.at].kind;
+        if !self.ascii
+            && matches!(kind, TokenKind::Name | TokenKind::Word(_) | TokenKind::Stray)
+            && self.letters(meant)
+        {
+            return true;
+        }
+        match kind {
+            TokenKind::Word(word) => self.head_without_hash(word, meant) || self.part(meant),
+            TokenKind::Name => self.declarer(meant) || self.changes(meant) || self.part(meant),
+            TokenKind::Directive(head) => self.head(head, meant),
+            TokenKind::Stray if !self.ascii => self.sign(meant),
+            TokenKind::Number | TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant),
+            TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
             }
@@ -83,9 +152,9 @@ impl Reader<'_> {
         let after_paren = self.is(1, Mark::Open(Bracket::Round));
         let names = matches!(self.kind(1), Some(TokenKind::Name));
         let fits = match word {
+            Word::For => after_paren || names,
             Word::If
             | Word::While
-            | Word::For
             | Word::Switch
             | Word::Elseif
             | Word::Ifdef
@@ -100,21 +169,26 @@ impl Reader<'_> {
         }
         let name = word.name();
         let span = self.span(0, 0);
-        if word == Word::For
-            && let Some(end) = self.foreign_loop()
-        {
-            let diagnostic = Diagnostic::new(Code::UnknownDirective, "a loop of another language")
-                .at(span, "`for` is a directive here, and counts by itself")
-                .help("write `#for (I, 0, 9) … #end`: from 0 to 9, both included");
-            self.diagnostics.push(diagnostic);
-            self.at += end;
+        if word == Word::For && self.counting(meant) {
             return true;
+        }
+        if word == Word::Else && self.kind(1) == Some(TokenKind::Word(Word::If)) {
+            return self.else_if(meant);
         }
         let diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`{name}` needs a `#` before it"))
                 .at(span, "a directive without its `#`")
                 .help(format!("write `#{name}`"))
                 .fix(Span { end: span.start, ..span }, "#");
+        let body = match word {
+            Word::Else => Some(1),
+            _ if after_paren => self.closed(1, Bracket::Round).map(|close| close + 1),
+            _ => None,
+        };
+        let diagnostic = match body {
+            Some(body) => self.braces(body, diagnostic).0,
+            None => diagnostic,
+        };
         self.diagnostics.push(diagnostic);
         meant.push(Token {
             kind: TokenKind::Directive(Head::from_word(name)),
@@ -124,33 +198,44 @@ impl Reader<'_> {
         true
     }
 
-    /// `for (…;…;…) { … }`: how many tokens it is.
-    fn foreign_loop(&self) -> Option<usize> {
-        let head = self.closed(1, Bracket::Round)?;
-        let semicolons = (1..head).filter(|ahead| self.is(*ahead, Mark::Semicolon)).count();
-        if semicolons == 0 {
-            return None;
-        }
-        match self.is(head + 1, Mark::Open(Bracket::Brace)) {
-            true => Some(self.closed(head + 1, Bracket::Brace)? + 1),
-            false => Some(head + 1),
-        }
+    /// `else if (…)`.
+    fn else_if(&mut self, meant: &mut Vec<Token>) -> bool {
+        let span = self.span(0, 1);
+        let diagnostic = Diagnostic::new(Code::UnknownDirective, "`else if` is written `#elseif`")
+            .at(span, "a directive of another language")
+            .help("write `#elseif (…)`")
+            .fix(span, "#elseif");
+        let diagnostic = match self.closed(2, Bracket::Round) {
+            Some(close) => self.braces(close + 1, diagnostic).0,
+            None => diagnostic,
+        };
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Directive(Head::Elseif), ..self.tokens[self.at] });
+        self.at += 2;
+        true
     }
 
-    /// Where the bracket that opens at `ahead` closes.
+    /// Where the bracket that opens at `ahead` closes, if it is this kind of bracket.
     fn closed(&self, ahead: usize, bracket: Bracket) -> Option<usize> {
-        let mut depth = 0usize;
-        for ahead in ahead..self.tokens.len() - self.at {
-            if self.is(ahead, Mark::Open(bracket)) {
-                depth += 1;
-            } else if self.is(ahead, Mark::Close(bracket)) {
-                depth -= 1;
-                if depth == 0 {
-                    return Some(ahead);
+        if !self.is(ahead, Mark::Open(bracket)) {
+            return None;
+        }
+        let closers = self.closers.get_or_init(|| {
+            let (mut open, mut closers) = ([vec![], vec![], vec![]], HashMap::new());
+            for (at, token) in self.tokens.iter().enumerate() {
+                match token.kind {
+                    TokenKind::Mark(Mark::Open(bracket)) => open[bracket as usize].push(at),
+                    TokenKind::Mark(Mark::Close(bracket)) => {
+                        if let Some(opener) = open[bracket as usize].pop() {
+                            closers.insert(opener, at);
+                        }
+                    }
+                    _ => {}
                 }
             }
-        }
-        None
+            closers
+        });
+        closers.get(&(self.at + ahead)).map(|close| close - self.at)
     }
 
     /// `let A = 1`.

@@ -1,0 +1,232 @@
+//! Letters and signs beyond ASCII: `Größe`, `−5`, `0，1`, a no-break space.
+//!
+//! **Invariant:** one message for a whole word, however often it stands in the file, with all its places
+//! as fixes; then the word is a name like any other.
+
+use std::collections::BTreeMap;
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
+use crate::vocabulary::Word;
+
+/// Words with letters beyond ASCII, and what is said of each.
+pub(super) type Foreign = BTreeMap<String, Diagnostic>;
+
+impl Reader<'_> {
+    /// Whether a character beyond ASCII stands here that could be part of a name.
+    fn is_letter(&self, ahead: usize) -> bool {
+        self.kind(ahead) == Some(TokenKind::Stray)
+            && self.slice(ahead).chars().all(|c| c.is_alphabetic() || is_combining(c))
+    }
+
+    /// A word with letters that no name can have.
+    pub(super) fn letters(&mut self, meant: &mut Vec<Token>) -> bool {
+        let mut end = 1;
+        let mut foreign = self.is_letter(0);
+        while self.touches(end)
+            && (self.is_letter(end)
+                || matches!(
+                    self.kind(end),
+                    Some(TokenKind::Name | TokenKind::Word(_) | TokenKind::Number)
+                ) && self.slice(end).bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
+        {
+            foreign |= self.is_letter(end);
+            end += 1;
+        }
+        if !foreign {
+            return false;
+        }
+        let span = self.span(0, end - 1);
+        let name = self.text.get(span.range()).unwrap_or("").to_owned();
+        let plain = ascii(&name).filter(|plain| self.is_free(plain));
+        match (self.foreign.get_mut(&name), &plain) {
+            (Some(told), Some(plain)) => told.fixes.push(Fix { span, text: plain.clone() }),
+            (Some(_), None) => {}
+            (None, _) => {
+                let message = match name.as_str() {
+                    "π" => "`π` is written `pi`".to_owned(),
+                    _ => format!(
+                        "`{name}` is no name: names are written with a to z, digits and `_`"
+                    ),
+                };
+                let mut told = Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(span, "a letter beyond ASCII stands in it");
+                if let Some(plain) = plain {
+                    told = told.help(format!("write `{plain}`")).fix(span, plain);
+                }
+                self.foreign.insert(name, told);
+            }
+        }
+        let place = self.tokens[self.at];
+        let kind = match self.text.get(span.range()) {
+            Some("π") => TokenKind::Word(Word::Pi),
+            _ => TokenKind::Name,
+        };
+        meant.push(Token { kind, end: span.end, ..place });
+        self.at += end;
+        true
+    }
+
+    /// Whether a name is not used for something else in this file.
+    fn is_free(&self, name: &str) -> bool {
+        name == "pi"
+            || Word::from_name(name).is_none()
+                && !(self.tokens.iter()).any(|token| {
+                    token.kind == TokenKind::Name
+                        && self.text.get(token.start as usize..token.end as usize) == Some(name)
+                })
+    }
+
+    /// A sign that looks like one of the language's.
+    pub(super) fn sign(&mut self, meant: &mut Vec<Token>) -> bool {
+        let text = self.slice(0).to_owned();
+        let Some((name, ours)) = sign(&text) else { return false };
+        let span = self.span(0, 0);
+        let mut diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            format!("{name} has no meaning in the language"),
+        );
+        diagnostic = match ours {
+            " " => diagnostic
+                .at(span, "it looks like a blank, and is none")
+                .help("write a plain blank"),
+            "" => diagnostic.at(span, "nothing is written for it").help("leave it out"),
+            ours => diagnostic
+                .at(span, format!("expected `{ours}`"))
+                .help(format!("replace it with `{ours}`")),
+        };
+        self.diagnostics.push(diagnostic.fix(span, ours));
+        if let Some(mark) = mark(ours) {
+            let token = Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at] };
+            match mark {
+                Mark::Open(bracket) => self.enter(bracket, meant.last()),
+                Mark::Close(_) => {
+                    if let Some(inside) = self.inside.pop() {
+                        self.leave(inside);
+                    }
+                }
+                _ => {}
+            }
+            meant.push(token);
+        }
+        self.at += 1;
+        true
+    }
+}
+
+/// A letter's accent that is a character of its own.
+fn is_combining(c: char) -> bool {
+    ('\u{300}'..='\u{36f}').contains(&c)
+}
+
+/// A sign's name and what is written for it.
+fn sign(text: &str) -> Option<(&'static str, &'static str)> {
+    Some(match text {
+        "\u{a0}" => ("a no-break space", " "),
+        "\u{2000}" | "\u{2001}" | "\u{2002}" | "\u{2003}" | "\u{2004}" | "\u{2005}"
+        | "\u{2006}" | "\u{2007}" | "\u{2008}" | "\u{2009}" | "\u{200a}" | "\u{202f}"
+        | "\u{3000}" => ("a typographic space", " "),
+        "\u{200b}" | "\u{200c}" | "\u{200d}" | "\u{2060}" | "\u{feff}" | "\u{ad}" => {
+            ("an invisible character", "")
+        }
+        "−" | "－" => ("a typographic minus sign", "-"),
+        "–" | "—" => ("a dash", "-"),
+        "×" | "·" | "∙" | "⋅" => ("a sign of multiplication", "*"),
+        "÷" | "∕" => ("a sign of division", "/"),
+        "≤" => ("`≤`", "<="),
+        "≥" => ("`≥`", ">="),
+        "≠" => ("`≠`", "!="),
+        "°" => ("a degree sign", ""),
+        "，" | "、" => ("a full-width comma", ","),
+        "；" => ("a full-width semicolon", ";"),
+        "：" => ("a full-width colon", ":"),
+        "（" => ("a full-width parenthesis", "("),
+        "）" => ("a full-width parenthesis", ")"),
+        "｛" => ("a full-width brace", "{"),
+        "｝" => ("a full-width brace", "}"),
+        "［" => ("a full-width bracket", "["),
+        "］" => ("a full-width bracket", "]"),
+        "＜" | "〈" | "⟨" => ("a typographic angle bracket", "<"),
+        "＞" | "〉" | "⟩" => ("a typographic angle bracket", ">"),
+        "＝" => ("a full-width equals sign", "="),
+        "＋" => ("a full-width plus sign", "+"),
+        "＊" => ("a full-width asterisk", "*"),
+        "／" => ("a full-width slash", "/"),
+        "．" => ("a full-width point", "."),
+        _ => return None,
+    })
+}
+
+fn mark(text: &str) -> Option<Mark> {
+    Some(match text {
+        "-" => Mark::Minus,
+        "*" => Mark::Star,
+        "/" => Mark::Slash,
+        "+" => Mark::Plus,
+        "<=" => Mark::LessOrEqual,
+        ">=" => Mark::GreaterOrEqual,
+        "!=" => Mark::NotEqual,
+        "=" => Mark::Equal,
+        "," => Mark::Comma,
+        ";" => Mark::Semicolon,
+        ":" => Mark::Colon,
+        "." => Mark::Dot,
+        "<" => Mark::Less,
+        ">" => Mark::Greater,
+        "(" => Mark::Open(Bracket::Round),
+        ")" => Mark::Close(Bracket::Round),
+        "{" => Mark::Open(Bracket::Brace),
+        "}" => Mark::Close(Bracket::Brace),
+        "[" => Mark::Open(Bracket::Square),
+        "]" => Mark::Close(Bracket::Square),
+        _ => return None,
+    })
+}
+
+/// The usual spelling without accents; none for letters of another script.
+fn ascii(name: &str) -> Option<String> {
+    if name == "π" {
+        return Some("pi".to_owned());
+    }
+    let mut plain = String::new();
+    for c in name.chars().filter(|c| !is_combining(*c)) {
+        match c {
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '_' => plain.push(c),
+            'ä' | 'æ' => plain += "ae",
+            'ö' | 'œ' | 'ø' => plain += "oe",
+            'ü' => plain += "ue",
+            'Ä' | 'Æ' => plain += "Ae",
+            'Ö' | 'Œ' | 'Ø' => plain += "Oe",
+            'Ü' => plain += "Ue",
+            'ß' => plain += "ss",
+            'à' | 'á' | 'â' | 'ã' | 'ā' | 'ą' => plain.push('a'),
+            'å' => plain += "aa",
+            'ç' | 'ć' | 'č' => plain.push('c'),
+            'è' | 'é' | 'ê' | 'ë' | 'ē' | 'ę' | 'ě' => plain.push('e'),
+            'ì' | 'í' | 'î' | 'ï' | 'ī' | 'ı' => plain.push('i'),
+            'ł' => plain.push('l'),
+            'ñ' | 'ń' | 'ň' => plain.push('n'),
+            'ò' | 'ó' | 'ô' | 'õ' | 'ő' => plain.push('o'),
+            'ř' => plain.push('r'),
+            'ś' | 'š' | 'ş' => plain.push('s'),
+            'ù' | 'ú' | 'û' | 'ů' | 'ű' => plain.push('u'),
+            'ý' | 'ÿ' => plain.push('y'),
+            'ź' | 'ż' | 'ž' => plain.push('z'),
+            'À' | 'Á' | 'Â' | 'Ã' => plain.push('A'),
+            'Å' => plain += "Aa",
+            'Ç' | 'Ć' | 'Č' => plain.push('C'),
+            'È' | 'É' | 'Ê' | 'Ë' => plain.push('E'),
+            'Ì' | 'Í' | 'Î' | 'Ï' => plain.push('I'),
+            'Ł' => plain.push('L'),
+            'Ñ' => plain.push('N'),
+            'Ò' | 'Ó' | 'Ô' | 'Õ' => plain.push('O'),
+            'Ś' | 'Š' => plain.push('S'),
+            'Ù' | 'Ú' | 'Û' => plain.push('U'),
+            'Ź' | 'Ż' | 'Ž' => plain.push('Z'),
+            _ => return None,
+        }
+    }
+    let begins = plain.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    begins.then_some(plain)
+}

@@ -1,0 +1,194 @@
+//! The parts of a block by name, as other languages write them: `sphere { center: 0, radius = 1 }`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::{Role, Word};
+
+/// A bracket around the place reached.
+pub(super) struct Inside {
+    bracket: Bracket,
+    /// The word before a brace.
+    word: Option<Word>,
+    /// How many parts have been named.
+    parts: usize,
+    /// What is said of all of them together.
+    pub(super) told: Option<Diagnostic>,
+}
+
+impl Inside {
+    /// The brace after a word.
+    pub(super) fn opens(&self, word: Word) -> bool {
+        self.bracket == Bracket::Brace && self.word == Some(word)
+    }
+
+    pub(super) fn is(&self, bracket: Bracket) -> bool {
+        self.bracket == bracket
+    }
+}
+
+/// What other tools call the parts of a block that ours gives in an order: the parts in words, and their
+/// names in that order.
+fn parts(word: Word) -> Option<(&'static str, &'static [&'static [&'static str]])> {
+    const CENTER: &[&str] = &["center", "centre", "location", "position", "pos", "origin", "c"];
+    const RADIUS: &[&str] = &["radius", "r"];
+    const BASE: &[&str] = &["base", "base_point", "from", "start", "bottom", "p1"];
+    const CAP: &[&str] = &["cap", "cap_point", "to", "end", "top", "p2"];
+    Some(match word {
+        Word::Sphere => ("<center>, radius", &[CENTER, RADIUS]),
+        Word::Box => (
+            "<corner>, <corner>",
+            &[
+                &["corner1", "corner_1", "min", "minimum", "lower", "from", "start", "p1"],
+                &["corner2", "corner_2", "max", "maximum", "upper", "to", "end", "p2"],
+            ],
+        ),
+        Word::Plane => {
+            ("<normal>, distance", &[&["normal", "n"], &["distance", "dist", "d", "offset"]])
+        }
+        Word::Cylinder => ("<base>, <cap>, radius", &[BASE, CAP, RADIUS]),
+        Word::Cone => (
+            "<base>, radius, <cap>, radius",
+            &[BASE, &["base_radius", "radius1", "r1"], CAP, &["cap_radius", "radius2", "r2"]],
+        ),
+        Word::Torus => (
+            "major radius, minor radius",
+            &[
+                &["major", "major_radius", "radius", "r1"],
+                &["minor", "minor_radius", "tube_radius", "r2"],
+            ],
+        ),
+        Word::LightSource => ("<location> color", &[&["location", "position", "pos", "origin"]]),
+        _ => return None,
+    })
+}
+
+impl Reader<'_> {
+    pub(super) fn enter(&mut self, bracket: Bracket, before: Option<&Token>) {
+        let word = match before.map(|token| token.kind) {
+            Some(TokenKind::Word(word)) if bracket == Bracket::Brace => Some(word),
+            _ => None,
+        };
+        self.inside.push(Inside { bracket, word, parts: 0, told: None });
+    }
+
+    pub(super) fn leave(&mut self, inside: Inside) {
+        if let Some(told) = inside.told {
+            self.diagnostics.push(told);
+        }
+    }
+
+    /// `radius = 1`, `radius: 1`, `center <0, 0, 0>`, `pigment: rgb 1`.
+    pub(super) fn part(&mut self, meant: &mut Vec<Token>) -> bool {
+        let Some(Inside { bracket: Bracket::Brace, word: Some(opener), parts: named, .. }) =
+            self.inside.last()
+        else {
+            return false;
+        };
+        let (opener, named) = (*opener, *named);
+        let before = meant.last().map(|token| token.kind);
+        let declared = matches!(
+            before,
+            Some(
+                TokenKind::Directive(Head::Declare | Head::Local)
+                    | TokenKind::Word(Word::Deprecated | Word::Once)
+                    | TokenKind::Mark(Mark::Dot)
+            )
+        );
+        if declared || opener == Word::Function {
+            return false;
+        }
+        let equals = self.is(1, Mark::Equal) && !(self.is(2, Mark::Equal) && self.touches(2));
+        let signed = equals || self.is(1, Mark::Colon);
+        // A name and a value side by side; nothing that a declared name could be.
+        let first = matches!(before, Some(TokenKind::Mark(Mark::Open(_) | Mark::Comma)));
+        let bare = (first || named > 0)
+            && matches!(self.kind(1), Some(TokenKind::Number | TokenKind::Mark(Mark::Less)));
+        if !(signed || bare) {
+            return false;
+        }
+        let name = self.slice(0).to_owned();
+        let lower = name.to_lowercase();
+        let position = parts(opener)
+            .and_then(|(_, parts)| parts.iter().position(|part| part.contains(&lower.as_str())));
+        match position {
+            Some(position) => self.named_part(opener, position, signed),
+            None if signed && self.means_word(&name) => self.sign_after_word(meant, &name),
+            _ => false,
+        }
+    }
+
+    /// Whether a name stands for a word of some block.
+    fn means_word(&self, name: &str) -> bool {
+        match self.kind(0) {
+            Some(TokenKind::Word(word)) => word.role() == Role::Statement,
+            _ => {
+                suggest::foreign(name).is_some()
+                    || Word::from_name(&name.to_lowercase()).is_some()
+                    || Word::ALL.iter().any(|word| word.block().is_some() && word.name() == name)
+            }
+        }
+    }
+
+    /// The name goes; its value stands in its place.
+    fn named_part(&mut self, opener: Word, position: usize, signed: bool) -> bool {
+        let used = 1 + usize::from(signed);
+        let span = self.span(0, used - 1);
+        let Some(next) = self.tokens.get(self.at + used) else { return false };
+        let whole = Span { end: next.start, ..span };
+        let block = opener.name();
+        let order = parts(opener).map_or("", |(order, _)| order);
+        let Some(inside) = self.inside.last_mut() else { return false };
+        let in_order = inside.parts == position;
+        inside.parts += 1;
+        match &mut inside.told {
+            Some(told) => {
+                // Names in another order than the parts: removing them would not do.
+                match in_order && !told.fixes.is_empty() {
+                    true => told.fixes.push(crate::diagnostic::Fix { span: whole, text: String::new() }),
+                    false => told.fixes.clear(),
+                }
+            }
+            told @ None => {
+                let message = format!("the parts of `{block}` are told by their order, not by names");
+                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                    .at(span, "expected the value alone")
+                    .help(format!("write `{block} {{ {order} … }}`"));
+                // The first part may stand without a name.
+                *told = Some(match in_order || inside.parts <= position {
+                    true => diagnostic.fix(whole, ""),
+                    false => diagnostic,
+                });
+                inside.parts = position + 1;
+            }
+        }
+        self.at += used;
+        true
+    }
+
+    /// `pigment: rgb 1`: the word stays.
+    fn sign_after_word(&mut self, meant: &mut Vec<Token>, name: &str) -> bool {
+        let (sign, word) = (self.span(1, 1), self.span(0, 0));
+        let text = self.slice(1);
+        let Some(next) = self.tokens.get(self.at + 2) else { return false };
+        let gap = Span { start: word.end, end: next.start, ..sign };
+        let message = format!("`{name}` takes its value without `{text}`");
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(sign, "expected the value right here")
+            .help(format!("write `{name} …`"))
+            .fix(gap, " ");
+        match self.inside.last_mut() {
+            Some(Inside { told: Some(told), .. }) => {
+                if !told.fixes.is_empty() {
+                    told.fixes.extend(diagnostic.fixes);
+                }
+            }
+            Some(inside) => inside.told = Some(diagnostic),
+            None => {}
+        }
+        meant.push(self.tokens[self.at]);
+        self.at += 2;
+        true
+    }
+}
