@@ -41,7 +41,7 @@ impl Box_ {
     /// The point where `ray` enters or leaves, put onto the face it crosses there.
     ///
     /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) and u·|N|·|P|; the same again is
-    /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l) for its reading by [`slabs`].
+    /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
     pub fn surface(&self, ray: &Ray, crossing: &Crossing, leaving: bool) -> SurfacePoint {
         let normals = self.normals.map(UnitVector::get);
         let face = match slabs(self.centre, normals, self.half_widths, ray) {
@@ -56,7 +56,8 @@ impl Box_ {
         let local = rough - normal * (normal.dot(rough) - half_width);
         let point = self.centre + local;
         let reach = local.abs().element_sum();
-        let error = U * (24.0 * reach + 12.0 * half_width + 2.0 * normal.abs_dot(point));
+        let far = 2.0 * (normal.abs_dot(self.centre) + normal.abs_dot(point));
+        let error = U * (24.0 * reach + 12.0 * half_width + far);
         SurfacePoint { point, normal, error, face }
     }
 
@@ -120,7 +121,8 @@ impl Box_ {
         for axis in 0..3 {
             let edge = self.face_centre(axis).abs();
             extent += edge;
-            slack += (edge + Vector::splat(self.half_widths[axis])) * (16.0 * U * flatness);
+            let far = self.normals[axis].get().abs_dot(self.centre);
+            slack += (edge + Vector::splat(self.half_widths[axis] + far)) * (16.0 * U * flatness);
         }
         Bounds::around(self.centre, extent, slack)
     }
@@ -156,9 +158,10 @@ pub struct Slabs<R: Real = f64> {
 /// their errors, at an edge, the line counts as through: boxes that share a face leave no gap
 /// between them. An edge belongs to the first of its faces.
 ///
-/// **Error:** a is off by u·(5·|f|₁ + l), v by 4u·|N|·|D| ≤ 4u, and 1/v, the difference and the
-/// product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l) + 8u·|t|) / |v|. The last entry lies
-/// between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
+/// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the face that was meant, as C was
+/// rounded: faces that two boxes share are one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference
+/// and the product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l + 2·|N|·|C|) + 10u·|t|) / |v|. The last
+/// entry lies between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
 ///
 /// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
 #[inline(always)]
@@ -179,8 +182,9 @@ pub fn slabs<R: Real>(
         let place = normals[axis].dot(start);
         let speed = normals[axis].dot(ray.direction);
         let half_width = half_widths[axis];
-        let place_error = u * (number(6.0) * reach + number(3.0) * half_width);
-        let mut speed_error = number(8.0) * u;
+        let far = number(2.0) * normals[axis].abs_dot(centre);
+        let place_error = u * (number(6.0) * reach + number(3.0) * half_width + far);
+        let mut speed_error = number(10.0) * u;
         if speed.abs() <= number(STEEP) {
             // A normal along an axis has an exact speed, however small.
             speed_error = speed_error * normals[axis].abs_dot(ray.direction);

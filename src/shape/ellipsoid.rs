@@ -12,54 +12,56 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    /// The chord, in local space, where the solid is the unit sphere; the ray is slid twice: in the
-    /// world, where a far start costs no digits, and again there, where the two closest approaches
-    /// differ. **Error:** that of the sphere, and what the map adds (`blur`), with |L| the matrix
-    /// of absolute values and R = ‖|L|·(|f| + |b|·|D|)‖, κ = ‖|L|·|D|‖ / |L·D|: u·(8R + 4κ·(1 + |b|))
-    /// across the ray, u·(8R + 5κ·|b|) along it, 12u·R·|L·f| of |L·f|² − 1, and 5u·κ of every t.
+    /// The chord, in local space, where the solid is the unit sphere. The ray is slid there and not
+    /// in the world: the closest approach to a needle's centre may lie a million times as far off as
+    /// the needle. **Error:** that of the sphere, and what the map adds (`blur`), with |L| the matrix
+    /// of absolute values, R = ‖|L|·|f|‖, κ = ‖|L|·|D|‖ / |L·D|, b and m the sphere's:
+    /// u·(6R + 6κ·|b|) across the ray, u·(6R + 6κ·(|b| + m)) along it, 12u·R·|L·f| of |L·f|² − 1, and
+    /// 6u·κ of every t.
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         let matrix = self.placement.local_from_world;
         let sizes = matrix.abs();
-        let world = ray.slide(self.placement.centre);
+        let from_centre = ray.origin - self.placement.centre;
 
-        let offset = matrix * world.offset;
+        let start = matrix * from_centre;
         let step = matrix * ray.direction;
         let speed = step.length();
         let direction = step / speed;
-        let again = offset.dot(direction);
-        let miss = (offset - direction * again).length();
-        let along = world.along * speed + again;
-        let start = matrix * world.start;
+        let along = start.dot(direction);
+        let miss = (start - direction * along).length();
 
-        let reach =
-            (sizes * (world.start.abs() + ray.direction.abs() * world.along.abs())).length();
+        let reach = (sizes * from_centre.abs()).length();
         let turn = (sizes * ray.direction.abs()).length() / speed;
         let blur = Blur {
-            miss: U * (8.0 * reach + 4.0 * turn * (1.0 + again.abs())),
-            along: U * (8.0 * reach + 5.0 * turn * along.abs()),
+            miss: U * (6.0 * reach + 6.0 * turn * along.abs()),
+            along: U * (6.0 * reach + 6.0 * turn * (along.abs() + miss)),
             power: U * 12.0 * reach * start.length(),
-            scale: U * 5.0 * turn,
+            scale: U * 6.0 * turn,
         };
         let roots = Roots::solve(along, miss, 1.0, start.length_squared(), 1.0 / speed)?;
         Some(roots.blurred_chord(blur))
     }
 
-    /// The point of the ellipsoid where `ray` crosses it at `t`; its distance is bounded by what
-    /// is left of |L·(P − C)| − 1 there and the rounding of that very sum.
+    /// The point of the ellipsoid where `ray` crosses it at `t`: what is left of |L·(P − C)| − 1 is
+    /// taken off along the normal, the shortest way in the world. Its distance is bounded by what is
+    /// left then and the rounding of that very sum.
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
-        let Placement { centre, world_from_local, local_from_world } = self.placement;
-        let near = ray.slide(centre);
-        let rough = local_from_world * (near.offset + ray.direction * (t + near.along));
-        let local = rough.normalize_or(Vector::X);
-        let gradient = local_from_world.transpose() * local;
+        let Placement { centre, local_from_world, .. } = self.placement;
+        let local = |point: Vector| {
+            let local = local_from_world * (point - centre);
+            let length = local.length();
+            // Out of the solid, and as long as what is left changes with the distance.
+            (length - 1.0, local_from_world.transpose() * local.normalize_or(Vector::X))
+        };
+        let rough = ray.at(t);
+        let (rest, gradient) = local(rough);
+        let point = rough - gradient * (rest / gradient.length_squared());
+        let (rest, gradient) = local(point);
         let steepness = gradient.length();
         let normal = gradient / steepness;
-        let point = world_from_local * local + centre;
-        let from_centre = point - centre;
-        let rest = ((local_from_world * from_centre).length() - 1.0).abs();
-        let reach = (local_from_world.abs() * from_centre.abs()).length();
+        let reach = (local_from_world.abs() * (point - centre).abs()).length();
         let error =
-            (rest + U * (24.0 * reach + 12.0)) / steepness + 2.0 * U * normal.abs_dot(point);
+            (rest.abs() + U * (24.0 * reach + 12.0)) / steepness + 2.0 * U * normal.abs_dot(point);
         SurfacePoint { point, normal, error, face: 0 }
     }
 

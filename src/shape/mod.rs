@@ -25,6 +25,10 @@ pub enum Shape {
 }
 
 /// A half-line: `origin + t · direction`, t > 0.
+///
+/// The error bounds of crossings hold for the direction that was meant, too, as long as each of its
+/// components is off by no more than 2 roundoffs of it: a ray aimed at a point crosses the surfaces
+/// through that point there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray<R: Real = f64> {
     pub origin: R::Vector,

@@ -51,7 +51,7 @@ impl Plane {
 /// inside and parallel (v not to be told from ±0). In the plane itself, or outside, it misses.
 ///
 /// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by
-/// ν = 4u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
+/// ν = 6u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
 /// (α + |t|·ν) / (|v| − ν) + 2u·|t|.
 ///
 /// **Source:** γₙ bounds: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §3.1.
@@ -61,7 +61,7 @@ pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Ch
     let u = R::UNIT_ROUNDOFF;
     let inside = distance - normal.dot(ray.origin);
     let speed = normal.dot(ray.direction);
-    let speed_error = number(4.0) * u * normal.abs_dot(ray.direction);
+    let speed_error = number(6.0) * u * normal.abs_dot(ray.direction);
     if speed.abs() <= speed_error {
         let whole = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
         return (inside > R::ZERO).then_some(whole);

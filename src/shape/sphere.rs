@@ -168,7 +168,7 @@ impl<R: Real> Roots<R> {
     }
 
     /// Adds the error bounds, u the roundoff and A = |b| + m ≥ |f|:
-    /// * h² is off by δ = u·(10·m·A + 4·h²) + (16·u·A)², so h by min(δ/h, √δ) + 8u·h;
+    /// * h² is off by δ = u·(14·m·A + 4·h²) + (16·u·A)², so h by min(δ/h, √δ) + 8u·h;
     /// * the far crossing by F = that + 16u·A;
     /// * |f|² − r² by P = u·(6|f|² + 2r² + 9·||f|² − r²|), so the near crossing by
     ///   (P + |near|·F) / (far − F) + 2u·|near|; or, when far ≤ 2F, by F and the distance to the
@@ -190,7 +190,7 @@ impl<R: Real> Roots<R> {
         let size = self.along.abs() + self.miss;
         let slid = number(16.0) * u * size + blur.along;
         let square_error = u
-            * (number(10.0) * self.miss * size + number(4.0) * self.half * self.half)
+            * (number(14.0) * self.miss * size + number(4.0) * self.half * self.half)
             + slid * slid
             + blur.miss * (number(2.0) * self.miss + blur.miss);
         let half_error = if square_error < self.half * self.half {

@@ -29,6 +29,9 @@ pub(super) struct Place<'a> {
 /// A light behind the surface or on the point itself contributes nothing. One in the surface's
 /// very plane (N·L = 0) makes a highlight on a seed finish, as the seed's formula says, and none
 /// on others, as in POV-Ray.
+///
+/// Whether the surface faces a light is asked of its point; rays are aimed from where they start,
+/// or what they pass near the light would not be where the light is.
 pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place: &Place) -> Rgb {
     let Place { finish, color, .. } = *place;
     let mut sum = color * finish.glow;
@@ -36,13 +39,15 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         return sum;
     }
     for (number, light) in tracer.lights.iter().enumerate() {
-        let Some(aim) = shadow::aim(&light.kind, place.point) else { continue };
-        let cosine = place.normal.dot(aim.to_light);
-        let faces_light = cosine > 0.0 || (finish.seed && cosine == 0.0);
-        if !faces_light
-            || (SHADOWS
-                && light.casts_shadows
-                && shadow::shadowed(tracer, walk, number, place.origin, &aim))
+        let height = shadow::height(&light.kind, place.point, place.normal);
+        if !(height > 0.0 || (finish.seed && height == 0.0)) {
+            continue;
+        }
+        let Some(aim) = shadow::aim(&light.kind, place.origin) else { continue };
+        let cosine = place.normal.dot(aim.to_light).max(0.0);
+        if SHADOWS
+            && light.casts_shadows
+            && shadow::shadowed(tracer, walk, number, place.origin, &aim)
         {
             continue;
         }

@@ -15,6 +15,18 @@ pub(super) struct Aim {
     pub reach: f64,
 }
 
+/// Positive where `light` is on the side of a surface that `normal` points to, 0 where it is in the
+/// very plane of it.
+#[inline]
+pub(super) fn height(light: &LightKind, point: Vector, normal: Vector) -> f64 {
+    match *light {
+        LightKind::Point { position } => normal.dot(position - point),
+        LightKind::Directional { to_light } | LightKind::Parallel { to_light, .. } => {
+            normal.dot(to_light.get())
+        }
+    }
+}
+
 /// `None` when the point is the light.
 ///
 /// A `parallel` light shines on both sides of its plane; only what stands between the plane and

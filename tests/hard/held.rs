@@ -1,0 +1,96 @@
+//! Holding lucarne's picture against the exact one.
+
+use lucarne::color::Rgb;
+use lucarne::film::Film;
+use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
+use lucarne::road::{Options, Road};
+use lucarne::scene::Dialect;
+use lucarne::source::NoFiles;
+use lucarne::trace::{TraceOptions, Unwatched, trace};
+use lucarne::world::{Origins, World};
+
+use crate::exact::Exact;
+use crate::scene::{Scene, Triple};
+
+/// A pixel is off when a linear channel is farther than this from the exact one.
+const OFF: f64 = 0.03;
+/// A pixel whose exact colour changes by more than that so near its centre, in pixels, is not judged.
+const NEAR: f64 = 1e-3;
+
+const SIZE: (u32, u32) = (48, 36);
+
+/// By the road that the command line takes. Warnings are allowed, errors are not.
+pub fn compiled(text: &str) -> (World, Origins) {
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+    let compiled = road.compile("hard.scene", text.as_bytes().to_vec());
+    assert!(!road.diagnostics.has_errors(), "{text}\n{:#?}", road.diagnostics);
+    compiled
+}
+
+/// One ray through the centre of each pixel.
+pub fn rendered(text: &str, (width, height): (u32, u32)) -> Film {
+    let (world, origins) = compiled(text);
+    let frame = Frame::whole(width, height);
+    let options = PlanOptions { frame, antialias: Antialias::Off, depth: None };
+    let plan = plan(&world, &origins, &options);
+    trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+}
+
+/// Asserts that no pixel of the scene's picture is bad.
+#[track_caller]
+pub fn hold(name: &str, scene: &Scene) {
+    hold_sized(name, scene, SIZE);
+}
+
+/// As [`hold`], in a given size.
+#[track_caller]
+pub fn hold_sized(name: &str, scene: &Scene, (width, height): (u32, u32)) {
+    let text = scene.text();
+    let film = rendered(&text, (width, height));
+    let exact = Exact::new(scene);
+    let at = |x: f64, y: f64| exact.at(x, y, width, height);
+    let (mut bad, mut unjudged, mut shown) = (Vec::new(), 0, false);
+    for y in 0..height {
+        for x in 0..width {
+            let (px, py) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let seen = film.radiance[film.index(x, y)];
+            let expected = at(px, py);
+            shown |= apart(expected, scene.background) > OFF;
+            if apart(components(seen), expected) <= OFF {
+                continue;
+            }
+            let changes = ring().any(|(dx, dy)| apart(at(px + dx, py + dy), expected) > OFF);
+            if changes {
+                unjudged += 1;
+            } else {
+                bad.push((x, y, seen, expected));
+            }
+        }
+    }
+    assert!(shown, "{name}: nothing but the background is to be seen");
+    let count = bad.len();
+    bad.truncate(6);
+    assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
+    // A picture that is nowhere judged proves nothing.
+    assert!(4 * unjudged <= width * height, "{name}: {unjudged} pixels are not judged\n{text}");
+}
+
+/// Sixteen places around a pixel's centre.
+fn ring() -> impl Iterator<Item = (f64, f64)> {
+    (0..8).flat_map(|eighth| {
+        let (sine, cosine) = lucarne::math::elementary::sin_cos_degrees(45.0 * f64::from(eighth));
+        [(NEAR * cosine, NEAR * sine), (0.5 * NEAR * cosine, 0.5 * NEAR * sine)]
+    })
+}
+
+fn components(color: Rgb) -> Triple {
+    color.components()
+}
+
+/// The largest difference of what a display can show; no number is as far from all others as can
+/// be.
+pub fn apart(a: Triple, b: Triple) -> f64 {
+    let shown = |c: f64| c.clamp(0.0, 1.0);
+    let off = |(a, b): (f64, f64)| if a.is_nan() { 1.0 } else { (shown(a) - shown(b)).abs() };
+    a.into_iter().zip(b).map(off).fold(0.0, f64::max)
+}

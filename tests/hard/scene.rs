@@ -1,0 +1,229 @@
+//! Scenes as numbers: each is written as a text for lucarne, and read as it stands by the exact
+//! tracer.
+//!
+//! **Invariant:** the text has every number in the shortest form that reads back to the same `f64`.
+
+use std::fmt::Write;
+
+pub type Triple = [f64; 3];
+
+pub const BLACK: Triple = [0.0; 3];
+pub const WHITE: Triple = [1.0; 3];
+
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub camera: Camera,
+    /// They move the camera; nothing here but the text knows of them.
+    pub camera_steps: Vec<Step>,
+    pub background: Triple,
+    pub lights: Vec<Light>,
+    pub objects: Vec<Object>,
+    /// `max_trace_level`.
+    pub depth: u32,
+}
+
+/// The default direction, right, up and sky where nothing else is said.
+#[derive(Debug, Clone, Copy)]
+pub enum Camera {
+    LookAt { location: Triple, look_at: Triple, angle: f64 },
+    Perspective { location: Triple, direction: Triple, right: Triple, up: Triple },
+    Orthographic { location: Triple, direction: Triple, right: Triple, up: Triple },
+}
+
+/// A point light.
+#[derive(Debug, Clone, Copy)]
+pub struct Light {
+    pub position: Triple,
+    pub color: Triple,
+}
+
+#[derive(Debug, Clone)]
+pub struct Object {
+    pub solid: Solid,
+    pub paint: Paint,
+    pub ambient: f64,
+    pub diffuse: f64,
+    pub reflection: f64,
+    /// They move the paint, too.
+    pub steps: Vec<Step>,
+    /// How many times the text places it.
+    pub copies: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Solid {
+    Sphere { centre: Triple, radius: f64 },
+    Plane { normal: Triple, distance: f64 },
+    Box { corners: [Triple; 2] },
+}
+
+#[derive(Debug, Clone)]
+pub enum Paint {
+    Plain(Triple),
+    Checker { even: Triple, odd: Triple, steps: Vec<Step> },
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Step {
+    Translate(Triple),
+    Scale(Triple),
+    Rotate(Triple),
+    /// `rotate` about one axis, so many times.
+    Spin {
+        axis: usize,
+        degrees: f64,
+        times: u32,
+    },
+    /// What the axes and the origin become.
+    Matrix([Triple; 4]),
+}
+
+pub fn sphere(centre: Triple, radius: f64) -> Object {
+    Object::new(Solid::Sphere { centre, radius })
+}
+
+pub fn plane(normal: Triple, distance: f64) -> Object {
+    Object::new(Solid::Plane { normal, distance })
+}
+
+pub fn cuboid(low: Triple, high: Triple) -> Object {
+    Object::new(Solid::Box { corners: [low, high] })
+}
+
+impl Object {
+    fn new(solid: Solid) -> Self {
+        let (paint, steps) = (Paint::Plain(WHITE), Vec::new());
+        Self { solid, paint, ambient: 0.1, diffuse: 0.7, reflection: 0.0, steps, copies: 1 }
+    }
+
+    pub fn color(self, color: Triple) -> Self {
+        Self { paint: Paint::Plain(color), ..self }
+    }
+
+    pub fn checker(self, steps: &[Step]) -> Self {
+        let [even, odd] = [[0.9, 0.8, 0.7], [0.1, 0.2, 0.4]];
+        Self { paint: Paint::Checker { even, odd, steps: steps.to_vec() }, ..self }
+    }
+
+    pub fn finish(self, ambient: f64, diffuse: f64, reflection: f64) -> Self {
+        Self { ambient, diffuse, reflection, ..self }
+    }
+
+    pub fn moved(mut self, step: Step) -> Self {
+        self.steps.push(step);
+        self
+    }
+}
+
+impl Scene {
+    pub fn new(camera: Camera, lights: &[Light], objects: Vec<Object>) -> Self {
+        Self {
+            camera,
+            camera_steps: Vec::new(),
+            background: [0.2, 0.3, 0.5],
+            lights: lights.to_vec(),
+            objects,
+            depth: 5,
+        }
+    }
+
+    pub fn deep(self, depth: u32) -> Self {
+        Self { depth, ..self }
+    }
+
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "global_settings {{ max_trace_level {} adc_bailout 0 }}\nbackground {{ rgb {} }}\n",
+            self.depth,
+            triple(self.background)
+        );
+        text += &self.camera.text(&written(&self.camera_steps));
+        for Light { position, color } in &self.lights {
+            let _ =
+                writeln!(text, "light_source {{ {}, rgb {} }}", triple(*position), triple(*color));
+        }
+        for object in &self.objects {
+            let copies = object.copies;
+            let object = object.text();
+            match copies {
+                1 => text += &object,
+                n => {
+                    let _ = writeln!(text, "#for (I, 1, {n}) {object} #end");
+                }
+            }
+        }
+        text
+    }
+}
+
+impl Camera {
+    fn text(&self, steps: &str) -> String {
+        let frame = |kind, location, direction, right, up| {
+            let [location, direction, right, up] = [location, direction, right, up].map(triple);
+            format!(
+                "camera {{ {kind} location {location} direction {direction} right {right} up {up} {steps} }}\n"
+            )
+        };
+        match *self {
+            Self::LookAt { location, look_at, angle } => format!(
+                "camera {{ location {} look_at {} angle {angle:e} {steps} }}\n",
+                triple(location),
+                triple(look_at)
+            ),
+            Self::Perspective { location, direction, right, up } => {
+                frame("perspective", location, direction, right, up)
+            }
+            Self::Orthographic { location, direction, right, up } => {
+                frame("orthographic", location, direction, right, up)
+            }
+        }
+    }
+}
+
+impl Object {
+    fn text(&self) -> String {
+        let solid = match self.solid {
+            Solid::Sphere { centre, radius } => format!("sphere {{ {}, {radius:e}", triple(centre)),
+            Solid::Plane { normal, distance } => {
+                format!("plane {{ {}, {distance:e}", triple(normal))
+            }
+            Solid::Box { corners: [a, b] } => format!("box {{ {}, {}", triple(a), triple(b)),
+        };
+        let paint = match &self.paint {
+            Paint::Plain(color) => format!("rgb {}", triple(*color)),
+            Paint::Checker { even, odd, steps } => {
+                format!("checker rgb {} rgb {} {}", triple(*even), triple(*odd), written(steps))
+            }
+        };
+        let Self { ambient, diffuse, reflection, .. } = self;
+        let finish =
+            format!("ambient {ambient:e} diffuse {diffuse:e} reflection {{ rgb {reflection:e} }}");
+        let steps = written(&self.steps);
+        format!("{solid} pigment {{ {paint} }} finish {{ {finish} }} {steps} }}\n")
+    }
+}
+
+fn written(steps: &[Step]) -> String {
+    let word = |step: &Step| match *step {
+        Step::Translate(v) => format!("translate {}", triple(v)),
+        Step::Scale(v) => format!("scale {}", triple(v)),
+        Step::Rotate(v) => format!("rotate {}", triple(v)),
+        Step::Spin { axis, degrees, times } => {
+            format!("#for (J, 1, {times}) rotate {degrees:e}*{} #end", ["x", "y", "z"][axis])
+        }
+        Step::Matrix(rows) => {
+            let numbers: Vec<String> = rows.iter().flatten().map(|n| format!("{n:e}")).collect();
+            format!("matrix <{}>", numbers.join(", "))
+        }
+    };
+    steps.iter().map(word).collect::<Vec<_>>().join(" ")
+}
+
+fn triple([x, y, z]: Triple) -> String {
+    format!("<{x:e}, {y:e}, {z:e}>")
+}
+
+/// The number that is written `1e<exponent>`.
+pub fn ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().expect("a number")
+}
