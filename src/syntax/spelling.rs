@@ -45,6 +45,9 @@ pub(super) fn correct_heads(
                 .help(format!("did you mean `#{near}`?"))
                 .fix(Span { start, ..span }, near);
             token.kind = TokenKind::Directive(Head::from_word(near));
+        } else if text.get(span.range()).is_some_and(|head| head[1..].starts_with([' ', '\t'])) {
+            // A comment, as other languages write it (habits/sign.rs).
+            continue;
         }
         diagnostics.push(diagnostic);
     }

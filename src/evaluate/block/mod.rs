@@ -158,6 +158,15 @@ impl Evaluator<'_> {
         }
         match self.peek().map(|next| &next.kind) {
             Some(TokenKind::Block(_)) => self.skip_arguments(Word::Union),
+            // `camera location … look_at …`
+            Some(TokenKind::Word(next)) if matches!(token.kind, TokenKind::Word(word) if place::home(*next) == Some(word)) => {
+                while let Some(&Token { kind: TokenKind::Word(next), .. }) = self.peek()
+                    && matches!(token.kind, TokenKind::Word(word) if place::home(next) == Some(word))
+                {
+                    self.next();
+                    self.skip_arguments(next);
+                }
+            }
             Some(TokenKind::Word(next)) if next.family() == Family::FinishItem => {
                 let next = *next;
                 self.next();

@@ -12,6 +12,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::part::Given;
 
 impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
@@ -45,6 +46,7 @@ impl Evaluator<'_> {
             Word::Rotate => {
                 let given = self.vector_after(token, "a vector of degrees")?;
                 self.lint_degrees(&given.here, given.span, &given.value.to_array());
+                self.no_angle_after(&given)?;
                 Ok(Step::Rotate(given.value))
             }
             Word::Matrix => self.matrix(token),
@@ -69,6 +71,26 @@ impl Evaluator<'_> {
                 Ok(Step::Scale(factors))
             }
         }
+    }
+
+    /// `rotate y 45`, as other tools write it.
+    fn no_angle_after(&mut self, given: &Given<Vector>) -> Outcome<()> {
+        let Some(Token { kind: TokenKind::Expression(id), span, here }) = self.peek().cloned()
+        else {
+            return Ok(());
+        };
+        if !matches!(here.unit.expression(id).kind, ExpressionKind::Number(_)) {
+            return Ok(());
+        }
+        self.next();
+        let (axis, angle) = (self.sources.text(given.span), self.sources.text(span));
+        let right = format!("{angle}*{axis}");
+        let diagnostic =
+            Diagnostic::new(Code::ExtraPart, "`rotate` takes one vector: degrees about x, y and z")
+                .at(span, "expected no number after the vector")
+                .help(format!("write `rotate {right}`"))
+                .fix(given.span.to(span), right);
+        Err(self.report(&here, diagnostic))
     }
 
     /// `matrix <…12 numbers…>`: more numbers than a vector holds.

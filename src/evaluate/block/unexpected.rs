@@ -39,6 +39,7 @@ impl Evaluator<'_> {
                             Some(Value::Broken) => {}
                             Some(Value::Macro(_)) => {
                                 self.macro_not_called(&token.here, symbol, token.span);
+                                self.skip_values();
                             }
                             Some(value) => self.unexpected_value(token, &value, place),
                         }
@@ -132,6 +133,22 @@ impl Evaluator<'_> {
             && let TokenKind::Expression(_) = token.kind
         {
             let text = format!("{wrapper} {{ {text} }}");
+            // `Ball { translate x }`
+            if let Some(Token { kind: TokenKind::Block(items), here, span: block }) =
+                self.peek().cloned()
+            {
+                self.next();
+                let name = self.sources.text(token.span);
+                let text = format!("{wrapper} {{ {name}");
+                let diagnostic = diagnostic
+                    .help(format!("write `{text} … }}`"))
+                    .fix(token.span.to(opener(block)), text);
+                self.report(&token.here, diagnostic);
+                let before = self.diagnostics.len();
+                self.inside(&here, items, Self::run_items);
+                self.diagnostics.forget_after(before);
+                return;
+            }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(word.sentence().to_owned());
@@ -160,6 +177,13 @@ impl Evaluator<'_> {
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
                 .fix(token.span, near)
+        } else if has_block && word.is_built() && place.holds(word) {
+            let of = place.word.map_or("", Word::name);
+            Diagnostic::new(
+                Code::MisplacedBlock,
+                format!("this `{name}` stands after the modifiers of `{of}`"),
+            )
+            .at(token.span, format!("the parts of `{of}` come first"))
         } else if has_block {
             let is_object = matches!(word.family(), Family::Shape | Family::Csg);
             let label = match home(word).filter(|home| *home != word) {
@@ -263,7 +287,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `if (…) … end`: said once, and what belongs to it is passed over.
+    /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.
     fn directive_without_sign(&mut self, token: &Token, word: Word) {
         let name = word.name();
         let message = format!("`{name}` is written with a `#` before it");
@@ -272,33 +296,7 @@ impl Evaluator<'_> {
             .help(word.sentence().to_owned())
             .fix(token.span, format!("#{name}"));
         self.report(&token.here, diagnostic);
-        let ends = |word: Word| {
-            matches!(
-                word,
-                Word::If
-                    | Word::Ifdef
-                    | Word::Ifndef
-                    | Word::While
-                    | Word::For
-                    | Word::Switch
-                    | Word::Macro
-            )
-        };
-        let mut open = usize::from(ends(word));
-        let before = self.diagnostics.len();
-        if open == 0 {
-            self.skip_values();
-        }
-        while open > 0
-            && let Some(next) = self.next()
-        {
-            match next.kind {
-                TokenKind::Word(Word::End) => open -= 1,
-                TokenKind::Word(word) if ends(word) => open += 1,
-                _ => {}
-            }
-        }
-        self.diagnostics.forget_after(before);
+        self.skip_values();
     }
 
     /// Passes over a colour that was the value of a word that is not known.

@@ -32,7 +32,9 @@ impl Reader<'_> {
             | Head::Ifndef => {
                 self.condition(head, meant) || self.then(meant) || self.body(head, meant)
             }
+            Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
             Head::Else => self.body(head, meant),
+            Head::Unknown => self.hash_comment(),
             Head::Declare | Head::Local => self.value(head, meant),
             _ => false,
         }
@@ -129,7 +131,8 @@ impl Reader<'_> {
     fn count(&self, from: usize, to: usize) -> Option<Count> {
         let is_name = |at: usize| at < to && self.kind(at) == Some(TokenKind::Name);
         let int = self.kind(from) == Some(TokenKind::Word(Word::Int));
-        let declares = (int || is_name(from)) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
+        let declares =
+            (int || is_name(from)) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
         let name = if declares { from + 1 } else { from };
         if !is_name(name) || (self.kind(name + 1).is_none()) {
             return None;
@@ -195,7 +198,14 @@ impl Reader<'_> {
                 [last] if exclusive => (Vec::new(), last.clone()),
                 [first, last] => (first.clone(), last.clone()),
                 // A step may stand in the middle or at the end.
-                _ => return Some(Count { name, first: vec![], last: vec![], last_text: String::new() }),
+                _ => {
+                    return Some(Count {
+                        name,
+                        first: vec![],
+                        last: vec![],
+                        last_text: String::new(),
+                    });
+                }
             };
         }
         if !self.is_simple(&last) || !(first.is_empty() || self.is_simple(&first)) {
@@ -283,6 +293,31 @@ impl Reader<'_> {
         meant.extend(&self.tokens[self.at + 1..self.at + end]);
         meant.push(mark(Mark::Close(Bracket::Round)));
         self.at += after;
+        true
+    }
+
+    /// `if A > 3`: both the `#` and the parentheses are missing; one message.
+    pub(super) fn bare_condition(
+        &mut self,
+        head: Head,
+        diagnostic: Diagnostic,
+        meant: &mut Vec<Token>,
+    ) -> bool {
+        let end = self.line_end(1);
+        let place = self.tokens[self.at];
+        let mark = |mark| Token { kind: TokenKind::Mark(mark), ..place };
+        meant.push(Token { kind: TokenKind::Directive(head), ..place });
+        if end > 1 {
+            let span = self.span(1, end - 1);
+            let before = Span { end: span.start, ..span };
+            self.diagnostics.push(diagnostic.fix(before, "(").fix(span.after(), ")"));
+            meant.push(mark(Mark::Open(Bracket::Round)));
+            meant.extend(&self.tokens[self.at + 1..self.at + end]);
+            meant.push(mark(Mark::Close(Bracket::Round)));
+        } else {
+            self.diagnostics.push(diagnostic);
+        }
+        self.at += end;
         true
     }
 

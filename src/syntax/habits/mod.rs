@@ -5,12 +5,13 @@
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
 
 use std::cell::OnceCell;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 mod head;
 mod letter;
 mod map;
 mod part;
+mod sign;
 
 use self::letter::Foreign;
 use self::part::Inside;
@@ -41,10 +42,12 @@ pub(super) fn translate(
         closers: OnceCell::new(),
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
+        hyphens: BTreeMap::new(),
         ascii: text.is_ascii(),
         diagnostics,
     };
     let mut meant = Vec::with_capacity(tokens.len());
+    reader.find_hyphens();
     while reader.at < tokens.len() {
         if !reader.habit(&mut meant) {
             reader.take(&mut meant);
@@ -53,7 +56,8 @@ pub(super) fn translate(
     while let Some(inside) = reader.inside.pop() {
         reader.leave(inside);
     }
-    for told in std::mem::take(&mut reader.foreign).into_values() {
+    let hyphens = std::mem::take(&mut reader.hyphens).into_values().map(|(told, _)| told);
+    for told in std::mem::take(&mut reader.foreign).into_values().chain(hyphens) {
         reader.diagnostics.push(told);
     }
     meant
@@ -73,6 +77,8 @@ struct Reader<'a> {
     /// How many directives lack their `#end`.
     missing_ends: OnceCell<isize>,
     foreign: Foreign,
+    /// Declared names that cannot be, such as `my-size`; what is said of each, and its plain spelling.
+    hyphens: BTreeMap<String, (Diagnostic, String)>,
     /// The text has no character beyond ASCII.
     ascii: bool,
     diagnostics: &'a mut Diagnostics,
@@ -133,12 +139,26 @@ impl Reader<'_> {
         {
             return true;
         }
+        if !self.hyphens.is_empty()
+            && matches!(kind, TokenKind::Name | TokenKind::Word(_) | TokenKind::Number)
+            && self.hyphens(meant)
+        {
+            return true;
+        }
         match kind {
             TokenKind::Word(word) => self.head_without_hash(word, meant) || self.part(meant),
-            TokenKind::Name => self.declarer(meant) || self.changes(meant) || self.part(meant),
+            TokenKind::Name => {
+                self.declarer(meant)
+                    || self.changes(meant)
+                    || self.logic(meant)
+                    || self.vector(meant)
+                    || self.part(meant)
+            }
             TokenKind::Directive(head) => self.head(head, meant),
-            TokenKind::Stray if !self.ascii => self.sign(meant),
-            TokenKind::Number | TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant),
+            TokenKind::Stray => self.single_quotes(meant) || (!self.ascii && self.sign(meant)),
+            TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
+            TokenKind::Number => self.map(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
@@ -153,12 +173,10 @@ impl Reader<'_> {
         let names = matches!(self.kind(1), Some(TokenKind::Name));
         let fits = match word {
             Word::For => after_paren || names,
-            Word::If
-            | Word::While
-            | Word::Switch
-            | Word::Elseif
-            | Word::Ifdef
-            | Word::Ifndef => after_paren,
+            Word::If | Word::While | Word::Switch | Word::Elseif | Word::Ifdef | Word::Ifndef => {
+                // `(1 if A else 2)` is no directive.
+                after_paren || !self.inside.last().is_some_and(|i| i.is(Bracket::Round))
+            }
             Word::Declare | Word::Local | Word::Macro | Word::Undef => names,
             Word::Include => self.kind(1) == Some(TokenKind::String),
             Word::Else | Word::End => true,
@@ -180,6 +198,14 @@ impl Reader<'_> {
                 .at(span, "a directive without its `#`")
                 .help(format!("write `#{name}`"))
                 .fix(Span { end: span.start, ..span }, "#");
+        if !after_paren
+            && matches!(
+                word,
+                Word::If | Word::While | Word::Switch | Word::Elseif | Word::Ifdef | Word::Ifndef
+            )
+        {
+            return self.bare_condition(Head::from_word(name), diagnostic, meant);
+        }
         let body = match word {
             Word::Else => Some(1),
             _ if after_paren => self.closed(1, Bracket::Round).map(|close| close + 1),

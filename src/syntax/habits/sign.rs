@@ -1,0 +1,219 @@
+//! Signs of other languages: `(1, 0, 0)` for a vector, `and`, `'strings'`, `# comments`, names with hyphens.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::{Family, Role};
+
+/// What makes a vector elsewhere.
+const MAKERS: &[&str] = &["vec2", "vec3", "vec4", "float3", "vector3", "Vector", "Vec3", "Color"];
+
+impl Reader<'_> {
+    /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
+    pub(super) fn vector(&mut self, meant: &mut Vec<Token>) -> bool {
+        let made = self.kind(0) == Some(TokenKind::Name);
+        if made && !MAKERS.contains(&self.slice(0)) {
+            return false;
+        }
+        let open = usize::from(made);
+        let bracket = match self.kind(open) {
+            Some(TokenKind::Mark(Mark::Open(bracket @ (Bracket::Round | Bracket::Square)))) => {
+                bracket
+            }
+            _ => return false,
+        };
+        let fits = match meant.last().map(|token| token.kind) {
+            Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
+            // `= [1, 2, 3]` is rather an array.
+            Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
+            Some(TokenKind::Word(word)) => {
+                word.role() == Role::Statement
+                    && matches!(
+                        word.family(),
+                        Family::Transform | Family::Color | Family::Camera | Family::Pattern
+                    )
+            }
+            _ => false,
+        };
+        let inside_brace = self.inside.last().is_none_or(|inside| inside.is(Bracket::Brace));
+        if !fits || !(inside_brace || made) || (made && bracket != Bracket::Round) {
+            return false;
+        }
+        // Numbers and commas, and nothing else.
+        let (mut close, mut commas, mut number) = (open + 1, 0, false);
+        loop {
+            match self.kind(close) {
+                Some(TokenKind::Number) if !number => number = true,
+                Some(TokenKind::Mark(Mark::Minus | Mark::Plus)) if !number => {}
+                Some(TokenKind::Mark(Mark::Comma)) if number => {
+                    commas += 1;
+                    number = false;
+                }
+                Some(TokenKind::Mark(Mark::Close(other))) if other == bracket && number => break,
+                _ => return false,
+            }
+            close += 1;
+        }
+        if !(1..=4).contains(&commas) {
+            return false;
+        }
+        let (first, last) = (self.span(0, open), self.span(close, close));
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
+                .at(self.span(0, close), "expected a vector")
+                .help("write `<x, y, z>`")
+                .fix(first, "<")
+                .fix(last, ">");
+        self.diagnostics.push(diagnostic);
+        let sign =
+            |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };
+        meant.push(sign(open, Mark::Less));
+        meant.extend(&self.tokens[self.at + open + 1..self.at + close]);
+        meant.push(sign(close, Mark::Greater));
+        self.at += close + 1;
+        true
+    }
+
+    /// `and`, `or`, `not` inside parentheses.
+    pub(super) fn logic(&mut self, meant: &mut Vec<Token>) -> bool {
+        if !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
+            return false;
+        }
+        let (mark, sign) = match self.slice(0) {
+            "and" | "AND" => (Mark::And, "&"),
+            "or" | "OR" => (Mark::Or, "|"),
+            "not" | "NOT" => (Mark::Not, "!"),
+            _ => return false,
+        };
+        // A name of this spelling would be followed by an operator or the end.
+        if matches!(self.kind(1), Some(TokenKind::Mark(Mark::Close(_) | Mark::Comma)) | None) {
+            return false;
+        }
+        let name = self.slice(0).to_owned();
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is written `{sign}`"))
+                .at(self.span(0, 0), "an operator of another language")
+                .help(format!("replace it with `{sign}`"))
+                .fix(self.span(0, 0), sign);
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at] });
+        self.at += 1;
+        true
+    }
+
+    /// `'colors.inc'`.
+    pub(super) fn single_quotes(&mut self, meant: &mut Vec<Token>) -> bool {
+        if self.slice(0) != "'" {
+            return false;
+        }
+        let start = self.span(0, 0);
+        let rest = self.text.get(start.end as usize..).unwrap_or("");
+        let Some(length) =
+            rest.find(['\'', '\n', '\r', '"']).filter(|&at| rest[at..].starts_with('\''))
+        else {
+            return false;
+        };
+        let end = start.end + length as u32;
+        let close = Span { start: end, end: end + 1, ..start };
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "a string stands between double quotes")
+                .at(start.to(close), "expected `\"…\"`")
+                .help("replace both `'` with `\"`")
+                .fix(start, "\"")
+                .fix(close, "\"");
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::String, end: close.end, ..self.tokens[self.at] });
+        while self.tokens.get(self.at).is_some_and(|token| token.start < close.end) {
+            self.at += 1;
+        }
+        true
+    }
+
+    /// `# a comment`.
+    pub(super) fn hash_comment(&mut self) -> bool {
+        let head = self.slice(0);
+        if !head[1..].starts_with([' ', '\t']) {
+            return false;
+        }
+        let token = self.tokens[self.at];
+        let rest = self.text.get(token.end as usize..).unwrap_or("");
+        let end = token.end + rest.find(['\n', '\r']).unwrap_or(rest.len()) as u32;
+        let span = self.span(0, 0);
+        let sign = Span { end: span.start + 1, ..span };
+        let diagnostic = Diagnostic::new(Code::UnknownDirective, "a comment begins with `//`")
+            .at(sign, "`#` begins a directive")
+            .help("replace it with `//`")
+            .fix(sign, "//");
+        self.diagnostics.push(diagnostic);
+        while self.tokens.get(self.at).is_some_and(|token| token.start < end) {
+            self.at += 1;
+        }
+        true
+    }
+
+    /// `#declare my-size = 3`: the names that cannot be, and what is said of each.
+    pub(super) fn find_hyphens(&mut self) {
+        for at in 0..self.tokens.len() {
+            if !matches!(self.tokens[at].kind, TokenKind::Directive(Head::Declare | Head::Local)) {
+                continue;
+            }
+            self.at = at;
+            let part = |kind| {
+                matches!(
+                    kind,
+                    Some(
+                        TokenKind::Name
+                            | TokenKind::Word(_)
+                            | TokenKind::Number
+                            | TokenKind::Mark(Mark::Minus)
+                    )
+                )
+            };
+            let mut end = 2;
+            while part(self.kind(end)) && self.touches(end) {
+                end += 1;
+            }
+            let assigned = self.is(end, Mark::Equal) && part(self.kind(1)) && end > 2;
+            if !assigned || self.is(1, Mark::Minus) {
+                continue;
+            }
+            let span = self.span(1, end - 1);
+            let name = self.text.get(span.range()).unwrap_or("").to_owned();
+            let digit = name.starts_with(|c: char| c.is_ascii_digit());
+            let plain = name.replace(['-', '.'], "_");
+            let plain = if digit { format!("_{plain}") } else { plain };
+            let why = match digit {
+                true => "a name begins with a letter or `_`",
+                false => "a name has no hyphen in it",
+            };
+            let told = Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is no name"))
+                .at(span, why)
+                .help(format!("write `{plain}`"));
+            self.hyphens.entry(name).or_insert((told, plain));
+        }
+        self.at = 0;
+    }
+
+    /// A name that `find_hyphens` has found.
+    pub(super) fn hyphens(&mut self, meant: &mut Vec<Token>) -> bool {
+        let token = self.tokens[self.at];
+        let rest = self.text.get(token.start as usize..).unwrap_or("");
+        let ends = |name: &&String| {
+            rest.strip_prefix(name.as_str()).is_some_and(|after| {
+                !after.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-')
+            })
+        };
+        let Some(name) = self.hyphens.keys().find(ends).cloned() else { return false };
+        let end = token.start + name.len() as u32;
+        let span = Span { end, ..self.span(0, 0) };
+        if let Some((told, plain)) = self.hyphens.get_mut(&name) {
+            told.fixes.push(Fix { span, text: plain.clone() });
+        }
+        meant.push(Token { kind: TokenKind::Name, end, ..token });
+        while self.tokens.get(self.at).is_some_and(|token| token.start < end) {
+            self.at += 1;
+        }
+        true
+    }
+}
