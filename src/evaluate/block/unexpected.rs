@@ -177,7 +177,10 @@ impl Evaluator<'_> {
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
                 .fix(token.span, near)
-        } else if has_block && word.is_built() && place.holds(word) {
+        } else if has_block
+            && place.holds(word)
+            && matches!(word.family(), Family::Shape | Family::Csg)
+        {
             let of = place.word.map_or("", Word::name);
             Diagnostic::new(
                 Code::MisplacedBlock,
