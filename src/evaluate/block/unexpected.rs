@@ -134,7 +134,7 @@ impl Evaluator<'_> {
         {
             let text = format!("{wrapper} {{ {text} }}");
             // `Ball { translate x }`
-            if let Some(Token { kind: TokenKind::Block(items), here, span: block }) =
+            if let Some(Token { kind: TokenKind::Block(contents), here, span: block }) =
                 self.peek().cloned()
             {
                 self.next();
@@ -145,7 +145,7 @@ impl Evaluator<'_> {
                     .fix(token.span.to(opener(block)), text);
                 self.report(&token.here, diagnostic);
                 let before = self.diagnostics.len();
-                self.inside(&here, items, Self::run_items);
+                self.inside_block(&here, contents, block, Self::run_items);
                 self.diagnostics.forget_after(before);
                 return;
             }
