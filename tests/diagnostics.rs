@@ -309,7 +309,8 @@ fn bad_fixes(case: &Case) -> String {
         }
         let after = run(&fixed);
         let said_before = |other: &&Diagnostic| {
-            other.severity == Severity::Error && before.iter().all(|old| (old.code, &old.message) != (other.code, &other.message))
+            other.severity == Severity::Error
+                && before.iter().all(|old| (old.code, &old.message) != (other.code, &other.message))
         };
         let new: Vec<&str> =
             after.iter().filter(said_before).map(|other| other.message.as_str()).collect();

@@ -221,7 +221,8 @@ impl Evaluator<'_> {
                     drop(self.next())
                 }
                 TokenKind::Block(_) => {
-                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next()
+                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                        self.next()
                     {
                         self.inside_block(&here, contents, span, |_| {});
                     }

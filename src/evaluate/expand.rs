@@ -142,8 +142,7 @@ impl Evaluator<'_> {
         }
         bound.resize_with(definition.parameters.len(), || Bound::Nothing);
         let name = self.scopes.name(definition.name);
-        let expansion =
-            self.scene.expansions.add(here.expansion, span, ExpansionKind::Macro, name);
+        let expansion = self.scene.expansions.add(here.expansion, span, ExpansionKind::Macro, name);
         let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
         if u64::from(expansion.0) > most {
             let message = format!("macros and includes have been called {most} times");

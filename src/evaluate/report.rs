@@ -217,9 +217,10 @@ impl Evaluator<'_> {
             return false;
         }
         let message = format!("what this scene has to remember is larger than {limit} MiB");
-        let diagnostic = Diagnostic::new(Code::MemoryLimit, message)
-            .at(span, "reached before this")
-            .help("strings, maps and lists of transforms count; `--limit memory=N` raises the limit");
+        let diagnostic =
+            Diagnostic::new(Code::MemoryLimit, message).at(span, "reached before this").help(
+                "strings, maps and lists of transforms count; `--limit memory=N` raises the limit",
+            );
         self.halted = true;
         self.report(here, diagnostic);
         true

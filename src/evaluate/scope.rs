@@ -246,7 +246,8 @@ impl Scopes {
     /// The names that have a value now, in the order they were first seen.
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
-            let value = state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
+            let value =
+                state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
             // A name that was itself reported is no suggestion for another.
             value.is_some_and(|value| *value != Value::Broken)
         });
@@ -256,7 +257,8 @@ impl Scopes {
     /// Every name that was declared and is still bound, with its value.
     pub fn declarations(&self) -> impl Iterator<Item = (&str, &Declared, Option<&Value>)> {
         self.names.iter().zip(&self.states).filter_map(|(name, state)| {
-            let value = state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
+            let value =
+                state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
             Some((name.as_str(), state.declared.as_ref()?, value))
         })
     }

@@ -284,7 +284,7 @@ impl Evaluator<'_> {
             if self.exceeds_memory(&here, item.span) {
                 return None;
             }
-            let Some(frame) = self.frames.last_mut() else { return None };
+            let frame = self.frames.last_mut()?;
             let token = |kind| Some(Token { kind, span: item.span, here: here.clone() });
             if let ItemKind::Numbers { start, count, width } = item.kind {
                 let first = (start + frame.taken * width) as usize;

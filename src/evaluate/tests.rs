@@ -247,7 +247,10 @@ fn an_optional_parameter_may_be_left_out() {
         printed(&format!("{macro_} #macro M(optional C) A(1, C) #end M()")),
         "1.000 -5.000 0.000"
     );
-    assert_eq!(printed(&format!("{macro_} A()")), "macro `A` takes 1 to 3 arguments, and is given 0");
+    assert_eq!(
+        printed(&format!("{macro_} A()")),
+        "macro `A` takes 1 to 3 arguments, and is given 0"
+    );
     assert_eq!(printed(&format!("{macro_} A(, 1)")), "`B` of macro `A` is left empty");
 }
 

@@ -248,9 +248,9 @@ fn loosen_across(tokens: &mut [Token], text: &str) {
             OPEN => run.effect.then(Effect { closes: 0, opens: 1 }),
             CLOSE => run.effect.then(Effect { closes: 1, opens: 0 }),
             TokenKind::Name => {
-                let calls = tokens.get(at + 1).is_some_and(|next| {
-                    next.kind == TokenKind::Mark(Mark::Open(Bracket::Round))
-                });
+                let calls = tokens
+                    .get(at + 1)
+                    .is_some_and(|next| next.kind == TokenKind::Mark(Mark::Open(Bracket::Round)));
                 if let Some((&name, &effect)) = effects.get_key_value(slice(token))
                     && calls
                 {

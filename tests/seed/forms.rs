@@ -96,7 +96,9 @@ impl Form {
                 self.scaled(k.x)
             }
             Step::Rotate(degrees) => self.rotated(degrees),
-            Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => panic!("not a step of the page: {step:?}"),
+            Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => {
+                panic!("not a step of the page: {step:?}")
+            }
         }
     }
 

@@ -318,7 +318,9 @@ fn moved_point(p: Vector, step: &Step) -> Vector {
         Step::Translate(v) => p + v,
         Step::Scale(k) => p * k,
         Step::Rotate(degrees) => rotate(degrees, p),
-        Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => panic!("not a step of the page: {step:?}"),
+        Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => {
+            panic!("not a step of the page: {step:?}")
+        }
     }
 }
 
@@ -328,6 +330,8 @@ fn turned_direction(d: Vector, step: &Step) -> Vector {
         Step::Translate(_) => d,
         Step::Scale(k) => d * k.x.signum(),
         Step::Rotate(degrees) => rotate(degrees, d),
-        Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => panic!("not a step of the page: {step:?}"),
+        Step::Matrix(_) | Step::Transform(_) | Step::InverseOf(_) => {
+            panic!("not a step of the page: {step:?}")
+        }
     }
 }

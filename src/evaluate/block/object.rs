@@ -96,7 +96,8 @@ impl Evaluator<'_> {
                 evaluator.skip_parts();
             }
             let mut modifiers = Vec::new();
-            let textured = matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.made[used.index()].textured);
+            let textured =
+                matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.made[used.index()].textured);
             let failed = evaluator.modifiers(word, textured, &mut modifiers);
             Ok((kind, modifiers, failed))
         })?;

@@ -129,7 +129,8 @@ impl Reader<'_> {
     fn count(&self, from: usize, to: usize) -> Option<Count> {
         let is_name = |at: usize| at < to && self.kind(at) == Some(TokenKind::Name);
         let int = self.kind(from) == Some(TokenKind::Word(Word::Int));
-        let declares = (int || is_name(from)) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
+        let declares =
+            (int || is_name(from)) && is_name(from + 1) && !JOINTS.contains(&self.slice(from + 1));
         let name = if declares { from + 1 } else { from };
         if !is_name(name) || (self.kind(name + 1).is_none()) {
             return None;
@@ -195,7 +196,14 @@ impl Reader<'_> {
                 [last] if exclusive => (Vec::new(), last.clone()),
                 [first, last] => (first.clone(), last.clone()),
                 // A step may stand in the middle or at the end.
-                _ => return Some(Count { name, first: vec![], last: vec![], last_text: String::new() }),
+                _ => {
+                    return Some(Count {
+                        name,
+                        first: vec![],
+                        last: vec![],
+                        last_text: String::new(),
+                    });
+                }
             };
         }
         if !self.is_simple(&last) || !(first.is_empty() || self.is_simple(&first)) {

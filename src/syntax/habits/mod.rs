@@ -153,12 +153,9 @@ impl Reader<'_> {
         let names = matches!(self.kind(1), Some(TokenKind::Name));
         let fits = match word {
             Word::For => after_paren || names,
-            Word::If
-            | Word::While
-            | Word::Switch
-            | Word::Elseif
-            | Word::Ifdef
-            | Word::Ifndef => after_paren,
+            Word::If | Word::While | Word::Switch | Word::Elseif | Word::Ifdef | Word::Ifndef => {
+                after_paren
+            }
             Word::Declare | Word::Local | Word::Macro | Word::Undef => names,
             Word::Include => self.kind(1) == Some(TokenKind::String),
             Word::Else | Word::End => true,

@@ -146,12 +146,15 @@ impl Reader<'_> {
             Some(told) => {
                 // Names in another order than the parts: removing them would not do.
                 match in_order && !told.fixes.is_empty() {
-                    true => told.fixes.push(crate::diagnostic::Fix { span: whole, text: String::new() }),
+                    true => {
+                        told.fixes.push(crate::diagnostic::Fix { span: whole, text: String::new() })
+                    }
                     false => told.fixes.clear(),
                 }
             }
             told @ None => {
-                let message = format!("the parts of `{block}` are told by their order, not by names");
+                let message =
+                    format!("the parts of `{block}` are told by their order, not by names");
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                     .at(span, "expected the value alone")
                     .help(format!("write `{block} {{ {order} … }}`"));
