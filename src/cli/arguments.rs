@@ -162,7 +162,8 @@ pub struct SceneArguments {
     /// Declare a number before the scene starts; may be given several times
     #[arg(short = 'D', long = "declare", value_name = "NAME=VALUE", value_parser = declare)]
     declares: Vec<(String, f64)>,
-    /// Raise or lower a limit: loop-turns, macro-depth, include-depth, nesting, objects, pixels
+    /// Raise or lower a limit: loop-turns, macro-depth, include-depth, nesting, objects, memory
+    /// (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
     /// Warn about what is probably a mistake, in `.pov` files too
@@ -183,6 +184,7 @@ enum Limit {
     IncludeDepth,
     Nesting,
     Objects,
+    Memory,
     Pixels,
 }
 
@@ -212,6 +214,7 @@ impl SceneArguments {
                 Limit::IncludeDepth => options.evaluate.limits.include_depth = small,
                 Limit::Nesting => options.evaluate.limits.nesting = small,
                 Limit::Objects => options.evaluate.limits.objects = n,
+                Limit::Memory => options.evaluate.limits.memory = n,
                 Limit::Pixels => {}
             }
         }
@@ -309,7 +312,8 @@ fn limit(text: &str) -> Result<(Limit, u64), String> {
     let (name, value) =
         text.split_once('=').ok_or("expected NAME=N, such as objects=10000000".to_owned())?;
     let limit = Limit::from_str(name, true).map_err(|_| {
-        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, pixels".to_owned()
+        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, memory, pixels"
+            .to_owned()
     })?;
     let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;
     Ok((limit, number))

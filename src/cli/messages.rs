@@ -119,6 +119,7 @@ fn is_limit(code: Code) -> bool {
             | Code::MacroLimit
             | Code::IncludeLimit
             | Code::ObjectLimit
+            | Code::MemoryLimit
             | Code::NestingLimit
     )
 }

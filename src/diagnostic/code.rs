@@ -112,6 +112,7 @@ codes! {
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";
     IncludeLimit "include-limit" error "files include each other deeper than the limit";
+    MemoryLimit "memory-limit" error "what the scene has to remember is larger than the limit";
     ObjectLimit "object-limit" error "the scene has more objects than the limit";
     // the author's own
     AuthorError "author-error" error "the scene's own `#error`";

@@ -87,6 +87,8 @@ pub struct Limits {
     pub nesting: u32,
     /// Objects of the scene, declared ones included.
     pub objects: u64,
+    /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
+    pub memory: u64,
 }
 
 impl Limits {
@@ -101,6 +103,7 @@ impl Default for Limits {
             include_depth: 64,
             nesting: 1_000,
             objects: 5_000_000,
+            memory: 2_048,
         }
     }
 }
@@ -221,6 +224,8 @@ struct Evaluator<'a> {
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// Bytes of what the scene holds beside its objects, about.
+    stored: u64,
     /// Turns of all loops so far.
     turns: u64,
     /// A file was not understood whole, so a loop may lack what ends it.
@@ -304,6 +309,7 @@ impl<'a> Evaluator<'a> {
             missing_at: None,
             halted: false,
             macro_depth: 0,
+            stored: 0,
             turns: 0,
             misread: false,
             reports: 0,

@@ -210,6 +210,22 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
+    /// Whether more has to be remembered than the limit: then nothing further is evaluated.
+    pub(super) fn exceeds_memory(&mut self, here: &Here, span: Span) -> bool {
+        let limit = self.options.limits.memory;
+        if self.stored.saturating_add(self.scopes.held()) >> 20 < limit {
+            return false;
+        }
+        let message = format!("what this scene has to remember is larger than {limit} MiB");
+        let diagnostic =
+            Diagnostic::new(Code::MemoryLimit, message).at(span, "reached before this").help(
+                "strings, maps and lists of transforms count; `--limit memory=N` raises the limit",
+            );
+        self.halted = true;
+        self.report(here, diagnostic);
+        true
+    }
+
     /// Something stands where a value should.
     pub(super) fn expected(
         &mut self,

@@ -52,6 +52,8 @@ pub struct Scopes {
     by_name: HashMap<String, Symbol>,
     states: Vec<SymbolState>,
     slots: Vec<Value>,
+    /// Bytes that the values in the slots hold, about.
+    held: u64,
     /// Slots whose table has closed.
     free: Vec<Slot>,
     /// The bindings of each open table, and whether the slot is its own; the first is the main file's.
@@ -65,6 +67,7 @@ impl Default for Scopes {
             by_name: HashMap::new(),
             states: Vec::new(),
             slots: Vec::new(),
+            held: 0,
             free: Vec::new(),
             tables: vec![Vec::new()],
         }
@@ -123,6 +126,7 @@ impl Scopes {
             if let Some((_, slot)) = self.states[symbol.0 as usize].bindings.pop()
                 && own
             {
+                self.put(slot, Value::Broken);
                 self.free.push(slot);
             }
         }
@@ -164,7 +168,7 @@ impl Scopes {
                     *own = true;
                 }
             }
-            Some(&(other, slot)) if other == depth => self.slots[slot.0 as usize] = value,
+            Some(&(other, slot)) if other == depth => self.put(slot, value),
             _ => {
                 let slot = self.new_slot(value);
                 self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
@@ -176,7 +180,7 @@ impl Scopes {
     /// Replaces the value of the newest binding, if there is one.
     pub fn overwrite(&mut self, symbol: Symbol, value: Value) {
         if let Some(slot) = self.slot(symbol) {
-            self.slots[slot.0 as usize] = value;
+            self.put(slot, value);
         }
     }
 
@@ -260,12 +264,23 @@ impl Scopes {
     }
 
     fn new_slot(&mut self, value: Value) -> Slot {
-        if let Some(slot) = self.free.pop() {
-            self.slots[slot.0 as usize] = value;
-            return slot;
-        }
-        self.slots.push(value);
-        Slot(self.slots.len() as u32 - 1)
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.slots.push(Value::Broken);
+            Slot(self.slots.len() as u32 - 1)
+        });
+        self.put(slot, value);
+        slot
+    }
+
+    fn put(&mut self, slot: Slot, value: Value) {
+        let old = &mut self.slots[slot.0 as usize];
+        self.held = (self.held + value.bytes()).saturating_sub(old.bytes());
+        *old = value;
+    }
+
+    /// Bytes that the values of all names hold, about.
+    pub fn held(&self) -> u64 {
+        self.held
     }
 }
 

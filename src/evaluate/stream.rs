@@ -281,6 +281,10 @@ impl Evaluator<'_> {
             }
             let item = frame.here.unit.ast.items[frame.at as usize];
             let here = frame.here.clone();
+            if self.exceeds_memory(&here, item.span) {
+                return None;
+            }
+            let frame = self.frames.last_mut()?;
             let token = |kind| Some(Token { kind, span: item.span, here: here.clone() });
             if let ItemKind::Numbers { start, count, width } = item.kind {
                 let first = (start + frame.taken * width) as usize;
@@ -299,7 +303,7 @@ impl Evaluator<'_> {
             if item.kind == ItemKind::Close && self.may_close(&here, item.span) {
                 return None;
             }
-            let Some(frame) = self.frames.last_mut() else { return None };
+            let frame = self.frames.last_mut()?;
             frame.at += 1;
             match item.kind {
                 ItemKind::Close => {}

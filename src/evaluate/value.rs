@@ -100,6 +100,15 @@ impl Value {
         Self::String(text.into())
     }
 
+    /// Bytes it holds beside itself, if it may hold many.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Self::String(text) => text.len() as u64,
+            Self::ColorMap(map) => size_of_val(&map.0[..]) as u64,
+            _ => 0,
+        }
+    }
+
     /// What the kind is called in messages, with its article.
     pub fn kind(&self) -> &'static str {
         match self {

@@ -50,6 +50,7 @@ impl Evaluator<'_> {
         })?;
         self.scene.finish_sites.resize(self.scene.finishes.len(), None);
         self.scene.finish_sites.push(Some(opener.here.site(opener.span)));
+        self.stored += size_of::<Finish>() as u64;
         self.scene.finishes.push(finish);
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }

@@ -42,6 +42,7 @@ impl Evaluator<'_> {
         match token.kind {
             TokenKind::Word(Word::Camera) => {
                 if let Value::Camera(camera) = self.camera(token)? {
+                    self.stored += size_of_val(&camera.items[..]) as u64;
                     self.scene.cameras.push(camera.as_ref().clone());
                     return Ok(());
                 }

@@ -65,6 +65,7 @@ impl Evaluator<'_> {
             .help("raise the limit with `--limit objects=N`");
             return Err(self.report_in(expansion, diagnostic));
         }
+        self.stored += size_of_val(&object.modifiers[..]) as u64;
         let used = match object.kind {
             ObjectKind::Use(used) => self.made.get(used.index()).copied(),
             _ => None,

@@ -13,6 +13,9 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
+/// Entries of one map: more are a mistake, and soon more than memory holds.
+const MOST_ENTRIES: usize = 1 << 20;
+
 impl Evaluator<'_> {
     /// `pigment { [Name] … }`, starting from the default texture's pigment.
     pub(super) fn pigment(&mut self, token: &Token) -> Outcome<PigmentId> {
@@ -65,6 +68,12 @@ impl Evaluator<'_> {
     }
 
     fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
+        let map = match &pigment.kind {
+            PigmentKind::Patterned { map, .. } => size_of_val(&map.0[..]),
+            PigmentKind::Color(_) => 0,
+        };
+        let lists = map + 2 * size_of_val(&pigment.transforms[..]);
+        self.stored += (size_of::<Pigment>() + lists) as u64;
         self.scene.pigments.push(pigment);
         PigmentId(self.scene.pigments.len() as u32 - 1)
     }
@@ -193,6 +202,15 @@ impl Evaluator<'_> {
                         }
                     }
                     TokenKind::Expression(id) => match evaluator.named(&token, *id) {
+                        Some(Value::ColorMap(map))
+                            if entries.len() + map.0.len() > MOST_ENTRIES =>
+                        {
+                            let message =
+                                format!("this map has more than {MOST_ENTRIES} entries");
+                            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                                .at(token.span, "these are too many");
+                            return Err(evaluator.report(&token.here, diagnostic));
+                        }
                         Some(Value::ColorMap(map)) => entries.extend(map.0.iter().copied()),
                         Some(Value::Poison(poison)) => evaluator.set_poison(poison),
                         _ => {

@@ -31,6 +31,8 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
+        let lists = 2 * size_of_val(&texture.transforms[..]);
+        self.stored += (size_of::<Texture>() + lists) as u64;
         self.scene.textures.push(texture);
         TextureId(self.scene.textures.len() as u32 - 1)
     }

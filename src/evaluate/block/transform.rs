@@ -36,6 +36,8 @@ impl Evaluator<'_> {
         if let [Step::Transform(whole)] = steps[..] {
             return whole;
         }
+        // Lowering keeps a map for each.
+        self.stored += 256 + size_of_val(&steps[..]) as u64;
         self.scene.transforms.push(steps);
         TransformId(self.scene.transforms.len() as u32 - 1)
     }

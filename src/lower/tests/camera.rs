@@ -20,7 +20,7 @@ fn camera(dialect: Dialect, kind: CameraKind, words: &[Word]) -> Build {
     for (n, word) in words.iter().enumerate() {
         let kind = match word {
             Word::Item(kind) => *kind,
-            Word::Step(step) => Transform(all.build.transform(vec![step.clone()])),
+            Word::Step(step) => Transform(all.build.transform(vec![*step])),
         };
         all.items.push(CameraItem { kind, site: site(700 + n) });
     }

@@ -182,11 +182,9 @@ impl Reader<'_> {
             .help(format!("write `{name} …`"))
             .fix(gap, " ");
         match self.inside.last_mut() {
-            Some(Inside { told: Some(told), .. }) => {
-                if !told.fixes.is_empty() {
-                    told.fixes.extend(diagnostic.fixes);
-                }
-            }
+            // Half a fix is none.
+            Some(Inside { told: Some(told), .. }) if told.fixes.is_empty() => {}
+            Some(Inside { told: Some(told), .. }) => told.fixes.extend(diagnostic.fixes),
             Some(inside) => inside.told = Some(diagnostic),
             None => {}
         }
