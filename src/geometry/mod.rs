@@ -77,7 +77,8 @@ impl Occluder {
 pub struct Hit {
     /// Index into `World::objects`.
     pub object: u32,
-    pub crossing: Crossing,
+    /// Distance along the ray.
+    pub t: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
 }
@@ -138,52 +139,36 @@ impl Geometry {
     /// tell apart, the first-declared object's: with U the least t + 2·error of all, the least
     /// object among those with t ≤ U. So it does not depend on the order of search, and one of two
     /// coinciding faces wins everywhere.
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let mut race = Race::new();
-        match &self.tree {
-            None => self.run(0..self.entries.len(), ray, &mut race),
-            Some(tree) => {
-                self.run(0..self.unbounded, ray, &mut race);
-                tree.visit(ray, race.limit, |leaf| {
-                    self.run(self.places(leaf), ray, &mut race);
-                    race.limit
-                });
-            }
-        }
-        if race.contested() { self.first_declared(ray, race.limit) } else { race.best }
-    }
-
     #[inline(always)]
-    fn run(&self, places: Range<usize>, ray: &Ray, race: &mut Race) {
-        for entry in &self.entries[places] {
-            if let Some(hit) = self.first_crossing(entry, ray, race.limit) {
-                race.enter(hit);
-            }
-        }
+    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut race = Race::new(self, ray);
+        self.search(ray, f64::INFINITY, &mut race);
+        if race.contested() { self.first_declared(ray) } else { race.winner() }
     }
 
-    /// The first-declared object whose first crossing is at `limit` or before.
+    /// The same by definition, with the tightest error bounds: first U, then the least object.
     #[cold]
-    fn first_declared(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        let mut first: Option<Hit> = None;
-        let mut look = |places: Range<usize>| {
-            for entry in &self.entries[places] {
-                if first.is_some_and(|first| first.object < entry.object) {
-                    continue;
-                }
-                first = self.first_crossing(entry, ray, limit).or(first);
+    #[inline(never)]
+    fn first_declared(&self, ray: &Ray) -> Option<Hit> {
+        let mut limit = f64::INFINITY;
+        self.search(ray, limit, &mut |place: usize| {
+            let crossing = self.first_crossing::<TIGHT>(&self.entries[place], ray, limit);
+            if let Some((Crossing { t, error }, _)) = crossing {
+                limit = limit.min(t + 2.0 * error);
             }
             limit
-        };
-        match &self.tree {
-            None => {
-                look(0..self.entries.len());
+        });
+        let mut first: Option<Hit> = None;
+        self.search(ray, limit, &mut |place: usize| {
+            let entry = &self.entries[place];
+            let object = entry.object;
+            if first.is_none_or(|first| object < first.object) {
+                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
+                let hit = |(Crossing { t, .. }, leaving)| Hit { object, t, leaving };
+                first = crossing.map(hit).or(first);
             }
-            Some(tree) => {
-                look(0..self.unbounded);
-                tree.visit(ray, limit, |leaf| look(self.places(leaf)));
-            }
-        }
+            limit
+        });
         first
     }
 
@@ -196,47 +181,67 @@ impl Geometry {
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another.
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
-        let shadows = |entry: &Entry| {
-            entry.casts_shadow
-                && self
-                    .first_crossing(entry, ray, distance)
-                    .is_some_and(|hit| hit.crossing.t + hit.crossing.error < distance)
-        };
-        let first = |places: Range<usize>| {
-            let start = places.start;
-            let found = self.entries[places].iter().position(shadows);
-            found.map_or(Occluder::NONE, |place| Occluder(start + place))
-        };
-        let Some(tree) = &self.tree else { return first(0..self.entries.len()) };
-        if self.entries.get(guess.0).is_some_and(shadows) {
+        if self.entries.get(guess.0).is_some_and(|entry| self.shadows(entry, ray, distance)) {
             return guess;
         }
-        let mut found = first(0..self.unbounded);
-        if found == Occluder::NONE {
-            let look = |leaf| {
-                found = first(self.places(leaf));
-                if found == Occluder::NONE { distance } else { f64::NEG_INFINITY }
-            };
-            tree.visit(ray, distance, look);
+        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE };
+        self.search(ray, distance, &mut shade);
+        shade.found
+    }
+
+    #[inline(always)]
+    fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
+        if !entry.casts_shadow {
+            return false;
         }
-        found
+        let crossing = self.first_crossing::<EASY>(entry, ray, distance);
+        crossing.is_some_and(|(Crossing { t, error }, _)| {
+            t + error < distance || self.barely_shadows(entry, ray, distance)
+        })
     }
 
-    /// Where the entries of a leaf lie.
-    #[inline(always)]
-    fn places(&self, leaf: Range<usize>) -> Range<usize> {
-        leaf.start + self.unbounded..leaf.end + self.unbounded
+    #[cold]
+    #[inline(never)]
+    fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
+        let crossing = self.first_crossing::<TIGHT>(entry, ray, distance);
+        crossing.is_some_and(|(Crossing { t, error }, _)| t + error < distance)
     }
 
-    /// Where the ray first meets a side of the object that is seen, at `limit` or before.
+    /// Shows `seeker` every entry that the ray may meet at `limit` or before.
     #[inline(always)]
-    fn first_crossing(&self, entry: &Entry, ray: &Ray, limit: f64) -> Option<Hit> {
+    fn search(&self, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
+        let Some(tree) = &self.tree else {
+            run(0..self.entries.len(), limit, seeker);
+            return;
+        };
+        let limit = run(0..self.unbounded, limit, seeker);
+        tree.visit(ray, limit, |leaf, limit| {
+            run(leaf.start + self.unbounded..leaf.end + self.unbounded, limit, seeker)
+        });
+    }
+
+    /// Where the ray first meets a side of the object that is seen, at `limit` or before, and whether
+    /// it leaves the solid there. The error bound is the tightest or, at less cost, an easy one.
+    #[inline(always)]
+    fn first_crossing<const BOUND: bool>(
+        &self,
+        entry: &Entry,
+        ray: &Ray,
+        limit: f64,
+    ) -> Option<(Crossing, bool)> {
         let chord = match &entry.solid {
             Solid::Sphere(Sphere { centre, radius }) => {
                 let roots = sphere::roots_ahead(*centre, *radius, ray)?;
                 // Behind the start or too far: no error bounds are needed.
                 if roots.leave() <= 0.0 || roots.enter() > limit {
                     return None;
+                }
+                let leaving = entry.sides == Sides::Inside;
+                let t = if leaving { roots.leave() } else { roots.enter() };
+                if BOUND == EASY
+                    && let Some(crossing) = roots.roughly(t)
+                {
+                    return (t <= limit).then_some((crossing, leaving));
                 }
                 roots.chord()
             }
@@ -251,7 +256,7 @@ impl Geometry {
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;
-        (crossing.t <= limit).then_some(Hit { object: entry.object, crossing, leaving })
+        (crossing.t <= limit).then_some((crossing, leaving))
     }
 }
 
@@ -268,36 +273,106 @@ impl Sides {
     }
 }
 
-/// The nearest crossing so far, and whether another may be as near.
-struct Race {
-    best: Option<Hit>,
-    best_t: f64,
-    /// The least t among the others.
-    rival_t: f64,
-    /// The least t + 2·error: what is farther is certainly not first.
-    limit: f64,
+/// Which error bound of a crossing is wanted.
+const EASY: bool = false;
+const TIGHT: bool = true;
+
+/// Who looks for something among the entries.
+///
+/// A trait and not a closure: its one method is inlined into each of the search's loops.
+trait Seeker {
+    /// Looks at the entry of that place; returns the limit from then on (−∞ ends the search).
+    fn look(&mut self, place: usize) -> f64;
 }
 
-impl Race {
-    fn new() -> Self {
+impl<F: FnMut(usize) -> f64> Seeker for F {
+    #[inline(always)]
+    fn look(&mut self, place: usize) -> f64 {
+        self(place)
+    }
+}
+
+#[inline(always)]
+fn run(places: Range<usize>, limit: f64, seeker: &mut impl Seeker) -> f64 {
+    let mut limit = limit;
+    for place in places {
+        limit = seeker.look(place);
+        if limit == f64::NEG_INFINITY {
+            break;
+        }
+    }
+    limit
+}
+
+/// Looks for anything that shadows the ray.
+struct Shade<'a> {
+    geometry: &'a Geometry,
+    ray: &'a Ray,
+    distance: f64,
+    found: Occluder,
+}
+
+impl Seeker for Shade<'_> {
+    #[inline(always)]
+    fn look(&mut self, place: usize) -> f64 {
+        if self.geometry.shadows(&self.geometry.entries[place], self.ray, self.distance) {
+            self.found = Occluder(place);
+            return f64::NEG_INFINITY;
+        }
+        self.distance
+    }
+}
+
+/// Looks for the nearest crossing, and for another that may be as near.
+struct Race<'a> {
+    geometry: &'a Geometry,
+    ray: &'a Ray,
+    /// The entry whose crossing is nearest so far; none has this place before the first.
+    place: usize,
+    t: f64,
+    leaving: bool,
+    /// Its t + 2·error: what is farther is certainly not first. Whether another crossing is at this
+    /// or before is the same as with the least t + 2·error of all: that other's is not before its t.
+    limit: f64,
+    /// The least t among the others.
+    rival_t: f64,
+}
+
+impl<'a> Race<'a> {
+    #[inline(always)]
+    fn new(geometry: &'a Geometry, ray: &'a Ray) -> Self {
         let beyond = f64::INFINITY;
-        Self { best: None, best_t: beyond, rival_t: beyond, limit: beyond }
+        let place = usize::MAX;
+        Self { geometry, ray, place, t: beyond, leaving: false, limit: beyond, rival_t: beyond }
     }
 
     #[inline(always)]
-    fn enter(&mut self, hit: Hit) {
-        let Crossing { t, error } = hit.crossing;
-        self.limit = self.limit.min(t + 2.0 * error);
-        if t < self.best_t {
-            self.rival_t = self.best_t;
-            (self.best, self.best_t) = (Some(hit), t);
-        } else {
-            self.rival_t = self.rival_t.min(t);
-        }
+    fn contested(&self) -> bool {
+        self.rival_t <= self.limit && self.place != usize::MAX
     }
 
-    fn contested(&self) -> bool {
-        self.best.is_some() && self.rival_t <= self.limit
+    #[inline(always)]
+    fn winner(&self) -> Option<Hit> {
+        let entry = self.geometry.entries.get(self.place)?;
+        Some(Hit { object: entry.object, t: self.t, leaving: self.leaving })
+    }
+}
+
+impl Seeker for Race<'_> {
+    #[inline(always)]
+    fn look(&mut self, place: usize) -> f64 {
+        let entry = &self.geometry.entries[place];
+        let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
+        if let Some((Crossing { t, error }, leaving)) = crossing {
+            if t < self.t {
+                self.rival_t = self.t;
+                self.limit = t + 2.0 * error;
+                (self.place, self.t, self.leaving) = (place, t, leaving);
+            } else {
+                self.rival_t = self.rival_t.min(t);
+            }
+        }
+        self.limit
     }
 }
 
@@ -324,14 +399,14 @@ pub fn contains(world: &World, object: u32, point: Vector) -> bool {
 }
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
-#[inline]
+#[inline(always)]
 pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
-    let Hit { object, crossing, leaving } = hit;
-    match world.objects[*object as usize].shape {
-        Shape::Sphere(i) => world.spheres[i as usize].surface(ray, crossing.t),
-        Shape::Plane(i) => world.planes[i as usize].surface(ray, crossing.t),
-        Shape::Box(i) => world.boxes[i as usize].surface(ray, crossing, *leaving),
-        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, crossing.t),
+    let Hit { object, t, leaving } = *hit;
+    match world.objects[object as usize].shape {
+        Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
+        Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
+        Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
+        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
     }
 }
 

@@ -189,13 +189,42 @@ fn something_is_in_the_way_exactly_when_a_first_hit_of_the_casters_is_certainly_
         for _ in 0..500 * long() {
             let ray = random_ray(&mut random, &world, 1.0);
             let distance = random.size(-2.0, 2.0);
-            let first = casters.nearest(&ray).map(|hit| hit.crossing);
-            let nearer = first.is_some_and(|first| first.t + first.error < distance);
+            let first = casters.nearest(&ray).and_then(|hit| {
+                let entry = casters.entries.iter().find(|entry| entry.object == hit.object)?;
+                casters.first_crossing::<TIGHT>(entry, &ray, hit.t)
+            });
+            let nearer = first.is_some_and(|(first, _)| first.t + first.error < distance);
             assert_eq!(all.occluded(&ray, distance), nearer, "{ray:?} {distance}");
             shadowed += usize::from(nearer);
         }
     }
     assert!(shadowed > 1_000, "{shadowed}");
+}
+
+#[test]
+fn an_easy_bound_is_of_the_same_crossing_and_never_under_the_tightest() {
+    let mut random = Random(7);
+    let mut easier = 0;
+    for _ in 0..40 {
+        let reach = random.size(-8.0, 8.0);
+        let world = random_world(&mut random, 30, reach);
+        let geometry = Geometry::build(&world);
+        for _ in 0..500 * long() {
+            let ray = random_ray(&mut random, &world, reach);
+            for entry in &geometry.entries {
+                let tight = geometry.first_crossing::<TIGHT>(entry, &ray, f64::INFINITY);
+                let easy = geometry.first_crossing::<EASY>(entry, &ray, f64::INFINITY);
+                let both =
+                    |found: Option<(Crossing, bool)>| found.map(|(c, leaving)| (c.t, leaving));
+                assert_eq!(both(easy), both(tight), "{ray:?} {entry:?}");
+                if let (Some((easy, _)), Some((tight, _))) = (easy, tight) {
+                    assert!(tight.error <= easy.error, "{ray:?} {entry:?}");
+                    easier += usize::from(tight.error < easy.error);
+                }
+            }
+        }
+    }
+    assert!(easier > 1_000, "{easier}");
 }
 
 #[test]
@@ -213,8 +242,8 @@ fn the_order_of_objects_decides_nothing_but_ties() {
         let (one, other) = (Geometry::build(&world), Geometry::build(&shuffled));
         for _ in 0..500 * long() {
             let ray = random_ray(&mut random, &world, 1.0);
-            let found = other.nearest(&ray).map(|hit| (order[hit.object as usize], hit.crossing));
-            let expected = one.nearest(&ray).map(|hit| (hit.object, hit.crossing));
+            let found = other.nearest(&ray).map(|hit| (order[hit.object as usize], hit.t));
+            let expected = one.nearest(&ray).map(|hit| (hit.object, hit.t));
             assert_eq!(found, expected, "{ray:?}");
             hits += usize::from(expected.is_some());
         }
@@ -266,7 +295,7 @@ fn a_surface_with_the_seeds_finish_is_seen_from_outside_only() {
         [-3.0, 0.0].map(|x| {
             let ray = Ray { origin: Vector::X * x, direction: Vector::X };
             assert_eq!(geometry.occluded(&ray, 10.0), geometry.nearest(&ray).is_some());
-            geometry.nearest(&ray).map(|hit| (hit.crossing.t, hit.leaving))
+            geometry.nearest(&ray).map(|hit| (hit.t, hit.leaving))
         })
     };
     assert_eq!(hits(0, false), [Some((2.0, false)), Some((1.0, true))]);
@@ -284,7 +313,7 @@ fn many_coinciding_spheres_make_no_deep_tree_and_the_first_is_hit() {
     let geometry = Geometry::build(&world);
     assert!(geometry.tree.as_ref().is_some_and(|tree| tree.depth <= tree::DEPTH));
     let ray = Ray { origin: Vector::new(1.0, 2.0, 9.0), direction: -Vector::Z };
-    assert_eq!(geometry.nearest(&ray).map(|hit| (hit.object, hit.crossing.t)), Some((0, 5.5)));
+    assert_eq!(geometry.nearest(&ray).map(|hit| (hit.object, hit.t)), Some((0, 5.5)));
 }
 
 #[test]
@@ -323,12 +352,8 @@ fn a_scene_scaled_by_a_power_of_two_or_mirrored_is_hit_alike_to_the_last_bit() {
             for _ in 0..300 {
                 let ray = random_ray(&mut random, &world, 1.0);
                 let there = Ray { origin: map(ray.origin) * k, direction: map(ray.direction) };
-                let expected =
-                    plain.nearest(&ray).map(|hit| (hit.object, hit.leaving, hit.crossing));
-                let found = other.nearest(&there).map(|hit| {
-                    let Crossing { t, error } = hit.crossing;
-                    (hit.object, hit.leaving, Crossing { t: t / k, error: error / k })
-                });
+                let expected = plain.nearest(&ray).map(|hit| (hit.object, hit.leaving, hit.t));
+                let found = other.nearest(&there).map(|hit| (hit.object, hit.leaving, hit.t / k));
                 assert_eq!(found, expected, "2^{exponent}: {ray:?}");
             }
         }

@@ -151,10 +151,10 @@ impl Space {
 }
 
 impl Tree {
-    /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before; it
-    /// returns the limit from then on (−∞ ends the search). Near boxes come first.
+    /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before, and with
+    /// the limit; it returns the limit from then on (−∞ ends the search). Near boxes come first.
     #[inline(always)]
-    pub fn visit(&self, ray: &Ray, limit: f64, leaf: impl FnMut(Range<usize>) -> f64) {
+    pub fn visit(&self, ray: &Ray, limit: f64, leaf: impl FnMut(Range<usize>, f64) -> f64) {
         // Of every node on the way down at most three siblings wait.
         if self.depth <= COMMON_DEPTH {
             self.visit_with::<{ 3 * COMMON_DEPTH + 1 }>(ray, limit, leaf);
@@ -167,10 +167,10 @@ impl Tree {
         &self,
         ray: &Ray,
         limit: f64,
-        mut leaf: impl FnMut(Range<usize>) -> f64,
+        mut leaf: impl FnMut(Range<usize>, f64) -> f64,
     ) {
         let Some(slanted) = Slanted::new(ray, &self.space) else {
-            leaf(0..self.count);
+            leaf(0..self.count, limit);
             return;
         };
         let mut reach = limit;
@@ -209,7 +209,7 @@ impl Tree {
                 }
             } else {
                 let start = ((child.0 & !Child::IS_LEAF) >> 4) as usize;
-                let reached = leaf(start..start + (child.0 & 15) as usize);
+                let reached = leaf(start..start + (child.0 & 15) as usize, reach);
                 // Seldom: most leaves change nothing.
                 if reached != reach {
                     reach = reached;

@@ -42,7 +42,7 @@ impl Box_ {
     ///
     /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) and u·|N|·|P|; the same again is
     /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
-    pub fn surface(&self, ray: &Ray, crossing: &Crossing, leaving: bool) -> SurfacePoint {
+    pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let normals = self.normals.map(UnitVector::get);
         let face = match slabs(self.centre, normals, self.half_widths, ray) {
             Some(slabs) if leaving => slabs.leave_face,
@@ -52,7 +52,7 @@ impl Box_ {
         let axis = (face / 2) as usize;
         let normal = if face.is_multiple_of(2) { normals[axis] } else { -normals[axis] };
         let half_width = self.half_widths[axis];
-        let rough = (ray.origin - self.centre) + ray.direction * crossing.t;
+        let rough = (ray.origin - self.centre) + ray.direction * t;
         let local = rough - normal * (normal.dot(rough) - half_width);
         let point = self.centre + local;
         let reach = local.abs().element_sum();

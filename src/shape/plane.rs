@@ -29,6 +29,7 @@ impl Plane {
     ///
     /// Its distance to the plane is at most 4u·|N|·|P| + u·|d|: twice, the reading of N·P, here and
     /// by the next [`chord`], and u·|N|·|P| for each of the two sums that round P.
+    #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let normal = self.normal.get();
         let rough = ray.at(t);

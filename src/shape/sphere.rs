@@ -20,6 +20,7 @@ impl Sphere {
     ///
     /// Its distance to the sphere is at most 4u·r (the length of n, the product) and u·|n|·|P| (the
     /// sum); the same again is for the start of the next ray, and 4u·r for its reading by [`chord`].
+    #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let near = ray.slide(self.centre);
         let from_centre = near.offset + ray.direction * (t + near.along);
@@ -108,6 +109,21 @@ pub struct Roots<R: Real = f64> {
     power: R,
     /// All of these are lengths in this unit, in terms of the ray's.
     unit: R,
+}
+
+impl Roots {
+    /// The crossing at `t`, one of the two, with a bound that is not the tightest but easily had;
+    /// `None` so near the start that only the tightest tells whether it is ahead.
+    ///
+    /// With S = |b| + m + h ≥ |f|, r: the far crossing's bound F is at most √(10u)·S + 40u·S, and
+    /// the near one's, where the far one is at S/1024 or beyond, 17·1024·u·S + F + 2u·S and a little
+    /// (see [`Roots::chord`]). Both are below S/2²⁰.
+    #[inline(always)]
+    pub fn roughly(&self, t: f64) -> Option<Crossing> {
+        let size = (self.along.abs() + self.miss + self.half) * self.unit;
+        let clear = t > size / 1024.0;
+        clear.then_some(Crossing { t, error: size / 1_048_576.0 })
+    }
 }
 
 impl<R: Real> Roots<R> {

@@ -238,7 +238,7 @@ fn a_box_answers_structured_rays_without_a_nan() {
         assert!(chord.enter.t <= chord.leave.t, "{ray:?} {chord:?}");
         for (crossing, leaving) in [(chord.enter, false), (chord.leave, true)] {
             if crossing.t.abs() < 1e10 {
-                let surface = cube.surface(&ray, &crossing, leaving);
+                let surface = cube.surface(&ray, crossing.t, leaving);
                 let above = exact::above_face(&cube, surface.face, surface.point);
                 assert!(above.abs() <= surface.error && surface.point.is_finite(), "{ray:?}");
             }
@@ -388,7 +388,7 @@ fn a_spawned_ray_does_not_meet_the_box_it_leaves() {
         let Some(chord) = box_.chord(&ray) else { continue };
         let leaving = random.below(2) == 1;
         let crossing = if leaving { chord.leave } else { chord.enter };
-        let surface = box_.surface(&ray, &crossing, leaving);
+        let surface = box_.surface(&ray, crossing.t, leaving);
         let above = exact::above_face(&box_, surface.face, surface.point);
         assert!(above.abs() <= surface.error, "{above:e}: {box_:?} {ray:?}");
         let Bounds { low, high } = box_.bounds();

@@ -143,16 +143,15 @@ fn frame(
     match plan.antialias {
         Antialias::Off | Antialias::Grid(_) => {
             let grid = if let Antialias::Grid(n) = plan.antialias { n.max(1) } else { 1 };
-            crew.pass(empty(region), region, (0, 1), |walk, x, y| Some(sampled(walk, x, y, grid)))
+            crew.pass(empty(region), (0, 1), |walk, x, y| Some(sampled(walk, x, y, grid)))
         }
         Antialias::Adaptive { threshold, grid } => {
             let border = grown(region, width, height);
-            let first =
-                crew.pass(empty(border), border, (0, 2), |walk, x, y| Some(sampled(walk, x, y, 1)));
+            let first = crew.pass(empty(border), (0, 2), |walk, x, y| Some(sampled(walk, x, y, 1)));
             let shown = first.complete.then(|| Shown::new(&first.film));
             let film = first.film.crop(region);
             let Some(shown) = shown else { return Traced { film, ..first } };
-            let mut second = crew.pass(film, region, (1, 2), |walk, x, y| {
+            let mut second = crew.pass(film, (1, 2), |walk, x, y| {
                 let edge = shown.is_edge(x, y, threshold);
                 edge.then(|| sampled(walk, x, y, grid.max(1)))
             });

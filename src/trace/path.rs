@@ -113,7 +113,7 @@ impl<'a> Tracer<'a> {
             });
             ray = Ray { origin, direction: reflection::mirrored(ray.direction, normal) };
         };
-        while let Some(link) = walk.chain.pop() {
+        for link in walk.chain.iter().rev() {
             let seen_here = reflection::adapted(seen, link.exponent);
             seen = link.local + reflection::passed_on(link.reflectance, seen_here);
             if link.seed {

@@ -32,74 +32,75 @@ impl<'a> Crew<'a> {
         Self { pool, watch }
     }
 
-    /// Computes the pixels of `region`, `which.0` being the number of this pass among `which.1`;
-    /// `None` leaves a pixel of `film` as it is.
+    /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`;
+    /// `None` leaves a pixel as it is.
     pub fn pass(
         &self,
-        film: Film,
-        region: Region,
+        mut film: Film,
         which: (usize, usize),
         pixel: impl Fn(&mut Walk, u32, u32) -> Option<(Rgb, u32)> + Sync,
     ) -> Traced {
-        let tiles = tiles(region);
-        let shared = Mutex::new((film, Counters::default()));
+        let tiles = tiles(&mut film);
+        let total = tiles.len();
+        let counters = Mutex::new(Counters::default());
         let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let work = |walk: &mut Walk, piece: &mut Vec<Option<(Rgb, u32)>>, tile: &Region| {
+        let work = |walk: &mut Walk, tile: Tile| {
             if stopped.load(Ordering::Relaxed) || self.watch.should_stop() {
                 stopped.store(true, Ordering::Relaxed);
                 return;
             }
-            piece.clear();
-            piece.extend(pixels(*tile).map(|(x, y)| pixel(walk, x, y)));
-            {
-                let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                shared.1 += std::mem::take(&mut walk.counters);
-                for (y, row) in (tile.y..).zip(piece.chunks(tile.width as usize)) {
-                    for (index, value) in (shared.0.index(tile.x, y)..).zip(row) {
-                        if let Some((radiance, samples)) = *value {
-                            shared.0.radiance[index] = radiance;
-                            shared.0.samples[index] = samples;
-                        }
+            for (y, (radiance, samples)) in (tile.y..).zip(tile.rows) {
+                for ((x, radiance), samples) in (tile.x..).zip(radiance).zip(samples) {
+                    if let Some(seen) = pixel(walk, x, y) {
+                        (*radiance, *samples) = seen;
                     }
                 }
             }
+            *counters.lock().unwrap_or_else(PoisonError::into_inner) +=
+                std::mem::take(&mut walk.counters);
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            self.watch.progress(which.0 * tiles.len() + done, which.1 * tiles.len());
+            self.watch.progress(which.0 * total + done, which.1 * total);
         };
-        let fresh = || (Walk::default(), Vec::new());
         match &self.pool {
-            Some(pool) => pool.install(|| {
-                tiles
-                    .par_iter()
-                    .for_each_init(fresh, |(walk, piece), tile| work(walk, piece, tile));
-            }),
+            Some(pool) => {
+                pool.install(|| tiles.into_par_iter().for_each_init(Walk::default, work));
+            }
             None => {
-                let (mut walk, mut piece) = fresh();
-                tiles.iter().for_each(|tile| work(&mut walk, &mut piece, tile));
+                let mut walk = Walk::default();
+                tiles.into_iter().for_each(|tile| work(&mut walk, tile));
             }
         }
-        let (film, counters) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let counters = counters.into_inner().unwrap_or_else(PoisonError::into_inner);
         Traced { film, counters, complete: !stopped.into_inner() }
     }
 }
 
-/// The tiles of a region, row by row.
-fn tiles(region: Region) -> Vec<Region> {
+/// A square of the film, less at its edges.
+struct Tile<'film> {
+    /// Its top left pixel.
+    x: u32,
+    y: u32,
+    /// Of each of its rows the radiance and the samples.
+    rows: Vec<(&'film mut [Rgb], &'film mut [u32])>,
+}
+
+/// The tiles of a film, row by row.
+fn tiles(film: &mut Film) -> Vec<Tile<'_>> {
+    let Region { x, y, width, height } = film.frame.region;
+    let (width, side) = (width.max(1) as usize, SIDE as usize);
+    let mut rows = film.radiance.chunks_mut(width).zip(film.samples.chunks_mut(width));
     let mut tiles = Vec::new();
-    for y in (0..region.height).step_by(SIDE as usize) {
-        for x in (0..region.width).step_by(SIDE as usize) {
-            tiles.push(Region {
-                x: region.x + x,
-                y: region.y + y,
-                width: SIDE.min(region.width - x),
-                height: SIDE.min(region.height - y),
-            });
+    for y in (y..y + height).step_by(side) {
+        let first = tiles.len();
+        tiles.extend((x..).step_by(side).take(width.div_ceil(side)).map(|x| Tile {
+            x,
+            y,
+            rows: Vec::new(),
+        }));
+        for (radiance, samples) in rows.by_ref().take(side) {
+            let pieces = radiance.chunks_mut(side).zip(samples.chunks_mut(side));
+            tiles[first..].iter_mut().zip(pieces).for_each(|(tile, piece)| tile.rows.push(piece));
         }
     }
     tiles
-}
-
-fn pixels(region: Region) -> impl Iterator<Item = (u32, u32)> {
-    let Region { x, y, width, height } = region;
-    (y..y + height).flat_map(move |line| (x..x + width).map(move |column| (column, line)))
 }

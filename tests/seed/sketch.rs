@@ -69,7 +69,7 @@ impl Sketch {
         let mut modifiers: Vec<ModifierKind> =
             texture.map(ModifierKind::Texture).into_iter().collect();
         for step in steps {
-            self.scene.transforms.push(vec![step.clone()]);
+            self.scene.transforms.push(vec![*step]);
             let last = self.scene.transforms.len() as u32 - 1;
             modifiers.push(ModifierKind::Transform(TransformId(last)));
         }
