@@ -1,8 +1,8 @@
 //! Solid noise: a smooth number, or vector, for every point of space, random from point to point.
 //!
 //! **In:** any point. **Out:** 0 … 1, or a vector whose components stay within 2 of zero.
-//! **Invariant:** finite for every point; continuous, and so are its first derivatives; below 2³⁰
-//! units from the origin equal to POV-Ray 3.7's, so that a picture made of it is the same picture.
+//! **Invariant:** finite for every point; continuous, and so are its first derivatives; out to
+//! 2·10⁹ units equal to POV-Ray 3.7's, so that a picture made of it is the same picture.
 //!
 //! Lattice noise: each point of the integer lattice holds a value and a gradient, and so a linear
 //! function; between lattice points those of the eight corners are blended by 3t² − 2t³ along each
@@ -40,7 +40,7 @@ pub enum NoiseGenerator {
 pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     let value = match generator {
         NoiseGenerator::Plateaus => plain(point),
-        // The least and greatest of `plain`, so the program holds, are −0.55242 and 1.48900.
+        // −0.55242 … 1.48900 becomes 0 … 1.
         NoiseGenerator::RangeCorrected => (plain(point) + 0.552_42) * 0.489_855_82,
         NoiseGenerator::Perlin => perlin::noise(point),
     };
@@ -110,13 +110,17 @@ struct Corner {
 }
 
 impl Cell {
-    /// Coordinates that are no number lie at 0; beyond 2⁵³ all are lattice points.
+    /// Coordinates beyond 2⁵³ are lattice points; what is no number lies at 0.
+    ///
+    /// Not by `floor`, which is a call where the processor is not known to have it.
     #[inline]
     fn new(coordinate: f64, origin: i64) -> Self {
-        let floor = coordinate.floor();
-        let fraction = coordinate - floor;
-        let fraction = if fraction.is_nan() { 0.0 } else { fraction };
-        Self { low: (floor as i64).wrapping_add(origin) as usize, fraction }
+        let towards_zero = coordinate as i64;
+        let above = towards_zero as f64 > coordinate;
+        let low = towards_zero.wrapping_sub(i64::from(above));
+        let fraction = coordinate - low as f64;
+        let fraction = if (0.0..=1.0).contains(&fraction) { fraction } else { 0.0 };
+        Self { low: low.wrapping_add(origin) as usize, fraction }
     }
 
     #[inline]

@@ -39,7 +39,7 @@ pub(super) fn noise(point: Vector) -> f64 {
 struct Lattice {
     steps: [u16; SIZE],
     /// Of length 1.
-    gradients: Vec<Vector>,
+    gradients: [Vector; SIZE],
 }
 
 static LATTICE: LazyLock<Lattice> = LazyLock::new(Lattice::draw);
@@ -47,7 +47,7 @@ static LATTICE: LazyLock<Lattice> = LazyLock::new(Lattice::draw);
 impl Lattice {
     fn draw() -> Self {
         let mut stream = Stream::open(1);
-        let gradients = (0..SIZE).map(|_| direction(&mut stream)).collect();
+        let gradients = [(); SIZE].map(|()| direction(&mut stream));
         Self { steps: half_shuffled(&mut stream), gradients }
     }
 

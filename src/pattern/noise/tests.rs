@@ -30,7 +30,7 @@ fn noise_is_that_of_pov_ray() {
     }
 }
 
-/// The manual does not say what `agate` is; these are 2π and the powers that fit its values.
+/// How `agate` turns turbulence into its value is not in the manual: this fits all that was measured.
 #[test]
 fn turbulence_as_a_number_is_that_inside_agate() {
     let rows = rows(include_str!("agate.txt"));
