@@ -1,7 +1,7 @@
 //! Solid noise: a smooth number, or vector, for every point of space, random from point to point.
 //!
 //! **In:** any point. **Out:** 0 … 1, or a vector whose components stay within 2 of zero.
-//! **Invariant:** finite for every point; continuous, and so are its first derivatives; out to
+//! **Invariant:** finite for every point; continuous, and smooth where it is not cut off; out to
 //! 2·10⁹ units equal to POV-Ray 3.7's, so that a picture made of it is the same picture.
 //!
 //! Lattice noise: each point of the integer lattice holds a value and a gradient, and so a linear
