@@ -4,6 +4,7 @@
 
 pub mod checker;
 pub mod gradient;
+pub mod noise;
 
 use crate::math::Vector;
 

@@ -478,7 +478,7 @@ vocabulary! {
         Vcross "vcross" function built "`vcross(a, b)`: the cross product";
         Vnormalize "vnormalize" function1 built "`vnormalize(v)`: the same direction, length 1";
         Vrotate "vrotate" function built "`vrotate(a, <x, y, z>)`: a rotated, in degrees";
-        Vturbulence "vturbulence" function later "`vturbulence(lambda, omega, octaves, v)`: turbulence at v";
+        Vturbulence "vturbulence" function built "`vturbulence(lambda, omega, octaves, v)`: turbulence at v";
     }
     StringFunction {
         Chr "chr" function1 built "`chr(n)`: the character with this code";

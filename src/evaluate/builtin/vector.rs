@@ -6,6 +6,7 @@
 use super::{Arguments, CallError, CallErrorKind, Function};
 use crate::math::elementary::sin_cos_degrees;
 use crate::math::{UnitVector, Vector};
+use crate::pattern::noise::Turbulence;
 use crate::vocabulary::Word;
 
 /// The function that `word` names, if it is one of this family.
@@ -19,6 +20,10 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Vcross => Function::vector(2..=2, |a| Ok(a.vector3(0)?.cross(a.vector3(1)?))),
         Word::Vnormalize => Function::vector(1..=1, |a| Ok(direction(a, 0)?.get())),
         Word::Vrotate => Function::vector(2..=2, |a| Ok(rotated(a.vector3(0)?, a.vector3(1)?))),
+        Word::Vturbulence => Function::vector(4..=4, |a| {
+            let turbulence = Turbulence::new(a.number(0)?, a.number(1)?, a.number(2)?);
+            Ok(turbulence.vector(a.vector3(3)?))
+        }),
         _ => None,
     }
 }
@@ -111,6 +116,27 @@ mod tests {
         let error = call(Word::VaxisRotate, &arguments, &mut RandomStreams::default());
         let error = error.expect_err("no axis");
         assert_eq!((error.kind, error.argument), (CallErrorKind::ZeroVector, Some(1)));
+    }
+
+    #[test]
+    fn turbulence_takes_four_arguments_the_last_a_point() {
+        let n = Value::Number(2.0);
+        let error = |arguments: &[Value]| {
+            let error = call(Word::Vturbulence, arguments, &mut RandomStreams::default());
+            error.expect_err("no turbulence")
+        };
+        let three = error(&[n.clone(), n.clone(), n.clone()]);
+        assert_eq!(three.message, "`vturbulence` takes 4 arguments, not 3");
+        assert_eq!((three.kind, three.argument), (CallErrorKind::WrongArity, None));
+        let five = error(&[n.clone(), n.clone(), n.clone(), n.clone(), n.clone()]);
+        assert_eq!(five.message, "`vturbulence` takes 4 arguments, not 5");
+        assert_eq!(five.argument, Some(4));
+        let point = Value::vector3(Vector::ONE);
+        let swapped = error(&[point.clone(), n.clone(), n.clone(), n.clone()]);
+        assert_eq!(swapped.message, "`vturbulence` takes a number, not a vector");
+        assert_eq!((swapped.kind, swapped.argument), (CallErrorKind::WrongType, Some(0)));
+        let loud = error(&[n.clone(), Value::Number(1e38), Value::Number(10.0), point]);
+        assert_eq!(loud.kind, CallErrorKind::NotFinite);
     }
 
     #[test]

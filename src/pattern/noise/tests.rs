@@ -1,0 +1,154 @@
+use std::f64::consts::TAU;
+
+use super::*;
+use crate::math::elementary;
+use crate::math::random::{Random, long};
+
+const GENERATORS: [NoiseGenerator; 3] =
+    [NoiseGenerator::Plateaus, NoiseGenerator::RangeCorrected, NoiseGenerator::Perlin];
+
+/// The rows of a table of measured numbers.
+fn rows<const N: usize>(table: &str) -> Vec<[f64; N]> {
+    let number = |text: &str| text.parse().expect("a number");
+    let row = |line: &str| line.split(' ').map(number).collect::<Vec<f64>>();
+    let lines = table.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| row(line).try_into().expect("as many numbers as each row has")).collect()
+}
+
+#[test]
+fn noise_is_that_of_pov_ray() {
+    let rows = rows(include_str!("measured.txt"));
+    assert!(rows.len() > 80);
+    for [x, y, z, one, two, three, a, b, c] in rows {
+        let point = Vector::new(x, y, z);
+        for (generator, measured) in GENERATORS.into_iter().zip([one, two, three]) {
+            let value = noise(generator, point);
+            assert!((value - measured).abs() < 1e-15, "{generator:?} {point}: {value} {measured}");
+        }
+        let vector = vector_noise(point);
+        assert!((vector - Vector::new(a, b, c)).abs().max_element() < 1e-15, "{point}: {vector}");
+    }
+}
+
+/// How `agate` turns turbulence into its value is not in the manual: this fits all that was measured.
+#[test]
+fn turbulence_as_a_number_is_that_inside_agate() {
+    let rows = rows(include_str!("agate.txt"));
+    assert!(rows.len() >= 48);
+    for [generator, lambda, omega, octaves, x, y, z, measured] in rows {
+        let generator = GENERATORS[generator as usize - 1];
+        let number =
+            Turbulence::new(lambda, omega, octaves).number(generator, Vector::new(x, y, z));
+        let wave = elementary::sin(TAU * (1.1 * z + 1.3 * number));
+        let value = elementary::pow((wave + 1.0) / 2.0, 0.77);
+        assert!((value - measured).abs() < 1e-12, "{generator:?} {x} {y} {z}: {value} {measured}");
+    }
+}
+
+#[test]
+fn noise_repeats_every_4096_units_along_each_axis() {
+    let mut random = Random(1);
+    for _ in 0..1000 {
+        // Whole multiples of 2⁻²⁰ stay exact when moved.
+        let point = (random.point(4096.0) * 1_048_576.0).floor() / 1_048_576.0;
+        for axis in [Vector::X, Vector::Y, Vector::Z] {
+            let moved = point + axis * 4096.0 * (random.below(100) as f64 - 50.0);
+            assert_eq!(vector_noise(moved), vector_noise(point));
+            for generator in GENERATORS {
+                assert_eq!(noise(generator, moved), noise(generator, point));
+            }
+        }
+    }
+}
+
+#[test]
+fn noise_is_continuous_across_cells() {
+    let mut random = Random(2);
+    for _ in 0..10_000 * long() {
+        let mut before = random.point(50.0);
+        let axis = random.below(3);
+        before[axis] = before[axis].floor();
+        let mut after = before;
+        before[axis] -= 1e-6;
+        after[axis] += 1e-6;
+        assert!((vector_noise(after) - vector_noise(before)).abs().max_element() < 1e-5);
+        for generator in GENERATORS {
+            assert!((noise(generator, after) - noise(generator, before)).abs() < 1e-5);
+        }
+    }
+    for point in [Vector::ZERO, Vector::new(3.0, -7.0, 1000.0)] {
+        let just_below = point - Vector::splat(1e-15);
+        assert!((vector_noise(just_below) - vector_noise(point)).length() < 1e-12);
+    }
+}
+
+#[test]
+fn noise_fills_its_range_around_its_middle() {
+    let count = 100_000 * long();
+    let mut random = Random(3);
+    let points: Vec<Vector> = (0..count).map(|_| random.point(2000.0)).collect();
+    for (generator, spread) in GENERATORS.into_iter().zip([0.24, 0.12, 0.15]) {
+        let values = || points.iter().map(|point| noise(generator, *point));
+        let mean = values().sum::<f64>() / count as f64;
+        let variance = values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count as f64;
+        assert!((mean - 0.5).abs() < 0.02, "{generator:?}: mean {mean}");
+        assert!((variance.sqrt() - spread).abs() < 0.02, "{generator:?}: {}", variance.sqrt());
+        assert!(values().all(|v| (0.0..=1.0).contains(&v)));
+    }
+    let greatest = points.iter().map(|p| vector_noise(*p).abs().max_element()).fold(0.0, f64::max);
+    assert!((0.9..1.1).contains(&greatest), "{greatest}");
+}
+
+#[test]
+fn every_point_has_noise_within_its_range() {
+    let mut strange = vec![f64::INFINITY, f64::NAN, f64::MAX, 5e-324, 1e-310, 2.5, -0.0, 1e9, 1e15];
+    strange.extend([31, 32, 52, 53, 62, 63, 64].map(|power| elementary::pow(2.0, power.into())));
+    strange.extend(strange.clone().iter().map(|n| -n));
+    for &x in &strange {
+        for &y in &strange {
+            for &z in &strange {
+                let point = Vector::new(x, y, z);
+                assert!(vector_noise(point).abs().max_element() <= 2.0, "{point}");
+                for generator in GENERATORS {
+                    assert!((0.0..=1.0).contains(&noise(generator, point)), "{point}");
+                    let layers = Turbulence::default().number(generator, point);
+                    assert!(layers.abs() < 4.0, "{point}");
+                }
+                assert!(Turbulence::default().vector(point).abs().max_element() < 4.0, "{point}");
+            }
+        }
+    }
+}
+
+#[test]
+fn large_coordinates_are_reduced_without_loss() {
+    // What POV-Ray cannot hold in 32 bits still lies on the lattice that repeats.
+    for large in [elementary::pow(2.0, 31.0), elementary::pow(2.0, 40.0)] {
+        let near = Vector::new(0.25, 0.5, 0.75);
+        assert_eq!(vector_noise(near + Vector::splat(large)), vector_noise(near));
+        assert_eq!(vector_noise(near - Vector::splat(large)), vector_noise(near));
+    }
+}
+
+#[test]
+fn layers_of_turbulence_are_counted_from_one_to_ten() {
+    let point = Vector::new(0.3, 0.6, 0.9);
+    let layers = |octaves: f64| Turbulence::new(2.0, 0.5, octaves).vector(point);
+    assert_eq!(layers(1.0), vector_noise(point));
+    assert_eq!(layers(2.9), vector_noise(point) + vector_noise(2.0 * point) * 0.5);
+    for few in [0.0, 0.99, -5.0, f64::NEG_INFINITY, f64::NAN] {
+        assert_eq!(layers(few), layers(1.0));
+    }
+    assert_ne!(layers(9.0), layers(10.0));
+    for many in [10.5, 11.0, 1e300, f64::INFINITY] {
+        assert_eq!(layers(many), layers(10.0));
+    }
+}
+
+#[test]
+fn wild_turbulence_without_end_is_still_finite_where_its_layers_fade() {
+    for lambda in [1e300, -1e300, 1e-300, f64::INFINITY] {
+        let vector = Turbulence::new(lambda, 0.5, 10.0).vector(Vector::new(0.0, 1e-30, -1e300));
+        assert!(vector.abs().max_element() < 4.0, "{lambda}: {vector}");
+    }
+}
