@@ -1,19 +1,31 @@
 //! Hard cases: what other tracers get wrong by a last digit, held against exact arithmetic.
 
+#[path = "hard/dice.rs"]
+mod dice;
 #[path = "hard/exact.rs"]
 mod exact;
+#[path = "hard/frames.rs"]
+mod frames;
 #[path = "hard/ground.rs"]
 mod ground;
 #[path = "hard/held.rs"]
 mod held;
+#[path = "hard/kernels.rs"]
+mod kernels;
+#[path = "hard/language.rs"]
+mod language;
 #[path = "hard/lights.rs"]
 mod lights;
 #[path = "hard/mirrors.rs"]
 mod mirrors;
+#[path = "hard/scaled.rs"]
+mod scaled;
 #[path = "hard/scene.rs"]
 mod scene;
 #[path = "hard/sizes.rs"]
 mod sizes;
+#[path = "hard/trees.rs"]
+mod trees;
 #[path = "hard/turns.rs"]
 mod turns;
 #[path = "hard/wide.rs"]

@@ -170,6 +170,9 @@ impl<'s> Lowering<'s, '_> {
 
     fn solid(&mut self, kind: &ObjectKind, here: &Inherited, site: Site) -> Result<(), Fault> {
         let map = &here.world_from_here;
+        if !map.is_finite() {
+            return Err(Fault::not_finite("this solid's place"));
+        }
         match *kind {
             ObjectKind::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {
                 Round::Sphere(sphere) => {

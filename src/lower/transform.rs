@@ -145,6 +145,10 @@ impl Affine {
         self.rows == Self::IDENTITY.rows
     }
 
+    pub fn is_finite(&self) -> bool {
+        self.rows.iter().all(|row| row.is_finite()) && self.offset.is_finite()
+    }
+
     pub fn point(&self, p: DoubleVector) -> DoubleVector {
         self.direction(p) + self.offset
     }
@@ -204,7 +208,7 @@ impl Affine {
 
     /// The inverse, or why there is none.
     pub fn checked(&self) -> Result<Self, Fault> {
-        if !(self.rows.iter().all(|row| row.is_finite()) && self.offset.is_finite()) {
+        if !self.is_finite() {
             return Err(Fault::not_finite("this transform"));
         }
         if self.is_translation() {

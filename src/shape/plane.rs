@@ -49,7 +49,8 @@ impl Plane {
 }
 
 /// The part of the ray's line inside the half space: from −∞, or to +∞, or both when the line runs
-/// inside and parallel (v not to be told from ±0). In the plane itself, or outside, it misses.
+/// inside and parallel (v not to be told from ±0, or the crossing farther off than any number). In
+/// the plane itself, or outside, it misses.
 ///
 /// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by
 /// ν = 6u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
@@ -63,13 +64,13 @@ pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Ch
     let inside = distance - normal.dot(ray.origin);
     let speed = normal.dot(ray.direction);
     let speed_error = number(6.0) * u * normal.abs_dot(ray.direction);
-    if speed.abs() <= speed_error {
+    let t = inside / speed;
+    if speed.abs() <= speed_error || t.abs() == R::INFINITY {
         let whole = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
         return (inside > R::ZERO).then_some(whole);
     }
     let inside_error =
         u * (number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs());
-    let t = inside / speed;
     let error = (inside_error + t.abs() * speed_error) / (speed.abs() - speed_error)
         + number(2.0) * u * t.abs();
     let crossing = Crossing { t, error };

@@ -376,8 +376,8 @@ fn slabs(
 fn spent(steps: &[Step]) -> Option<WideMap> {
     let scaled = |v: Triple| {
         let mut map = WideMap::identity();
-        for axis in 0..3 {
-            map.rows[axis].0[axis] = Wide::of(v[axis]);
+        for (axis, factor) in v.into_iter().enumerate() {
+            map.rows[axis].0[axis] = Wide::of(factor);
         }
         map
     };

@@ -1,5 +1,6 @@
 //! Numbers of 320 bits, vectors of them and affine maps: wide enough that the squares of lengths
-//! 24 decades apart, added, still leave 150 bits to tell what touches from what does not.
+//! 24 decades apart, added, still leave 150 bits to tell what touches from what does not. Sums and
+//! products of numbers that are [`Wide::exactly`] so have as many bits as they need.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -18,6 +19,17 @@ impl Wide {
     pub fn of(value: f64) -> Self {
         let exact = FBig::<Zero, 2>::try_from(value).expect("a finite number");
         Self(exact.with_precision(BITS).value())
+    }
+
+    /// Exactly `value`, and so are all sums and products of such; they cannot be divided.
+    pub fn exactly(value: f64) -> Self {
+        let exact = FBig::<Zero, 2>::try_from(value).expect("a finite number");
+        Self(exact.with_precision(0).value())
+    }
+
+    /// The same number of 320 bits, to be divided.
+    pub fn rounded(&self) -> Self {
+        Self(self.0.clone().with_precision(BITS).value())
     }
 
     pub fn zero() -> Self {
@@ -113,6 +125,10 @@ pub struct WideVector(pub [Wide; 3]);
 impl WideVector {
     pub fn of(v: [f64; 3]) -> Self {
         Self(v.map(Wide::of))
+    }
+
+    pub fn exactly(v: [f64; 3]) -> Self {
+        Self(v.map(Wide::exactly))
     }
 
     pub fn dot(&self, other: &Self) -> Wide {
