@@ -359,3 +359,33 @@ fn a_scene_scaled_by_a_power_of_two_or_mirrored_is_hit_alike_to_the_last_bit() {
         }
     }
 }
+
+#[test]
+fn the_boxes_of_a_tree_hold_the_boxes_they_stand_for() {
+    let mut random = Random(7);
+    for _ in 0..100_000 * long() {
+        let far = [0.0, random.size(-290.0, 290.0)][random.below(2)];
+        let size = [far * random.size(-16.0, 0.0), random.size(-290.0, 290.0)][random.below(2)];
+        let origin = random.point(far);
+        let scale = 0.5 * crate::math::reciprocal_power_of_two(size);
+        let near = |random: &mut Random| {
+            let v = random.point(size);
+            // On the origin of the tree, too, and beside it.
+            Vector::from_array(v.to_array().map(|c| c * [0.0, 1.0, 1e-17][random.below(3)]))
+        };
+        let (a, b) = (origin + near(&mut random), origin + near(&mut random));
+        let bounds = Bounds { low: a.min(b), high: a.max(b) };
+        let [low, high] = tree::Space { origin, scale }.outward(&bounds);
+        for axis in 0..3 {
+            // What is left of place / scale + origin − p: two sums, exactly (Knuth).
+            let above = |place: f32, p: f64| {
+                let (a, b) = (f64::from(place) / scale, origin[axis]);
+                let sum = a + b;
+                let part = sum - a;
+                (sum - p) + ((a - (sum - part)) + (b - part))
+            };
+            assert!(above(low[axis], bounds.low[axis]) <= 0.0, "{bounds:?} {origin} {scale:e}");
+            assert!(above(high[axis], bounds.high[axis]) >= 0.0, "{bounds:?} {origin} {scale:e}");
+        }
+    }
+}

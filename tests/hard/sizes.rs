@@ -64,6 +64,57 @@ fn row_7_a_pebble_lies_on_a_planet() {
     }
 }
 
+/// What a planet may be: a sphere, an egg or a block whose top is at the origin.
+fn planets(r: f64) -> [Object; 3] {
+    [
+        sphere([0.0, -r, 0.0], r),
+        sphere([0.0, -1.0, 0.0], 1.0).moved(Step::Scale([1.5 * r, r, 0.7 * r])),
+        cuboid([-r, -2.0 * r, -r], [r, 0.0, r]),
+    ]
+}
+
+#[test]
+fn row_7_planets_of_any_form_may_be_mirrors() {
+    for (exponent, x) in
+        [(3, 0.3), (6, -0.7), (9, 0.1), (11, 0.4), (12, 0.3), (12, -1.0), (12, 0.7)]
+    {
+        let r = ten(exponent);
+        let camera =
+            Camera::LookAt { location: [x, 2.0, 5.0], look_at: [0.0, 0.4, 0.0], angle: 45.0 };
+        // An egg of 1e12 is only known to 1e-4.
+        let kinds = if exponent == 12 { 1 } else { 3 };
+        for planet in planets(r).into_iter().take(kinds) {
+            let pebbles = [
+                sphere([-0.4, 0.5, 0.0], 0.5).color(CLAY),
+                cuboid([0.4, -0.1, -0.3], [1.0, 0.5, 0.3]).moved(Step::Rotate([0.0, 30.0, 0.0])),
+            ];
+            let objects = [vec![planet.finish(0.05, 0.3, 0.6)], pebbles.to_vec()].concat();
+            let scene = Scene::new(camera, &[light([4.0, 6.0, 3.0])], objects);
+            hold(&format!("a mirror planet of radius 1e{exponent}"), &scene);
+        }
+    }
+}
+
+#[test]
+fn row_3_an_orthographic_camera_may_stand_anywhere() {
+    for exponent in [1, 4, 8, 10] {
+        let far = ten(exponent);
+        let camera = Camera::Orthographic {
+            location: [0.6 * far, 0.0, 0.8 * far],
+            direction: [-0.6, 0.0, -0.8],
+            right: [0.8 * 4.0, 0.0, -0.6 * 4.0],
+            up: [0.0, 3.0, 0.0],
+        };
+        let objects = vec![
+            sphere([-0.7, 0.2, 0.0], 0.8).color(CLAY),
+            cuboid([0.3, -0.7, -0.4], [1.1, 0.5, 0.6]).moved(Step::Rotate([10.0, 20.0, 30.0])),
+            plane([0.3, 0.9, 0.1], -1.5).checker(&[]),
+        ];
+        let scene = Scene::new(camera, &[light([3.0, 5.0, 4.0])], objects);
+        hold(&format!("an orthographic camera at 1e{exponent}"), &scene);
+    }
+}
+
 /// A sphere, a turned box, an ellipsoid and a mirror, on a checkered floor, a thousandth to the
 /// side of the lattice; all lengths times `k`, and then moved.
 fn still_life(k: f64, offset: Triple) -> Scene {

@@ -1,10 +1,15 @@
-//! Nearest hits and obstructions in a World.
+//! Nearest hits and obstructions in a World: rows 63, 67 and 70.
+//!
+//! That the tree finds what trying every object finds is tested beside it (rows 65 and 66).
 
 use lucarne::color::{Color, Rgb};
 use lucarne::geometry::Geometry;
-use lucarne::math::Vector;
+use lucarne::math::{UnitVector, Vector};
 use lucarne::shape::{Chord, Ray, Shape, Sphere};
+
 use lucarne::world::{Finish, Material, Object, Pigment, World};
+
+use crate::dice::{Dice, rays};
 
 /// A World of spheres.
 fn of_spheres(spheres: Vec<Sphere>) -> World {
@@ -49,4 +54,71 @@ pub fn assert_all_agree(sphere: &Sphere, ray: &Ray, chord: Option<&Chord>) {
         assert_eq!(hit, first, "{sphere:?} {ray:?}");
         assert_eq!(geometry.occluded(ray, f64::INFINITY), first.is_some(), "{sphere:?} {ray:?}");
     }
+}
+
+#[test]
+fn row_63_a_hundred_thousand_spheres_in_one_place_are_one() {
+    let sphere = Sphere { centre: Vector::new(1.0, 2.0, 3.0), radius: 0.5 };
+    let geometry = Geometry::build(&of_spheres(vec![sphere; 100_000]));
+    let mut dice = Dice(63);
+    for _ in 0..20 {
+        let origin = sphere.centre + dice.direction() * 5.0;
+        let target = sphere.centre + dice.direction() * 0.4;
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let hit = geometry.nearest(&ray).expect("aimed at it");
+        assert_eq!((hit.object, Some(hit.crossing)), (0, sphere.chord(&ray).map(|c| c.enter)));
+    }
+}
+
+#[test]
+fn rows_67_and_70_equal_crossings_are_won_by_the_first_and_any_hit_is_a_first_hit() {
+    let mut dice = Dice(70);
+    let mut ties = 0;
+    for _ in 0..rays() / 100 {
+        // Spheres that touch or share a point, by whole numbers, and some of them twice.
+        let spheres: Vec<Sphere> = (0..12)
+            .map(|_| {
+                let [x, y, z] = [0; 3].map(|_| dice.below(5) as f64 - 2.0);
+                Sphere { centre: Vector::new(x, y, z), radius: dice.one_of(&[0.5, 1.0, 2.0]) }
+            })
+            .collect();
+        let mut order: Vec<usize> = (0..spheres.len()).collect();
+        for last in (1..order.len()).rev() {
+            order.swap(last, dice.below(last + 1));
+        }
+        let shuffled = order.iter().map(|&i| spheres[i]).collect();
+        let (one, other) =
+            (Geometry::build(&of_spheres(spheres.clone())), Geometry::build(&of_spheres(shuffled)));
+        for _ in 0..100 {
+            let origin = Vector::from_array([0; 3].map(|_| dice.below(13) as f64 - 6.0));
+            let direction = dice.structured(&[-1.0, -0.0, 0.0, 1.0, 0.5]);
+            let ray = Ray { origin, direction };
+            let (here, there) = (one.nearest(&ray), other.nearest(&ray));
+            let (Some(here), Some(there)) = (here, there) else {
+                assert_eq!(here.is_some(), there.is_some(), "{ray:?}");
+                assert!(!one.occluded(&ray, f64::INFINITY), "{ray:?}");
+                continue;
+            };
+            // Each is the first declared of all that are as near as can be told.
+            let first = |number: usize| {
+                let chord = spheres[number].chord(&ray)?;
+                [chord.enter, chord.leave].into_iter().find(|crossing| crossing.is_ahead())
+            };
+            let crossings = || (0..spheres.len()).filter_map(|i| Some((i, first(i)?)));
+            let limit = crossings().map(|(_, c)| c.t + 2.0 * c.error).fold(f64::INFINITY, f64::min);
+            let near: Vec<usize> =
+                crossings().filter(|(_, c)| c.t <= limit).map(|(i, _)| i).collect();
+            ties += usize::from(near.len() > 1);
+            assert_eq!(Some(&(here.object as usize)), near.iter().min(), "{ray:?}");
+            let won = order[there.object as usize];
+            let first_there = near.iter().min_by_key(|i| order.iter().position(|o| o == *i));
+            assert_eq!(Some(&won), first_there, "{ray:?}");
+            // Something is in the way from just beyond the nearest on, and not before.
+            let least = crossings().map(|(_, c)| c.t + c.error).fold(f64::INFINITY, f64::min);
+            assert!(one.occluded(&ray, least.next_up()) && other.occluded(&ray, least.next_up()));
+            assert!(!one.occluded(&ray, least) && !other.occluded(&ray, least), "{ray:?}");
+        }
+    }
+    assert!(ties > rays() / 1000, "{ties}");
 }
