@@ -34,6 +34,8 @@ pub trait Real:
     const NEG_INFINITY: Self;
     /// Half the distance from 1 to the next number: the relative error of one rounding.
     const UNIT_ROUNDOFF: Self;
+    /// 2ᵏ + 1 with k half of the significant bits, rounded up: times a number, it splits it in two.
+    const SPLITTER: Self;
     /// Sums of squares between these two lose nothing to the range of exponents, and neither do
     /// their parts down to the roundoff of the roundoff.
     const SAFE_SQUARES: (Self, Self);
@@ -66,7 +68,7 @@ pub trait Vector3<R: Real>:
 }
 
 macro_rules! real {
-    ($real:ident, $vector:ty, $from:expr, $to:expr, $safe:expr) => {
+    ($real:ident, $vector:ty, $from:expr, $to:expr, $splitter:expr, $safe:expr) => {
         impl Real for $real {
             type Vector = $vector;
             const ZERO: Self = 0.0;
@@ -74,6 +76,7 @@ macro_rules! real {
             const INFINITY: Self = $real::INFINITY;
             const NEG_INFINITY: Self = $real::NEG_INFINITY;
             const UNIT_ROUNDOFF: Self = $real::EPSILON / 2.0;
+            const SPLITTER: Self = $splitter;
             const SAFE_SQUARES: (Self, Self) = $safe;
             #[inline]
             fn from_f64(value: f64) -> Self {
@@ -139,9 +142,17 @@ real!(
     glam::Vec3,
     |v: Vector| v.as_vec3(),
     |v: glam::Vec3| v.as_dvec3(),
+    4_097.0,
     (f32::from_bits(57 << 23), f32::from_bits(227 << 23))
 );
-real!(f64, glam::DVec3, |v| v, |v| v, (f64::from_bits(123 << 52), f64::from_bits(2023 << 52)));
+real!(
+    f64,
+    glam::DVec3,
+    |v| v,
+    |v| v,
+    134_217_729.0,
+    (f64::from_bits(123 << 52), f64::from_bits(2023 << 52))
+);
 
 /// The vector as the language writes it: `<1, 2, 3>`, each number in the shortest form that reads
 /// back to the same value.

@@ -22,12 +22,33 @@ impl Sphere {
     /// sum); the same again is for the start of the next ray, and 4u·r for its reading by [`chord`].
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
+        let rough = ray.at(t);
+        if is_planet(self.radius, rough) {
+            return self.ground(rough);
+        }
         let near = ray.slide(self.centre);
         let from_centre = near.offset + ray.direction * (t + near.along);
         let scale = reciprocal_power_of_two(self.radius);
         let normal = (from_centre * scale).normalize_or(-ray.direction);
         let point = self.centre + normal * self.radius;
         let error = U * (12.0 * self.radius + 2.0 * normal.abs_dot(point));
+        SurfacePoint { point, normal, error, face: 0 }
+    }
+
+    /// The point of a planet below or above `rough`, which is nearly on it: what is left of
+    /// |P − C| − r is taken off along the normal.
+    ///
+    /// Its distance to the sphere is at most u·|n|·|P| (the sum), 6u of what was taken off and
+    /// 16u²·r (see [`fine_power`]); the same again is for the start of the next ray and its reading.
+    #[cold]
+    fn ground(&self, rough: Vector) -> SurfacePoint {
+        let from_centre = rough - self.centre;
+        let distance = from_centre.length();
+        let normal = from_centre / distance;
+        let height = fine_power(rough, self.centre, self.radius) / (distance + self.radius);
+        let point = rough - normal * height;
+        let error =
+            U * (4.0 * normal.abs_dot(point) + 16.0 * height.abs()) + U * U * (64.0 * self.radius);
         SurfacePoint { point, normal, error, face: 0 }
     }
 
@@ -66,7 +87,7 @@ pub fn chord<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Chor
 /// As [`chord`], its error bounds not yet computed.
 #[inline(always)]
 pub fn roots<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
-    Roots::of(&ray.slide(centre), radius)
+    Some(Roots::of(&ray.slide(centre), radius)?.refined(centre, radius, ray))
 }
 
 /// As [`roots`], but `None` too when the ray starts outside and moves away.
@@ -76,7 +97,53 @@ pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Optio
     if near.along > R::ZERO && near.start.length_squared() > radius * radius {
         return None;
     }
-    Roots::of(&near, radius)
+    Some(Roots::of(&near, radius)?.refined(centre, radius, ray))
+}
+
+/// Whether a sphere is so much larger than the distance of a place from the origin that roundings
+/// of r would blur what is there.
+#[inline(always)]
+fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
+    let far = (0..3).fold(R::ZERO, |far, axis| far.max(place.component(axis).abs()));
+    let square = radius * radius;
+    radius > R::from_f64(1024.0) * far && square > R::SAFE_SQUARES.0 && square < R::SAFE_SQUARES.1
+}
+
+/// |S − C|² − r² in twice the digits, rounded once: within u of itself and 32u²·r² of the truth,
+/// where S is within 2r of C.
+///
+/// **Source:** T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26
+/// (2005), algorithm 5.3; T. Dekker, Numerische Mathematik 18 (1971).
+fn fine_power<R: Real>(start: R::Vector, centre: R::Vector, radius: R) -> R {
+    let (square, mut rest) = square(radius);
+    let (mut sum, mut low) = (-square, R::ZERO);
+    rest = -rest;
+    for axis in 0..3 {
+        let (high, error) = two_sum(start.component(axis), -centre.component(axis));
+        let (high_square, square_rest) = self::square(high);
+        (sum, low) = {
+            let (sum, lost) = two_sum(sum, high_square);
+            (sum, low + lost)
+        };
+        rest = rest + square_rest + (high + high + error) * error;
+    }
+    sum + (low + rest)
+}
+
+/// a + b, and what the sum rounds off.
+fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// a², and what it rounds off.
+fn square<R: Real>(a: R) -> (R, R) {
+    let square = a * a;
+    let spread = a * R::SPLITTER;
+    let high = spread - (spread - a);
+    let low = a - high;
+    (square, ((high * high - square) + R::from_f64(2.0) * high * low) + low * low)
 }
 
 /// What a map into the sphere's space adds to the errors there.
@@ -102,11 +169,9 @@ pub struct Roots<R: Real = f64> {
     /// m.
     miss: R,
     along: R,
-    /// |f|², r².
-    start_squared: R,
-    radius_squared: R,
-    /// |f|² − r².
+    /// |f|² − r², and what its roundings are proportional to: 6|f|² + 2r², where nothing is refined.
     power: R,
+    squares: R,
     /// All of these are lengths in this unit, in terms of the ray's.
     unit: R,
 }
@@ -151,12 +216,36 @@ impl<R: Real> Roots<R> {
         if !half.gt(&R::ZERO) {
             return None;
         }
+        let number = R::from_f64;
         let radius_squared = radius * radius;
         let power = start_squared - radius_squared;
+        let squares = number(6.0) * start_squared + number(2.0) * radius_squared;
         let far = along.abs() + half;
         let near = (power / far).min(far);
         let (enter, leave) = if along > R::ZERO { (-far, -near) } else { (near, far) };
-        Some(Self { enter, leave, half, miss, along, start_squared, radius_squared, power, unit })
+        Some(Self { enter, leave, half, miss, along, power, squares, unit })
+    }
+
+    /// The nearer crossing, computed anew where the ray starts just above or below the ground of a
+    /// planet: there |f|² − r² is all rounding.
+    #[inline(always)]
+    fn refined(self, centre: R::Vector, radius: R, ray: &Ray<R>) -> Self {
+        let number = R::from_f64;
+        let close = number(1024.0) * self.power.abs() < radius * radius;
+        if close && self.unit == R::ONE && is_planet(radius, ray.origin) {
+            self.with_power(fine_power(ray.origin, centre, radius), radius)
+        } else {
+            self
+        }
+    }
+
+    #[cold]
+    fn with_power(self, power: R, radius: R) -> Self {
+        let squares = R::from_f64(64.0) * R::UNIT_ROUNDOFF * radius * radius;
+        let far = self.along.abs() + self.half;
+        let near = (power / far).min(far);
+        let (enter, leave) = if self.along > R::ZERO { (-far, -near) } else { (near, far) };
+        Self { enter, leave, power, squares, ..self }
     }
 
     /// Sizes whose squares leave the range of exponents: all is scaled by a power of two.
@@ -222,11 +311,7 @@ impl<R: Real> Roots<R> {
             (self.leave, self.enter)
         };
         let near_error = if far > far_error + far_error {
-            let power_error = u
-                * (number(6.0) * self.start_squared
-                    + number(2.0) * self.radius_squared
-                    + number(9.0) * self.power.abs())
-                + blur.power;
+            let power_error = u * (self.squares + number(9.0) * self.power.abs()) + blur.power;
             (power_error + near.abs() * far_error) / (far - far_error)
                 + number(2.0) * u * near.abs()
         } else {

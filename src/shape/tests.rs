@@ -96,6 +96,40 @@ fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
     }
 }
 
+#[test]
+fn the_ground_of_a_planet_is_met_as_exactly_as_what_stands_on_it() {
+    let mut random = Random(14);
+    let mut tally = Tally::of("planet, in parts of t");
+    for _ in 0..50_000 * long() {
+        let radius = random.size(4.5, 13.0);
+        let up = [random.direction().get(), Vector::Y, -Vector::X][random.below(3)];
+        let sphere = Sphere { centre: up * -radius, radius };
+        let height = [1.0, -1.0][random.below(2)] * random.size(-9.0, 0.0);
+        let origin = up * height + up.cross(random.direction().get());
+        let direction = random.direction().get();
+        let ray = Ray { origin, direction };
+        let (_, roots) = exact::sphere(sphere.centre, radius, &ray);
+        let (Some(chord), Some([enter, leave])) = (sphere.chord(&ray), roots) else { continue };
+        let (crossing, exact) =
+            if enter.0 > 0.0 { (chord.enter, enter) } else { (chord.leave, leave) };
+        assert_within(crossing, exact, (sphere, ray));
+        if crossing.t < 0.01 * radius && direction.dot(up).abs() > 0.1 {
+            tally.add(crossing, exact, exact.abs().0, (sphere, ray));
+            assert!(
+                crossing.error <= 2000.0 * EPS * (crossing.t.abs() + 1.0),
+                "{crossing:?} {ray:?}"
+            );
+        }
+        let surface = sphere.surface(&ray, crossing.t);
+        let above = exact::above_sphere(sphere.centre, radius, surface.point);
+        assert!(above.abs() <= surface.error, "{above:e}: {sphere:?} {ray:?} {surface:?}");
+        if surface.point.length() < 10.0 {
+            assert!(surface.error < 1e3 * EPS, "{surface:?} {sphere:?} {ray:?}");
+        }
+        assert_leaves_for_good(&mut random, &surface, false, |ray| sphere.chord(ray), sphere);
+    }
+}
+
 fn random_plane(random: &mut Random) -> (UnitVector, f64) {
     let normal = match random.below(3) {
         0 => [UnitVector::X, UnitVector::Y, -UnitVector::Z][random.below(3)],
