@@ -171,12 +171,16 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("lower/camera.rs", "PARALLEL", "relative: between directions"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
     ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
+    ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),
     ("math/vector.rs", "UNIT_ROUNDOFF", "the roundoff itself"),
     ("math/vector.rs", "debug_assert", "of a length that is 1"),
+    ("pattern/noise/perlin.rs", "ORIGIN", "where POV-Ray's noise has its origin"),
+    ("pattern/noise/turbulence.rs", "greatest", "numbers pass through `f32` there, as in POV-Ray"),
     ("shape/box_.rs", "blur", "relative: of the distance"),
     ("shape/box_.rs", "STEEP", "a slope"),
     ("shape/box_.rs", "LEVEL", "a slope"),
     ("shape/mod.rs", "const U", "the roundoff itself"),
+    ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
 ];
 
 const EMPTY_NAMES: &[&str] = &[

@@ -180,7 +180,7 @@ impl Roots {
     /// The crossing at `t`, one of the two, with a bound that is not the tightest but easily had;
     /// `None` so near the start that only the tightest tells whether it is ahead.
     ///
-    /// With S = |b| + m + h ≥ |f|, r: the far crossing's bound F is at most √(10u)·S + 40u·S, and
+    /// With S = |b| + m + h ≥ |f|, r: the far crossing's bound F is at most √(14u)·S + 40u·S, and
     /// the near one's, where the far one is at S/1024 or beyond, 17·1024·u·S + F + 2u·S and a little
     /// (see [`Roots::chord`]). Both are below S/2²⁰.
     #[inline(always)]

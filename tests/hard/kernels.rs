@@ -293,7 +293,7 @@ fn any_surface(dice: &mut Dice) -> SurfacePoint {
             _ => {
                 let normals = [UnitVector::X, UnitVector::Y, UnitVector::Z];
                 let box_ = Box_ { centre: middle, normals, half_widths: [0.6 * size; 3] };
-                box_.chord(&ray).map(|chord| box_.surface(&ray, &chord.enter, false))
+                box_.chord(&ray).map(|chord| box_.surface(&ray, chord.enter.t, false))
             }
         };
         if let Some(surface) = found {

@@ -187,11 +187,11 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
         "sphere { 0, 1 pigment { rgb # } }",
         "sphere { 0, 1 finish { phong # } }",
         "sphere { 0, 1 matrix <#,0,0, 0,1,0, 0,0,1, 0,0,0> }",
-        "#declare A = #; sphere { 0, 1 + 0*A }",
+        "$declare A = #; sphere { 0, 1 + 0*A }",
     ];
     for number in numbers {
         for place in places {
-            let (world, lines) = said(&place.replace('#', number).replacen(number, number, 1));
+            let (world, lines) = said(&place.replace('#', number).replace('$', "#"));
             let told = lines.iter().any(|line| line.starts_with("error"));
             assert!(told || world.objects.len() == 2, "{number} in {place}: {lines:?}");
             let finite = world.spheres.iter().all(|s| s.radius.is_finite() && s.centre.is_finite());

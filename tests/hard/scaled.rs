@@ -70,8 +70,10 @@ fn row_47_a_power_of_two_times_every_length_changes_no_byte_of_the_picture() {
     }
 }
 
+type Map = fn(Vector) -> Vector;
+
 /// A camera by its vectors, and the things in a union, all of it under one map.
-fn mapped(steps: &str, map: fn(Vector) -> Vector, flip: f64) -> String {
+fn mapped(steps: &str, map: Map, flip: f64) -> String {
     let frame = [
         ("location", Vector::new(1.0, 3.0, 9.0)),
         ("direction", Vector::new(-0.1, -0.2, -1.0)),
@@ -92,7 +94,7 @@ fn mapped(steps: &str, map: fn(Vector) -> Vector, flip: f64) -> String {
 #[test]
 fn row_47_a_mirrored_scene_is_the_same_picture_to_a_mirrored_camera_and_its_mirror_to_another() {
     let plain = film(&mapped("", |v| v, 1.0), Antialias::Off, 1);
-    let mirrors: [(&str, fn(Vector) -> Vector); 4] = [
+    let mirrors: [(&str, Map); 4] = [
         ("scale <-1, 1, 1>", |v| Vector::new(-v.x, v.y, v.z)),
         ("scale <1, -1, 1>", |v| Vector::new(v.x, -v.y, v.z)),
         ("scale <1, 1, -1>", |v| Vector::new(v.x, v.y, -v.z)),
@@ -114,7 +116,7 @@ fn row_47_a_mirrored_scene_is_the_same_picture_to_a_mirrored_camera_and_its_mirr
 fn row_47_a_scene_whose_axes_are_exchanged_is_the_same_picture_but_for_rounding() {
     let plain = film(&mapped("", |v| v, 1.0), Antialias::Off, 1);
     // A third of a turn about the diagonal, and its inverse.
-    let turns: [(&str, fn(Vector) -> Vector); 2] = [
+    let turns: [(&str, Map); 2] = [
         ("matrix <0,1,0, 0,0,1, 1,0,0, 0,0,0>", |v| Vector::new(v.z, v.x, v.y)),
         ("matrix <0,0,1, 1,0,0, 0,1,0, 0,0,0>", |v| Vector::new(v.y, v.z, v.x)),
     ];

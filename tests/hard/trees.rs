@@ -50,8 +50,8 @@ pub fn assert_all_agree(sphere: &Sphere, ray: &Ray, chord: Option<&Chord>) {
     });
     for spheres in [vec![*sphere], std::iter::once(*sphere).chain(others).collect()] {
         let geometry = Geometry::build(&of_spheres(spheres));
-        let hit = geometry.nearest(ray).map(|hit| hit.crossing);
-        assert_eq!(hit, first, "{sphere:?} {ray:?}");
+        let hit = geometry.nearest(ray).map(|hit| hit.t);
+        assert_eq!(hit, first.map(|crossing| crossing.t), "{sphere:?} {ray:?}");
         assert_eq!(geometry.occluded(ray, f64::INFINITY), first.is_some(), "{sphere:?} {ray:?}");
     }
 }
@@ -67,7 +67,7 @@ fn row_63_a_hundred_thousand_spheres_in_one_place_are_one() {
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };
         let hit = geometry.nearest(&ray).expect("aimed at it");
-        assert_eq!((hit.object, Some(hit.crossing)), (0, sphere.chord(&ray).map(|c| c.enter)));
+        assert_eq!((hit.object, Some(hit.t)), (0, sphere.chord(&ray).map(|c| c.enter.t)));
     }
 }
 
