@@ -16,6 +16,7 @@ pub mod lower;
 pub mod math;
 pub mod pattern;
 pub mod picture;
+pub mod pilot;
 pub mod plan;
 pub mod road;
 pub mod scene;

@@ -13,6 +13,7 @@ pub use crate::math::transform::TransformId;
 use crate::pattern::Pattern;
 use crate::source::{Expansions, Site};
 pub use crate::vocabulary::Dialect;
+use crate::vocabulary::Word;
 
 /// Declares an index into one of the Scene's arenas.
 macro_rules! ids {
@@ -42,11 +43,15 @@ pub struct Scene {
     pub roots: Vec<Root>,
     pub objects: Vec<Object>,
     pub transforms: Vec<Vec<Step>>,
+    /// All of each transform as it was written.
+    pub transform_sites: Vec<Site>,
     pub textures: Vec<Texture>,
     pub pigments: Vec<Pigment>,
     pub finishes: Vec<Finish>,
     /// Where each finish was written; a finish without an entry is a default.
-    pub finish_sites: Vec<Option<Site>>,
+    pub finish_origins: Vec<FinishOrigin>,
+    /// Names of the main file that nothing used, where they were declared.
+    pub unused: Vec<(String, Site)>,
     pub expansions: Expansions,
 }
 
@@ -65,6 +70,9 @@ pub struct Object {
     pub modifiers: Vec<Modifier>,
     /// The word that opened it.
     pub site: Site,
+    /// All of it, where the scene or a union holds it and would be whole without it; `None` for the
+    /// value of a declaration and the like.
+    pub item: Option<Site>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -147,6 +155,9 @@ pub struct Pigment {
     pub kind: PigmentKind,
     pub transforms: Vec<TransformId>,
     pub site: Site,
+    /// What gave it its pattern, each as a piece that can be taken out of the text; also what that
+    /// overrides, since it would show again.
+    pub pattern: Vec<Site>,
 }
 
 impl Pigment {
@@ -173,6 +184,18 @@ pub enum Finish {
     Seed { kd: f64, ks: f64, phong_exponent: f64 },
     /// POV-Ray's words.
     Classic(ClassicFinish),
+}
+
+/// Where a finish was written. Each site is a piece that can be taken out of the text, such as
+/// `phong 0.4`; what it overrides is listed too, since it would show again.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FinishOrigin {
+    /// The word `finish`.
+    pub site: Option<Site>,
+    pub highlights: Vec<Site>,
+    pub reflection: Vec<Site>,
+    /// Words whose last value is a weight of zero.
+    pub zeros: Vec<(Word, Site)>,
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
@@ -232,6 +255,8 @@ pub struct SkySphere {
     pub pigments: Vec<PigmentId>,
     pub transforms: Vec<TransformId>,
     pub site: Site,
+    /// All of it, and of those before it that it replaces.
+    pub items: Vec<Site>,
 }
 
 /// `global_settings`.

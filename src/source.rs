@@ -118,6 +118,18 @@ impl Expansions {
         &self.names[expansion.name as usize]
     }
 
+    /// Two places as they are seen from the innermost text that holds both, in its order: what came
+    /// out of a macro is the macro's call.
+    pub fn side_by_side(&self, mut a: Site, mut b: Site) -> [Site; 2] {
+        // Parents have the smaller ids, and the main file the smallest.
+        while a.expansion != b.expansion {
+            let inner = if a.expansion > b.expansion { &mut a } else { &mut b };
+            let Some(Expansion { parent, call, .. }) = self.get(inner.expansion) else { break };
+            *inner = Site { span: *call, expansion: *parent };
+        }
+        if a.span.start <= b.span.start { [a, b] } else { [b, a] }
+    }
+
     /// The calls that led to `id`, innermost first.
     pub fn chain(&self, id: ExpansionId) -> impl Iterator<Item = &Expansion> {
         std::iter::successors(self.get(id), |expansion| self.get(expansion.parent))

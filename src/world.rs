@@ -38,32 +38,60 @@ pub struct World {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
     pub objects: Vec<Site>,
+    /// All of each, as a piece that can be taken out of the text.
     pub lights: Vec<Site>,
-    /// What first called for each material.
     pub materials: Vec<MaterialOrigin>,
     pub camera: Option<Site>,
-    pub sky: Option<Site>,
+    pub sky: Option<SkyOrigin>,
     pub max_trace_level: Option<Site>,
     /// What lowering left out, and why.
     pub dropped: Vec<Dropped>,
+    /// Transforms that nearly flatten space, in text order.
+    pub near_singular: Vec<NearSingular>,
     pub expansions: Expansions,
 }
 
-/// Where a material's parts were written; `None` for a default.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Where a material's parts were written. Each site of a list is a piece that can be taken out of
+/// the text, such as `phong 0.4`; without all of them the material has no such part.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct MaterialOrigin {
+    /// The word `pigment` that called for it first; `None` for a default.
     pub pigment: Option<Site>,
+    /// The word `finish`, likewise.
     pub finish: Option<Site>,
+    pub pattern: Vec<Site>,
+    pub highlights: Vec<Site>,
+    pub reflection: Vec<Site>,
+}
+
+/// Where the sky was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SkyOrigin {
+    /// The word `sky_sphere`.
+    pub site: Site,
+    /// All of it, and of those it replaces.
+    pub items: Vec<Site>,
+    /// As of a material.
+    pub pattern: Vec<Site>,
 }
 
 /// A part of the Scene that cannot change the picture, and so is not in the World.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dropped {
     pub site: Site,
-    /// `light_source`.
+    /// `light_source`, `reflection`.
     pub what: String,
     /// `its colour is black`.
     pub why: String,
+}
+
+/// A map that costs more than half of the digits of what goes through it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearSingular {
+    /// All of the transform; of the object, where only its transforms together are so.
+    pub site: Site,
+    /// The largest factor by which it stretches a direction over the smallest: 2²⁶ or more.
+    pub condition: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -496,6 +496,34 @@ fn each_stage_can_be_shown() {
 }
 
 #[test]
+fn a_plan_as_json_has_every_place_and_what_the_pilot_counted() {
+    let place = Place::new();
+    let plan = place.run("plan a.scene --json --size 80x60 --antialias 3").ends(0, &[]).stdout();
+    let plan: serde_json::Value = serde_json::from_str(&plan).expect("one object");
+    assert_eq!((&plan["width"], &plan["antialias"]["n"]), (&80.into(), &3.into()));
+    assert_eq!(plan["kernel"], "shadows");
+    let effects = plan["effects"].as_array().expect("a list");
+    let row = |name: &str| effects.iter().find(|row| row["effect"] == name).expect("a row");
+    let lamp = &row("shadows")["called_for_by"][0];
+    assert_eq!((&lamp["file"], &lamp["line"]), (&"a.scene".into(), &2.into()));
+    let range = |end: &str| lamp[end].as_u64().expect("a byte") as usize;
+    assert_eq!(SCENE[range("start")..range("end")], *lamp["text"].as_str().expect("a text"));
+    assert_eq!(lamp["text"], "light_source { <4, 8, 6>, rgb 1 }");
+    assert_eq!((&row("reflection")["on"], &row("sky")["on"]), (&false.into(), &false.into()));
+    assert_eq!(row("reflection")["why"], "no surface reflects");
+    // Every lit hit of the pilot's camera rays sends one ray to the one light.
+    let shadow = row("shadows")["rays_per_camera_ray"].as_f64().expect("a number");
+    assert!(shadow > 0.05 && shadow < 0.5, "{shadow}");
+    let rays = &plan["rays"];
+    assert_eq!((&rays["pilot"][0], &rays["pilot"][1]), (&64.into(), &48.into()));
+    assert_eq!(rays["camera"], 80.0 * 60.0 * 9.0);
+    assert_eq!(rays["per_camera_ray"], 1.0 + shadow);
+    assert_eq!(plan["numerics"]["largest_half_width"]["value"], 1.0);
+    let again = place.run("plan a.scene --json --size 80x60 --antialias 3").ends(0, &[]).stdout();
+    assert_eq!(serde_json::from_str::<serde_json::Value>(&again).expect("the same"), plan);
+}
+
+#[test]
 fn a_broken_scene_shows_what_there_is_of_it() {
     let run = Place::new().run("show broken.scene --stage world").ends(1, &["unknown-word"]);
     assert!(run.stdout().contains("lights 1"));

@@ -81,6 +81,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "world",
         ],
     ),
+    ("pilot", &["plan", "trace", "world"]),
     ("lib", &[]),
     // doors: they use the library from outside, as anyone would
     ("cli", &[]),

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use lucarne::diagnostic::render::{Style, human};
+use lucarne::pilot::pilot;
+use lucarne::plan::{Antialias, Frame, PlanOptions, plan, print};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::NoFiles;
@@ -27,6 +29,19 @@ fn the_readmes_broken_scene_is_told_what_the_readme_says() {
         .collect();
     assert_eq!(messages.len(), 2, "{}", messages.join("\n"));
     assert_eq!(messages[0].trim(), said.trim());
+}
+
+#[test]
+fn the_plan_of_the_first_picture_is_what_the_readme_says() {
+    let name = "scenes/gallery/first.scene";
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+    let bytes = std::fs::read(name).expect("the scene is there");
+    let (world, origins) = road.compile(name, bytes);
+    let (frame, antialias) = (Frame::whole(640, 480), Antialias::default());
+    let mut plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+    pilot(&world, &mut plan);
+    let said = print::dump(&plan, &road.sources);
+    assert!(include_str!("../README.md").contains(&format!("```text\n{said}```\n")), "{said}");
 }
 
 #[test]

@@ -124,6 +124,9 @@ pub enum Stage {
 pub struct PlanArguments {
     /// The scene
     pub file: PathBuf,
+    /// Print one JSON object, with every place (docs/effects.md)
+    #[arg(long)]
+    pub json: bool,
     #[command(flatten)]
     pub picture: PictureArguments,
     #[command(flatten)]

@@ -1,9 +1,204 @@
-//! `lucarne plan`: what will be simulated, and why.
+//! `lucarne plan`: what will be simulated, what called for it, what it costs, and what is left out.
 
-use super::arguments::{PlanArguments, Stage};
-use super::exit::Outcome;
-use super::show::show;
+use lucarne::pilot::pilot;
+use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, PlanOptions, plan, print};
+use lucarne::road::Road;
+use lucarne::source::{Position, Site, Sources};
+use serde::Serialize;
+
+use super::arguments::PlanArguments;
+use super::exit::{Exit, Failure, Outcome};
+use super::files::{DiskFiles, read_main};
+use super::messages;
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
-    show(&arguments.file, Stage::Plan, &arguments.picture, &arguments.scene)
+    let frame = arguments.picture.frame(&arguments.scene)?;
+    let bytes = read_main(&arguments.file)?;
+    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
+    let (world, origins) = road.compile(&arguments.file.to_string_lossy(), bytes);
+    let (antialias, depth) = (arguments.picture.antialias, arguments.picture.depth);
+    let mut plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth });
+    pilot(&world, &mut plan);
+    let text = match arguments.json {
+        // Names and numbers only: nothing here can fail to serialise.
+        true => {
+            serde_json::to_string_pretty(&Report::of(&plan, &road.sources)).unwrap_or_default()
+                + "\n"
+        }
+        false => print::dump(&plan, &road.sources),
+    };
+    let mut messages = arguments.scene.messages();
+    // The plan takes standard output.
+    messages.picture_on_stdout = true;
+    messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
+    messages.summarize();
+    messages::print(&text)?;
+    Ok::<Exit, Failure>(messages.exit())
+}
+
+/// The plan as `--json` prints it; `docs/effects.md` says what each name means.
+#[derive(Serialize)]
+struct Report<'a> {
+    width: u32,
+    height: u32,
+    region: [u32; 4],
+    antialias: Smoothing,
+    max_trace_level: u32,
+    adc_bailout: f64,
+    kernel: &'a str,
+    kernels_compiled: Vec<&'a str>,
+    effects: Vec<Row<'a>>,
+    dropped: Vec<Part<'a>>,
+    numerics: Numbers<'a>,
+    rays: Option<Rays>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "lowercase", tag = "kind")]
+enum Smoothing {
+    Off,
+    Grid { n: u32 },
+    Adaptive { n: u32, threshold: f64 },
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    effect: &'a str,
+    on: bool,
+    /// Why it is off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<&'a str>,
+    called_for_by: Vec<Place<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rays_per_camera_ray: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Part<'a> {
+    what: &'a str,
+    why: &'a str,
+    place: Place<'a>,
+}
+
+#[derive(Serialize)]
+struct Numbers<'a> {
+    smallest_half_width: Option<Number<'a>>,
+    largest_half_width: Option<Number<'a>>,
+    farthest_in_half_widths: Option<Number<'a>>,
+    near_singular: Vec<Number<'a>>,
+}
+
+#[derive(Serialize)]
+struct Number<'a> {
+    value: f64,
+    place: Option<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Rays {
+    per_camera_ray: f64,
+    camera: f64,
+    all: f64,
+    pilot: [u32; 2],
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    file: &'a str,
+    line: usize,
+    column: usize,
+    /// Bytes of the file's text, the end exclusive.
+    start: u32,
+    end: u32,
+    text: &'a str,
+}
+
+impl<'a> Report<'a> {
+    fn of(plan: &'a Plan, sources: &'a Sources) -> Self {
+        let region = plan.frame.region;
+        let place = |site: Site| Place::of(site, sources);
+        let mut effects: Vec<Row> = Vec::new();
+        for effect in Effect::ALL {
+            effects.extend(plan.called(effect).map(|called| Row {
+                effect: effect.name(),
+                on: true,
+                why: None,
+                cost: Some(&called.cost),
+                called_for_by: called.by.iter().copied().map(place).collect(),
+                rays_per_camera_ray: called.rays,
+            }));
+            let left_out = plan.left_out.iter().filter(|left| left.effect == effect);
+            effects.extend(left_out.map(|left| Row {
+                effect: effect.name(),
+                on: false,
+                why: Some(&left.why),
+                cost: None,
+                called_for_by: Vec::new(),
+                rays_per_camera_ray: None,
+            }));
+        }
+        let number =
+            |measured: Measured| Number { value: measured.value, place: measured.site.map(place) };
+        Self {
+            width: plan.frame.width,
+            height: plan.frame.height,
+            region: [region.x, region.y, region.width, region.height],
+            antialias: match plan.antialias {
+                Antialias::Off => Smoothing::Off,
+                Antialias::Grid(n) => Smoothing::Grid { n },
+                Antialias::Adaptive { threshold, grid } => {
+                    Smoothing::Adaptive { n: grid, threshold }
+                }
+            },
+            max_trace_level: plan.max_trace_level,
+            adc_bailout: plan.adc_bailout,
+            kernel: plan.kernel.name(),
+            kernels_compiled: Kernel::ALL
+                .into_iter()
+                .filter(|kernel| kernel.is_compiled())
+                .map(Kernel::name)
+                .collect(),
+            effects,
+            dropped: plan
+                .dropped
+                .iter()
+                .map(|part| Part { what: &part.what, why: &part.why, place: place(part.site) })
+                .collect(),
+            numerics: Numbers {
+                smallest_half_width: plan.numerics.smallest.map(number),
+                largest_half_width: plan.numerics.largest.map(number),
+                farthest_in_half_widths: plan.numerics.farthest.map(number),
+                near_singular: plan
+                    .numerics
+                    .near_singular
+                    .iter()
+                    .map(|near| Number { value: near.condition, place: Some(place(near.site)) })
+                    .collect(),
+            },
+            rays: plan.pilot.map(|pilot| Rays {
+                per_camera_ray: pilot.rays,
+                camera: plan.camera_rays(),
+                all: pilot.rays * plan.camera_rays(),
+                pilot: [pilot.width, pilot.height],
+            }),
+        }
+    }
+}
+
+impl<'a> Place<'a> {
+    fn of(site: Site, sources: &'a Sources) -> Self {
+        let source = sources.get(site.span.file);
+        let Position { line, column } = source.position(site.span.start as usize);
+        Self {
+            file: &source.name,
+            line,
+            column,
+            start: site.span.start,
+            end: site.span.end,
+            text: sources.text(site.span),
+        }
+    }
 }

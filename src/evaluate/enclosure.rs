@@ -79,13 +79,13 @@ impl Evaluator<'_> {
         consumer: impl FnOnce(&mut Self) -> T,
         end: impl FnOnce(&mut Self),
     ) -> T {
-        let peeked = self.peeked.take();
+        let (peeked, taken) = (self.peeked.take(), self.taken);
         // What a `#declare` must not look at lies behind the block.
         let hold = self.hold.take();
         self.enclosures.push(enclosure);
         // Blocks in blocks in macros can go deeper than a thread's stack.
         let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
-        self.peeked = None;
+        (self.peeked, self.taken) = (None, taken);
         end(self);
         self.enclosures.pop();
         self.hold = hold;
@@ -113,11 +113,13 @@ impl Evaluator<'_> {
 
     /// Passes over what a consumer has left, and takes the `}` behind it.
     fn close_block(&mut self, opened: Site) {
+        let taken = self.taken;
         while let Some(token) = self.next() {
             if let TokenKind::Block(Contents::Following) = token.kind {
                 self.inside_block(&token.here, Contents::Following, token.span, |_| {});
             }
         }
+        self.taken = taken;
         match self.frames.last_mut() {
             Some(Frame { kind: FrameKind::Block, at, end, .. }) if *at == *end => {
                 // The literal brace was another block's.
@@ -129,7 +131,9 @@ impl Evaluator<'_> {
                     && here.unit.ast.items[*at as usize].kind == ItemKind::Close
                     && !self.halted =>
             {
+                let closer = here.unit.ast.items[*at as usize].span;
                 *at += 1;
+                self.taken = Some(here.site(closer));
             }
             _ if self.halted => {}
             _ => self.never_closed(opened),

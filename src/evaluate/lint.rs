@@ -3,7 +3,7 @@
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
-use crate::source::{FileId, Span};
+use crate::source::{FileId, Site, Span};
 use crate::vocabulary::Word;
 
 use super::value::Value;
@@ -22,9 +22,10 @@ const RADIANS: [f64; 8] = [
 ];
 
 impl Evaluator<'_> {
-    /// Names that were declared in the main file and never used.
+    /// Names that were declared in the main file and never used: the scene knows them, and there is
+    /// a lint for each.
     pub(super) fn lint_declarations(&mut self) {
-        let mut unused: Vec<Diagnostic> = Vec::new();
+        let mut unused: Vec<(String, Site, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
             if declared.used || !declared.global_in_main || name.starts_with('_') {
                 continue;
@@ -48,10 +49,11 @@ impl Evaluator<'_> {
                 )
                 .at(site.span, "declared here"),
             };
-            unused.push(diagnostic);
+            unused.push((name.to_owned(), site, diagnostic));
         }
-        unused.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span));
-        for diagnostic in unused {
+        unused.sort_by_key(|(_, site, _)| site.span);
+        for (name, site, diagnostic) in unused {
+            self.scene.unused.push((name, site));
             self.diagnostics.push(diagnostic);
         }
     }

@@ -199,6 +199,8 @@ struct Evaluator<'a> {
     /// How often a `}` has closed another block than it would where it is written.
     loose_closers: u64,
     peeked: Option<Token>,
+    /// Where the item stood that a consumer took last: the end of what it is reading.
+    taken: Option<Site>,
     /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
     /// past its end runs nothing there, since that may already ask for the value.
     hold: Option<usize>,
@@ -234,6 +236,8 @@ struct Evaluator<'a> {
     reports: u64,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
+    /// What stands between their braces, where it is written as one text.
+    insides: Vec<Option<Site>>,
     /// What `trace` and its kin have looked at.
     probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
 }
@@ -252,6 +256,7 @@ impl<'a> Evaluator<'a> {
                 kind: PigmentKind::Color(Color::BLACK),
                 transforms: Vec::new(),
                 site: nowhere,
+                pattern: Vec::new(),
             }],
             finishes: vec![Finish::Classic(ClassicFinish::default())],
             textures: vec![Texture {
@@ -295,6 +300,7 @@ impl<'a> Evaluator<'a> {
             loose_blocks: 0,
             loose_closers: 0,
             peeked: None,
+            taken: None,
             hold: None,
             calls_wait: false,
             parsed: HashMap::new(),
@@ -314,6 +320,7 @@ impl<'a> Evaluator<'a> {
             misread: false,
             reports: 0,
             openers: Vec::new(),
+            insides: Vec::new(),
             probes: HashMap::new(),
         }
     }

@@ -220,10 +220,14 @@ impl Evaluator<'_> {
 
     /// Takes the next item; `None` at the end of the block.
     pub(super) fn next(&mut self) -> Option<Token> {
-        match self.peeked.take() {
+        let token = match self.peeked.take() {
             Some(token) => Some(token),
             None => self.pull(),
+        };
+        if let Some(token) = &token {
+            self.taken = Some(token.here.site(token.span));
         }
+        token
     }
 
     /// Takes the next item if it is this word.
@@ -320,8 +324,10 @@ impl Evaluator<'_> {
                     _ => return token(TokenKind::Expression(id)),
                 },
                 ItemKind::Directive(id) => {
+                    let taken = self.taken;
                     // Reported where it happened; the statement is the fault boundary.
                     let _: Outcome<()> = self.directive(&here, id);
+                    self.taken = taken;
                 }
             }
         }

@@ -7,22 +7,17 @@ use crate::math::UnitVector;
 use crate::math::double::DoubleVector;
 use crate::scene::{LightKind, LightSource};
 use crate::source::Site;
-use crate::world::{self, Dropped, Light};
+use crate::world::{self, Light};
 
 impl Lowering<'_, '_> {
-    /// A black light gives nothing and is dropped.
-    pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site) {
+    /// A black light gives nothing and is dropped. `item` is all of what it stands in.
+    pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site, item: Site) {
         if light.color.is_black() {
-            self.origins.dropped.push(Dropped {
-                site,
-                what: "light_source".to_owned(),
-                why: "its colour is black".to_owned(),
-            });
-            return;
+            return self.drop_part(site, "light_source", "its colour is black");
         }
         if let Some(light) = self.reporter.made(spend(light, map), site) {
             self.world.lights.push(light);
-            self.origins.lights.push(site);
+            self.origins.lights.push(item);
         }
     }
 }

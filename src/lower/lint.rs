@@ -45,7 +45,9 @@ impl Lowering<'_, '_> {
             let message = "nothing gives light, so the picture is dark";
             let mut diagnostic = Diagnostic::new(Code::NoLight, message)
                 .help("a light such as `light_source { <10, 20, 10> rgb 1 }`");
-            if let Some(dropped) = self.origins.dropped.first() {
+            if let Some(dropped) =
+                self.origins.dropped.iter().find(|part| part.what == "light_source")
+            {
                 diagnostic = diagnostic.at(dropped.site.span, "this light is black");
             }
             self.reporter.diagnostics.push(diagnostic);

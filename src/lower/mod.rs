@@ -13,10 +13,12 @@ mod shape;
 mod texture;
 mod transform;
 
+use std::collections::HashSet;
+
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::scene::Scene;
-use crate::source::{Expansions, Site};
-use crate::world::{Origins, Settings, World};
+use crate::scene::{Scene, TransformId};
+use crate::source::{Expansions, Site, Span};
+use crate::world::{Dropped, NearSingular, Origins, Settings, World};
 
 /// What the caller sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +45,7 @@ pub fn lower(
         reporter: Reporter { diagnostics, expansions: &scene.expansions },
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
+        dropped: HashSet::new(),
         scene: &scene,
         options: *options,
     };
@@ -50,6 +53,8 @@ pub fn lower(
     lowering.camera();
     lowering.sky();
     lowering.objects();
+    lowering.unused();
+    lowering.near_singular();
     lowering.lint();
     let Lowering { world, mut origins, .. } = lowering;
     origins.expansions = scene.expansions;
@@ -65,9 +70,46 @@ struct Lowering<'s, 'd> {
     reporter: Reporter<'s, 'd>,
     materials: texture::Materials,
     transforms: transform::Transforms<'s>,
+    /// What was left out so far: a place says it once, however often it is gone through.
+    dropped: HashSet<(&'static str, Span)>,
 }
 
 impl Lowering<'_, '_> {
+    /// Notes that a part cannot change the picture, and so is not in the World.
+    fn drop_part(&mut self, site: Site, what: &'static str, why: &str) {
+        if self.dropped.insert((what, site.span)) {
+            let (what, why) = (what.to_owned(), why.to_owned());
+            self.origins.dropped.push(Dropped { site, what, why });
+        }
+    }
+
+    /// The transforms that nearly flatten space; of those of one place the worst.
+    fn near_singular(&mut self) {
+        let sites = self.scene.transform_sites.iter().enumerate();
+        let found = sites.filter_map(|(i, &site)| {
+            let condition = self.transforms.near_singular(TransformId(i as u32))?;
+            Some(NearSingular { site, condition })
+        });
+        let all = &mut self.origins.near_singular;
+        all.extend(found);
+        all.sort_by(|a, b| a.site.span.cmp(&b.site.span).then(b.condition.total_cmp(&a.condition)));
+        all.dedup_by_key(|near| near.site.span);
+    }
+
+    /// What the scene declares or says and nothing uses.
+    fn unused(&mut self) {
+        let scene = self.scene;
+        if let [ignored @ .., _] = scene.cameras.as_slice() {
+            for camera in ignored {
+                self.drop_part(camera.site, "camera", "the last one counts");
+            }
+        }
+        for (name, site) in &scene.unused {
+            let (what, why) = (format!("#declare {name}"), "nothing uses it".to_owned());
+            self.origins.dropped.push(Dropped { site: *site, what, why });
+        }
+    }
+
     fn settings(&mut self) {
         let settings = &self.scene.settings;
         self.world.settings = Settings {

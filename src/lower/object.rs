@@ -5,13 +5,13 @@
 
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
-use super::transform::Affine;
+use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, shape};
 use crate::diagnostic::Code;
 use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, TextureId};
 use crate::shape::Shape;
 use crate::source::Site;
-use crate::world::Object;
+use crate::world::{NearSingular, Object};
 
 /// What a child takes from above.
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +21,10 @@ struct Inherited {
     surface: Surface,
     casts_shadow: bool,
     inverse: bool,
+    /// The innermost of those above that could be taken out of the text.
+    item: Option<Site>,
+    /// One of the transforms is near-singular by itself.
+    strained: bool,
 }
 
 /// An object's modifiers come to this.
@@ -31,6 +35,7 @@ struct Modified {
     surface: Option<Surface>,
     casts_shadow: bool,
     inverse: bool,
+    strained: bool,
 }
 
 struct Frame<'s> {
@@ -53,6 +58,8 @@ impl<'s> Lowering<'s, '_> {
                 surface,
                 casts_shadow: true,
                 inverse: false,
+                item: None,
+                strained: false,
             };
             let children = std::slice::from_ref(object).iter();
             let mut stack = vec![Frame { children, inherited, default_texture: *default_texture }];
@@ -96,6 +103,7 @@ impl<'s> Lowering<'s, '_> {
             uses.push(next);
         }
         let object = &scene.objects[target.index()];
+        let own = uses.iter().rev().find_map(|id| scene.objects[id.index()].item);
         let modified = self.modify(&uses, default_texture)?;
         let world_from_here = inherited.world_from_here.after(&modified.map);
         let surface = match modified.surface {
@@ -107,10 +115,20 @@ impl<'s> Lowering<'s, '_> {
             surface,
             casts_shadow: inherited.casts_shadow && modified.casts_shadow,
             inverse: inherited.inverse != modified.inverse,
+            item: own.or(inherited.item),
+            strained: inherited.strained || modified.strained,
         };
         match &object.kind {
-            ObjectKind::Union(children) => return Some((children, here)),
-            ObjectKind::LightSource(light) => self.light(light, &world_from_here, object.site),
+            ObjectKind::Union(children) => {
+                if children.is_empty() {
+                    self.drop_part(object.site, "union", "it is empty");
+                }
+                return Some((children, here));
+            }
+            ObjectKind::LightSource(light) => {
+                let item = here.item.unwrap_or(object.site);
+                self.light(light, &world_from_here, object.site, item);
+            }
             solid => {
                 let spent = self.solid(solid, &here, object.site);
                 self.reporter.made(spent, object.site);
@@ -123,14 +141,20 @@ impl<'s> Lowering<'s, '_> {
     /// transform cannot be spent.
     fn modify(&mut self, uses: &[ObjectId], default_texture: TextureId) -> Option<Modified> {
         let scene = self.scene;
-        let mut modified =
-            Modified { map: Affine::IDENTITY, surface: None, casts_shadow: true, inverse: false };
+        let mut modified = Modified {
+            map: Affine::IDENTITY,
+            surface: None,
+            casts_shadow: true,
+            inverse: false,
+            strained: false,
+        };
         for modifier in uses.iter().rev().flat_map(|id| &scene.objects[id.index()].modifiers) {
             let map = modified.map;
             match modifier.kind {
                 ModifierKind::Transform(id) => {
                     let step = self.transforms.get(id);
                     let step = self.reporter.made(step, modifier.site)?;
+                    modified.strained |= self.transforms.near_singular(id).is_some();
                     modified.map = step.after(&map);
                     modified.surface = modified.surface.map(|surface| surface.within(&step));
                 }
@@ -218,11 +242,26 @@ impl<'s> Lowering<'s, '_> {
             [] => None,
             faces => self.faces(surface, material, faces)?,
         };
+        self.note_near_singular(here, site);
         let casts_shadow = here.casts_shadow;
         let object = Object { shape, material, texture_from_world, faces, casts_shadow, inverse };
         self.world.objects.push(object);
         self.origins.objects.push(site);
         Ok(())
+    }
+}
+
+impl Lowering<'_, '_> {
+    /// Notes an object whose transforms together nearly flatten space, while none alone does.
+    fn note_near_singular(&mut self, here: &Inherited, site: Site) {
+        let map = &here.world_from_here;
+        if here.strained || map.uniform_scale().is_some() {
+            return;
+        }
+        let condition = map.condition();
+        if condition >= NEAR_SINGULAR {
+            self.origins.near_singular.push(NearSingular { site, condition });
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 //! object's texture space is the space of its pattern, so that all transforms of a pigment are in
 //! the object's map and a coordinate that is constant over a flat face is one of the pattern's own.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::finish::{BARE, lower_finish};
 use super::shape::LocalFace;
@@ -18,8 +18,10 @@ use crate::math::double::Double;
 use crate::math::placement::Map;
 use crate::pattern::Pattern;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
-use crate::source::Site;
-use crate::world::{FaceCoordinates, Finish, Material, MaterialOrigin, Pigment, Sky, World};
+use crate::source::{Site, Span};
+use crate::world::{
+    FaceCoordinates, Finish, Material, MaterialOrigin, Pigment, Sky, SkyOrigin, World,
+};
 
 /// What has been put into the World's lists of materials and maps.
 #[derive(Default)]
@@ -28,6 +30,16 @@ pub struct Materials {
     /// Materials that share the numbers in which most differ; equality decides among them.
     alike: HashMap<[u64; 6], Vec<u32>>,
     maps: HashMap<[u64; 12], u32>,
+    /// Which places a material's origin has.
+    noted: HashSet<(u32, Part, Span)>,
+}
+
+/// A part of a material, for the list of its places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Part {
+    Pattern,
+    Highlights,
+    Reflection,
 }
 
 /// A surface on its way down the tree.
@@ -112,6 +124,7 @@ impl Lowering<'_, '_> {
         let written = &scene.pigments[pigment.index()];
         let lowered = lower_pigment(&written.kind, Map::IDENTITY, false);
         let paint = self.reporter.made(lowered, written.site);
+        self.note_folded(written);
         let lowered = lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light);
         let finish_lowered = self.reporter.made(lowered, site);
         let material = Material {
@@ -124,13 +137,47 @@ impl Lowering<'_, '_> {
         let index = known.unwrap_or_else(|| {
             let index = materials.len() as u32;
             materials.push(material);
-            let finish = scene.finish_sites.get(finish.index()).copied().flatten();
-            self.origins.materials.push(MaterialOrigin { pigment: written.written(), finish });
+            let finish = scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
+            let origin =
+                MaterialOrigin { pigment: written.written(), finish, ..Default::default() };
+            self.origins.materials.push(origin);
             alike.push(index);
             index
         });
         self.materials.of_ids.insert((pigment, finish), index);
+        self.note_material(index, written, finish);
         index
+    }
+
+    /// Another pigment and finish that come to the material `index`: each place is listed once,
+    /// however many loops and macros went through it.
+    fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
+        let origin = &mut self.origins.materials[index as usize];
+        let noted = &mut self.materials.noted;
+        let mut note = |part: Part, list: &mut Vec<Site>, sites: &[Site]| {
+            list.extend(sites.iter().filter(|site| noted.insert((index, part, site.span))));
+        };
+        note(Part::Pattern, &mut origin.pattern, &pigment.pattern);
+        let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
+        note(Part::Highlights, &mut origin.highlights, &finish.highlights);
+        note(Part::Reflection, &mut origin.reflection, &finish.reflection);
+        for &(word, site) in &finish.zeros {
+            self.drop_part(site, word.name(), "its weight is zero");
+        }
+    }
+
+    /// A pattern whose colours are all the same is none.
+    fn note_folded(&mut self, pigment: &scene::Pigment) {
+        let PigmentKind::Patterned { pattern, map } = &pigment.kind else { return };
+        if lone_color(&map.0).is_none() {
+            return;
+        }
+        let what = match pattern {
+            Pattern::Checker => "checker",
+            Pattern::Gradient { .. } => "gradient",
+        };
+        let site = pigment.pattern.last().copied().unwrap_or(pigment.site);
+        self.drop_part(site, what, "its colours are all the same");
     }
 
     /// The World's index of the map into a surface's pattern; `None` where there is no pattern or
@@ -176,6 +223,9 @@ impl Lowering<'_, '_> {
     pub(super) fn sky(&mut self) {
         let scene = self.scene;
         let Some(sky) = &scene.sky_sphere else { return };
+        for id in &sky.pigments {
+            self.note_folded(&scene.pigments[id.index()]);
+        }
         let transforms = &mut self.transforms;
         let pigments = sky.pigments.iter().filter_map(|id| {
             let written = &scene.pigments[id.index()];
@@ -188,7 +238,10 @@ impl Lowering<'_, '_> {
         let pigments: Vec<_> = pigments.collect();
         if !pigments.is_empty() {
             self.world.sky = Some(Sky { pigments });
-            self.origins.sky = Some(sky.site);
+            let pattern =
+                sky.pigments.iter().flat_map(|id| &scene.pigments[id.index()].pattern).copied();
+            let (site, items) = (sky.site, sky.items.clone());
+            self.origins.sky = Some(SkyOrigin { site, items, pattern: pattern.collect() });
         }
     }
 }
@@ -230,19 +283,22 @@ fn lower_pattern(pattern: Pattern) -> Pattern {
     }
 }
 
+/// The only colour of a map.
+fn lone_color(map: &[(f64, Color)]) -> Option<Color> {
+    let first = map.first().map_or(Color::BLACK, |(_, color)| *color);
+    map.iter().all(|(_, color)| *color == first).then_some(first)
+}
+
 /// A pigment all of one colour has no pattern.
 fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(*color),
-        PigmentKind::Patterned { pattern, map: colors } => match colors.0.as_slice() {
-            [] => Pigment::Color(Color::BLACK),
-            [(_, first), rest @ ..] if rest.iter().all(|(_, color)| color == first) => {
-                Pigment::Color(*first)
-            }
-            entries => Pigment::Patterned {
+        PigmentKind::Patterned { pattern, map: colors } => match lone_color(&colors.0) {
+            Some(color) => Pigment::Color(color),
+            None => Pigment::Patterned {
                 pattern: lower_pattern(*pattern),
                 pattern_from_texture: map,
-                map: entries.to_vec(),
+                map: colors.0.clone(),
             },
         },
     };

@@ -11,9 +11,13 @@ use std::collections::BTreeMap;
 use super::Fault;
 use crate::diagnostic::Code;
 use crate::math::double::{Double, DoubleVector, power_of_two_near, sin_cos_degrees};
+use crate::math::singular::singular_values;
 use crate::math::transform::Step;
 use crate::math::{Matrix, Vector};
 use crate::scene::TransformId;
+
+/// Maps of a larger condition number are told: they cost more than half of the 53 bits of an `f64`.
+pub const NEAR_SINGULAR: f64 = (1u64 << 26) as f64;
 
 /// `p ↦ linear · p + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -206,6 +210,18 @@ impl Affine {
         Some(Cofactors { rows, determinant: determinant.times_power_of_two(size) })
     }
 
+    /// The condition number of the linear part: the largest factor by which it stretches a
+    /// direction over the smallest. Infinite where it flattens space.
+    pub fn condition(&self) -> f64 {
+        let size = self.size();
+        let Some(Cofactors { determinant, .. }) = self.cofactors() else { return f64::INFINITY };
+        let volume = determinant.times_power_of_two(1.0 / size).abs().round();
+        let near_one = self.matrix(Double::from(1.0 / size));
+        let [largest, middle, _] = singular_values(near_one);
+        // The determinant knows the smallest factor to the last digit, the columns may not.
+        largest / (volume / (largest * middle))
+    }
+
     /// The inverse, or why there is none.
     pub fn checked(&self) -> Result<Self, Fault> {
         if !self.is_finite() {
@@ -250,11 +266,14 @@ pub struct Transforms<'s> {
     steps: &'s [Vec<Step>],
     spent: Vec<Option<Result<Affine, Fault>>>,
     undone: BTreeMap<TransformId, Result<Affine, Fault>>,
+    /// Condition numbers of [`NEAR_SINGULAR`] and more.
+    near_singular: BTreeMap<TransformId, f64>,
 }
 
 impl<'s> Transforms<'s> {
     pub fn new(steps: &'s [Vec<Step>]) -> Self {
-        Self { steps, spent: vec![None; steps.len()], undone: BTreeMap::new() }
+        let spent = vec![None; steps.len()];
+        Self { steps, spent, undone: BTreeMap::new(), near_singular: BTreeMap::new() }
     }
 
     /// The map that a list comes to.
@@ -275,6 +294,7 @@ impl<'s> Transforms<'s> {
             open.extend(parts.filter(|&(part, undone)| self.known(part, undone).is_none()));
             if open.len() == under_way {
                 let map = self.spend(id, undone);
+                self.note_condition(id, map.as_ref().ok());
                 match undone {
                     false => self.spent[id.index()] = Some(map),
                     true => drop(self.undone.insert(id, map)),
@@ -299,6 +319,27 @@ impl<'s> Transforms<'s> {
         };
         map.checked()?;
         Ok(map)
+    }
+
+    /// Notes a list that nearly flattens space, if it does so by itself: not by a list in it.
+    fn note_condition(&mut self, id: TransformId, map: Option<&Affine>) {
+        let strained = |step: &Step| match step {
+            Step::Transform(part) | Step::InverseOf(part) => self.near_singular.contains_key(part),
+            Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_) => false,
+        };
+        let rigid = |step: &Step| matches!(step, Step::Translate(_) | Step::Rotate(_));
+        let steps = &self.steps[id.index()];
+        if steps.iter().all(rigid) || steps.iter().any(strained) {
+            return;
+        }
+        if let Some(condition) = map.map(Affine::condition).filter(|&n| n >= NEAR_SINGULAR) {
+            self.near_singular.insert(id, condition);
+        }
+    }
+
+    /// The condition number of a transform that was spent, where it is [`NEAR_SINGULAR`].
+    pub fn near_singular(&self, id: TransformId) -> Option<f64> {
+        self.near_singular.get(&id).copied()
     }
 
     /// All of `ids`, in order.

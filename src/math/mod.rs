@@ -9,6 +9,7 @@ pub mod elementary;
 pub mod placement;
 #[cfg(test)]
 pub(crate) mod random;
+pub mod singular;
 pub mod transform;
 pub mod vector;
 

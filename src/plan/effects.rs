@@ -4,33 +4,43 @@
 //! effect is left out only when it could not change a bit of the film: its weight is exactly
 //! zero, or nothing by its own flags can take part in it. No guess about what is visible.
 
-use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions};
+use super::numerics::numerics;
+use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
-use crate::world::{Light, Material, Origins, Pigment, World};
+use crate::world::{Dropped, Light, Material, MaterialOrigin, Origins, Pigment, World};
 
 /// Lists every effect the picture needs with what called for it, and every one it does not need
 /// with the reason.
 pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     // As POV-Ray: 0 still follows the camera's ray.
     let max_trace_level = options.depth.unwrap_or(world.settings.max_trace_level).max(1);
+    let census = Census { world, origins, options, max_trace_level };
     let mut plan = Plan {
         frame: options.frame,
         antialias: options.antialias,
         max_trace_level,
         adc_bailout: world.settings.adc_bailout,
+        kernel: Kernel { shadows: false, secondary: false },
         effects: Vec::new(),
         left_out: Vec::new(),
+        dropped: census.dropped(),
+        numerics: numerics(world, origins),
+        pilot: None,
     };
-    let census = Census::new(world, origins);
     for effect in Effect::ALL {
-        match census.decide(effect, &plan, options) {
-            Ok((by, cost)) => plan.effects.push(Called { effect, by, cost }),
-            Err((why, site)) => {
-                plan.left_out.push(LeftOut { what: effect.name().to_owned(), why, site });
+        match census.decide(effect) {
+            Ok((mut by, cost)) => {
+                by.sort_by_key(|site| (site.span, site.expansion));
+                by.dedup_by_key(|site| site.span);
+                plan.effects.push(Called { effect, by, cost, rays: None });
             }
+            Err((why, site)) => plan.left_out.push(LeftOut { effect, why, site }),
         }
     }
-    census.single_parts(&mut plan);
+    plan.kernel = Kernel {
+        shadows: plan.simulates(Effect::Shadows),
+        secondary: plan.simulates(Effect::Reflection),
+    };
     plan
 }
 
@@ -41,151 +51,140 @@ fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)
     Err((why.to_owned(), site))
 }
 
+/// What there is, and what the caller wants of it.
+///
+/// Of several conditions of an effect, the one that the author wrote down calls for it: a light for what
+/// every surface answers by default, a surface's own word for the rest.
 struct Census<'a> {
     world: &'a World,
     origins: &'a Origins,
-    /// What called for each material's pigment: where it was written, else the first object that has it.
-    pigments: Vec<Option<Site>>,
-    /// The same of its finish.
-    finishes: Vec<Option<Site>>,
+    options: &'a PlanOptions,
+    max_trace_level: u32,
 }
 
-impl<'a> Census<'a> {
-    fn new(world: &'a World, origins: &'a Origins) -> Self {
-        let origin = |i| origins.materials.get(i).copied().unwrap_or_default();
-        let count = world.materials.len();
-        let mut pigments: Vec<_> = (0..count).map(|i| origin(i).pigment).collect();
-        let mut finishes: Vec<_> = (0..count).map(|i| origin(i).finish).collect();
-        for (object, site) in world.objects.iter().zip(&origins.objects) {
-            pigments[object.material as usize].get_or_insert(*site);
-            finishes[object.material as usize].get_or_insert(*site);
-        }
-        Self { world, origins, pigments, finishes }
-    }
-
-    fn decide(&self, effect: Effect, plan: &Plan, options: &PlanOptions) -> Decision {
+impl Census<'_> {
+    fn decide(&self, effect: Effect) -> Decision {
         match effect {
             Effect::Diffuse => self.diffuse(),
             Effect::Highlights => self.highlights(),
             Effect::Shadows => self.shadows(),
-            Effect::Reflection => self.reflection(plan, options),
+            Effect::Reflection => self.reflection(),
             Effect::Patterns => self.patterns(),
             Effect::Sky => self.sky(),
-            Effect::Antialiasing => antialiasing(plan.antialias),
+            Effect::Antialiasing => antialiasing(self.options.antialias),
         }
     }
 
     fn diffuse(&self) -> Decision {
-        if self.lights().next().is_none() {
+        if self.world.lights.is_empty() {
             return because("no light", None);
         }
-        if !self.materials().any(|(_, m)| scatters(m)) {
+        if !self.world.materials.iter().any(scatters) {
             return because("no surface scatters light", None);
         }
-        Ok((self.sites(&self.finishes, scatters), "one cosine a light and hit".to_owned()))
+        Ok((self.lights(|_| true), "one cosine a light and hit".to_owned()))
     }
 
     fn highlights(&self) -> Decision {
-        if self.lights().next().is_none() {
+        if self.world.lights.is_empty() {
             return because("no light", None);
         }
-        if !self.materials().any(|(_, m)| shines(m)) {
+        if !self.world.materials.iter().any(shines) {
             return because("no surface has a highlight", None);
         }
-        let lit = |m: &Material| {
-            shines(m) && self.lights().any(|(_, light)| m.finish.seed || light.casts_shadows)
-        };
-        if !self.materials().any(|(_, m)| lit(m)) {
+        let casting = self.world.lights.iter().any(|light| light.casts_shadows);
+        let lit = |m: &Material| shines(m) && (m.finish.seed || casting);
+        if !self.world.materials.iter().any(lit) {
             return because("shadowless lights make no highlight", None);
         }
-        Ok((self.sites(&self.finishes, lit), "one power a lobe, light and hit".to_owned()))
+        let by = self.materials(lit, |origin| &origin.highlights);
+        Ok((by, "one power a lobe, light and hit".to_owned()))
     }
 
     fn shadows(&self) -> Decision {
-        if self.lights().next().is_none() {
+        if self.world.lights.is_empty() {
             return because("no light", None);
         }
-        if !self.lights().any(|(_, light)| light.casts_shadows) {
+        if !self.world.lights.iter().any(|light| light.casts_shadows) {
             return because("all lights are shadowless", None);
         }
-        if !self.materials().any(|(_, m)| scatters(m) || shines(m)) {
+        if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
             return because("no surface answers a light", None);
         }
         if !self.world.objects.iter().any(|object| object.casts_shadow) {
             return because("no object casts a shadow", None);
         }
-        let casting = self.lights().filter(|(_, light)| light.casts_shadows);
-        let by = casting.filter_map(|(i, _)| self.origins.lights.get(i).copied()).collect();
-        Ok((by, "one shadow ray a casting light and lit hit".to_owned()))
+        let by = self.lights(|light| light.casts_shadows);
+        Ok((by, "one ray a casting light and lit hit".to_owned()))
     }
 
-    fn reflection(&self, plan: &Plan, options: &PlanOptions) -> Decision {
-        if !self.materials().any(|(_, m)| reflects(m)) {
+    fn reflection(&self) -> Decision {
+        if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        if plan.max_trace_level <= 1 {
-            let site = self.origins.max_trace_level.filter(|_| options.depth.is_none());
+        if self.max_trace_level <= 1 {
+            let site = self.origins.max_trace_level.filter(|_| self.options.depth.is_none());
             return because("`max_trace_level` is 1: a ray ends at the first surface", site);
         }
-        let cost = format!("up to {} more rays a camera ray", plan.max_trace_level - 1);
-        Ok((self.sites(&self.finishes, reflects), cost))
+        let cost = format!("up to {} rays a camera ray", self.max_trace_level - 1);
+        Ok((self.materials(reflects, |origin| &origin.reflection), cost))
     }
 
     fn patterns(&self) -> Decision {
         let patterned = |pigment: &Pigment| matches!(pigment, Pigment::Patterned { .. });
         let in_sky = self.world.sky.iter().any(|sky| sky.pigments.iter().any(patterned));
-        if !in_sky && !self.materials().any(|(_, m)| patterned(&m.pigment)) {
+        if !in_sky && !self.world.materials.iter().any(|m| patterned(&m.pigment)) {
             return because("every colour is constant", None);
         }
-        let mut by = self.sites(&self.pigments, |m| patterned(&m.pigment));
-        by.extend(self.origins.sky.filter(|_| in_sky));
+        let mut by = self.materials(|m| patterned(&m.pigment), |origin| &origin.pattern);
+        let sky = self.origins.sky.iter().filter(|_| in_sky);
+        by.extend(sky.flat_map(|sky| &sky.pattern));
         Ok((by, "one pattern and one map entry a hit".to_owned()))
     }
 
     fn sky(&self) -> Decision {
+        let origin = self.origins.sky.as_ref();
         match &self.world.sky {
             Some(sky) if !sky.pigments.is_empty() => {
                 let cost = format!("{} a ray that leaves", count(sky.pigments.len(), "pigment"));
-                Ok((self.origins.sky.into_iter().collect(), cost))
+                Ok((origin.map_or(Vec::new(), |sky| sky.items.clone()), cost))
             }
-            Some(_) => because("the sky has no pigment", self.origins.sky),
+            Some(_) => because("the sky has no pigment", origin.map(|sky| sky.site)),
             None => because("no `sky_sphere`", None),
         }
     }
 
-    /// What single lights and lowering leave out.
-    fn single_parts(&self, plan: &mut Plan) {
-        for (i, light) in self.world.lights.iter().enumerate() {
-            let site = self.origins.lights.get(i).copied();
-            let mut leave_out = |what: &str, why: &str| {
-                plan.left_out.push(LeftOut { what: what.to_owned(), why: why.to_owned(), site });
-            };
-            if light.color.is_black() {
-                leave_out("light", "its colour is black");
-            } else if !light.casts_shadows {
-                leave_out("shadows and highlights of one light", "it is shadowless");
-            }
-        }
-        plan.left_out.extend(self.origins.dropped.iter().map(|dropped| LeftOut {
-            what: dropped.what.clone(),
-            why: dropped.why.clone(),
-            site: Some(dropped.site),
-        }));
+    /// What lowering dropped, and what single lights lack.
+    fn dropped(&self) -> Vec<Dropped> {
+        let shadowless = self.world.lights.iter().zip(&self.origins.lights);
+        let shadowless = shadowless.filter(|(light, _)| !light.casts_shadows);
+        let mut dropped: Vec<_> = shadowless
+            .map(|(_, &site)| Dropped {
+                site,
+                what: "shadows and highlights of one light".to_owned(),
+                why: "it is shadowless".to_owned(),
+            })
+            .collect();
+        dropped.dedup_by_key(|part| part.site.span);
+        dropped.extend(self.origins.dropped.iter().cloned());
+        dropped
     }
 
-    /// The lights that shine, with their places in `World::lights`.
-    fn lights(&self) -> impl Iterator<Item = (usize, &Light)> {
-        self.world.lights.iter().enumerate().filter(|(_, light)| !light.color.is_black())
+    /// Where the lights that call stand.
+    fn lights(&self, calls: impl Fn(&Light) -> bool) -> Vec<Site> {
+        let lights = self.world.lights.iter().zip(&self.origins.lights);
+        lights.filter(|(light, _)| calls(light)).map(|(_, &site)| site).collect()
     }
 
-    fn materials(&self) -> impl Iterator<Item = (usize, &Material)> {
-        self.world.materials.iter().enumerate()
-    }
-
-    /// The sites of the materials that call, from one of the lists of sites.
-    fn sites(&self, of: &[Option<Site>], calls: impl Fn(&Material) -> bool) -> Vec<Site> {
-        let calling = self.materials().filter(|(_, material)| calls(material));
-        calling.filter_map(|(i, _)| of[i]).collect()
+    /// What gave the materials that call one of their parts.
+    fn materials(
+        &self,
+        calls: impl Fn(&Material) -> bool,
+        part: impl Fn(&MaterialOrigin) -> &Vec<Site>,
+    ) -> Vec<Site> {
+        let materials = self.world.materials.iter().zip(&self.origins.materials);
+        let calling = materials.filter(|(material, _)| calls(material));
+        calling.flat_map(|(_, origin)| part(origin)).copied().collect()
     }
 }
 
@@ -203,12 +202,11 @@ fn scatters(material: &Material) -> bool {
 }
 
 fn shines(material: &Material) -> bool {
-    material.finish.lobes.iter().any(|lobe| lobe.weight != 0.0)
+    !material.finish.lobes.is_empty()
 }
 
 fn reflects(material: &Material) -> bool {
-    let reflection = material.finish.reflection.as_ref();
-    reflection.is_some_and(|r| !(r.minimum.is_black() && r.maximum.is_black()))
+    material.finish.reflection.is_some()
 }
 
 fn count(n: usize, noun: &str) -> String {
@@ -223,9 +221,7 @@ mod tests {
     use crate::plan::Frame;
     use crate::shape::{Shape, Sphere};
     use crate::source::{ExpansionId, FileId, Span};
-    use crate::world::{
-        Dropped, Finish, LightKind, Lobe, LobeKind, MaterialOrigin, Object, Reflection, Sky,
-    };
+    use crate::world::{Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky, SkyOrigin};
 
     fn site(place: usize) -> Site {
         Site { span: Span::new(FileId(0), place, place + 1), expansion: ExpansionId::MAIN }
@@ -270,7 +266,13 @@ mod tests {
         let origins = Origins {
             objects: vec![site(1)],
             lights: vec![site(20)],
-            materials: vec![MaterialOrigin { pigment: Some(site(9)), finish: Some(site(10)) }],
+            materials: vec![MaterialOrigin {
+                pigment: Some(site(9)),
+                finish: Some(site(10)),
+                pattern: vec![],
+                highlights: vec![site(12), site(11), site(12)],
+                reflection: vec![site(13)],
+            }],
             max_trace_level: Some(site(30)),
             ..Origins::default()
         };
@@ -286,7 +288,7 @@ mod tests {
         change(&mut world);
         let plan = plan(&world, &origins, &OPTIONS);
         assert!(!plan.simulates(effect));
-        let left_out = plan.left_out.into_iter().find(|left| left.what == effect.name());
+        let left_out = plan.left_out.into_iter().find(|left| left.effect == effect);
         left_out.map(|left| (left.why, left.site)).expect("named")
     }
 
@@ -295,33 +297,34 @@ mod tests {
         let (world, origins) = lit_mirror();
         let plan = plan(&world, &origins, &OPTIONS);
         for effect in Effect::ALL {
-            let left_out = plan.left_out.iter().any(|left| left.what == effect.name());
+            let left_out = plan.left_out.iter().any(|left| left.effect == effect);
             assert_ne!(plan.simulates(effect), left_out, "{effect:?}");
         }
         let called: Vec<_> = plan.effects.iter().map(|c| (c.effect, c.by.as_slice())).collect();
         let expected: [(Effect, &[Site]); 4] = [
-            (Effect::Diffuse, &[site(10)]),
-            (Effect::Highlights, &[site(10)]),
+            (Effect::Diffuse, &[site(20)]),
+            (Effect::Highlights, &[site(11), site(12)]),
             (Effect::Shadows, &[site(20)]),
-            (Effect::Reflection, &[site(10)]),
+            (Effect::Reflection, &[site(13)]),
         ];
         assert_eq!(called, expected);
+        assert_eq!(plan.kernel, Kernel::EVERYTHING);
     }
 
     #[test]
-    fn a_material_nobody_wrote_is_called_for_by_the_first_object_that_has_it() {
-        let (mut world, mut origins) = lit_mirror();
-        world.objects.push(world.objects[0]);
-        origins.objects.push(site(2));
-        origins.materials = vec![MaterialOrigin::default()];
-        assert_eq!(plan(&world, &origins, &OPTIONS).effects[0].by, [site(1)]);
+    fn the_kernel_has_what_the_effects_need() {
+        let (mut world, origins) = lit_mirror();
+        world.lights[0].casts_shadows = false;
+        let kernel = plan(&world, &origins, &OPTIONS).kernel;
+        assert_eq!(kernel, Kernel { shadows: false, secondary: true });
+        world.materials[0].finish.reflection = None;
+        assert_eq!(plan(&world, &origins, &OPTIONS).kernel.name(), "bare");
     }
 
     #[test]
     fn shadows_are_left_out_for_the_reason_that_holds() {
         let why = |change: &dyn Fn(&mut World)| why_not(Effect::Shadows, change).0;
         assert_eq!(why(&|w| w.lights.clear()), "no light");
-        assert_eq!(why(&|w| w.lights[0].color = Rgb::BLACK), "no light");
         assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "all lights are shadowless");
         assert_eq!(why(&|w| w.objects[0].casts_shadow = false), "no object casts a shadow");
         let dull = |w: &mut World| {
@@ -334,10 +337,7 @@ mod tests {
     #[test]
     fn highlights_need_a_lobe_and_a_light_that_makes_them() {
         let why = |change: &dyn Fn(&mut World)| why_not(Effect::Highlights, change).0;
-        assert_eq!(
-            why(&|w| w.materials[0].finish.lobes[0].weight = 0.0),
-            "no surface has a highlight"
-        );
+        assert_eq!(why(&|w| w.materials[0].finish.lobes.clear()), "no surface has a highlight");
         assert_eq!(
             why(&|w| w.lights[0].casts_shadows = false),
             "shadowless lights make no highlight"
@@ -350,11 +350,8 @@ mod tests {
 
     #[test]
     fn reflection_needs_a_surface_that_reflects_and_a_second_level() {
-        let black = |w: &mut World| {
-            let reflection = w.materials[0].finish.reflection.as_mut().expect("one");
-            (reflection.minimum, reflection.maximum) = (Rgb::BLACK, Rgb::BLACK);
-        };
-        assert_eq!(why_not(Effect::Reflection, black), ("no surface reflects".to_owned(), None));
+        let dull = |w: &mut World| w.materials[0].finish.reflection = None;
+        assert_eq!(why_not(Effect::Reflection, dull), ("no surface reflects".to_owned(), None));
         let (why, at) = why_not(Effect::Reflection, |w| w.settings.max_trace_level = 0);
         assert_eq!((why.contains("`max_trace_level` is 1"), at), (true, Some(site(30))));
         // The caller's depth overrides the scene's, both ways, and then the scene is not to blame.
@@ -364,14 +361,16 @@ mod tests {
         assert!(deep.simulates(Effect::Reflection) && deep.max_trace_level == 3);
         let flat = plan(&world, &origins, &PlanOptions { depth: Some(0), ..OPTIONS });
         assert_eq!(flat.max_trace_level, 1);
-        let reason = flat.left_out.iter().find(|left| left.what == "reflection").expect("named");
+        let reason = flat.left_out.iter().find(|left| left.effect == Effect::Reflection);
+        let reason = reason.expect("named");
         assert_eq!(reason.site, None);
     }
 
     #[test]
     fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
         let (mut world, mut origins) = lit_mirror();
-        origins.sky = Some(site(40));
+        let (items, pattern) = (vec![site(40), site(42)], vec![site(43)]);
+        origins.sky = Some(SkyOrigin { site: site(41), items, pattern });
         world.sky = Some(Sky {
             pigments: vec![Pigment::Patterned {
                 pattern: crate::pattern::Pattern::Checker,
@@ -380,25 +379,23 @@ mod tests {
             }],
         });
         let plan = plan(&world, &origins, &OPTIONS);
-        for effect in [Effect::Sky, Effect::Patterns] {
-            let called = plan.effects.iter().find(|called| called.effect == effect);
-            assert_eq!(called.map(|called| called.by.clone()), Some(vec![site(40)]));
-        }
+        let by = |effect| plan.called(effect).map(|called| called.by.clone());
+        assert_eq!(by(Effect::Sky), Some(vec![site(40), site(42)]));
+        assert_eq!(by(Effect::Patterns), Some(vec![site(43)]));
     }
 
     #[test]
     fn single_lights_and_what_lowering_dropped_are_listed_with_their_places() {
         let (mut world, mut origins) = lit_mirror();
-        world.lights.push(Light { color: Rgb::BLACK, ..world.lights[0] });
         world.lights.push(Light { casts_shadows: false, ..world.lights[0] });
-        origins.lights.extend([site(21), site(22)]);
+        origins.lights.push(site(22));
         origins.dropped.push(Dropped {
             site: site(50),
             what: "light_source".to_owned(),
             why: "its colour is black".to_owned(),
         });
         let plan = plan(&world, &origins, &OPTIONS);
-        let sites = plan.left_out.iter().filter_map(|left| left.site);
-        assert_eq!(sites.collect::<Vec<_>>(), [site(21), site(22), site(50)]);
+        let sites: Vec<_> = plan.dropped.iter().map(|part| part.site).collect();
+        assert_eq!(sites, [site(22), site(50)]);
     }
 }

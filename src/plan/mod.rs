@@ -1,16 +1,22 @@
-//! What to do about a World: which effects to simulate and why, and what each knob is set to.
+//! What to do about a World: which effects to simulate and why, what each knob is set to, and which
+//! kernel traces it.
 //!
 //! **Invariant:** each effect is named once, as simulated or as left out; pruning is exact or not
-//! done. Diffuse light, highlights, shadows, reflection and the sky are decisions: the tracer asks
-//! the Plan. Patterns, single lights and lobes are data: the tracer evaluates those the World has
-//! (and passes over black lights by itself), and the Plan only says whether there are any.
+//! done. Values of no weight are not in the World at all (`lower` drops them and says so); the Plan
+//! decides by what is there. Shadows and secondary rays are hot: the tracer has a kernel for each
+//! combination. Patterns, lights and lobes are data: it evaluates those there are.
 
 mod effects;
+mod kernel;
+mod numerics;
 pub mod print;
 
 pub use effects::plan;
+pub use kernel::Kernel;
+pub use numerics::{Measured, Numerics};
 
 use crate::source::Site;
+use crate::world::Dropped;
 
 /// The whole picture's size and the part of it to trace, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,31 +113,68 @@ pub struct Plan {
     /// Surfaces deep: 1 follows the camera's rays alone.
     pub max_trace_level: u32,
     pub adc_bailout: f64,
+    pub kernel: Kernel,
     /// What will be simulated.
     pub effects: Vec<Called>,
     /// What will not, and why.
     pub left_out: Vec<LeftOut>,
+    /// Parts of the scene that cannot change the picture.
+    pub dropped: Vec<Dropped>,
+    pub numerics: Numerics,
+    /// `None` where nobody sent one.
+    pub pilot: Option<Pilot>,
 }
 
 /// An effect, and everything that called for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Called {
     pub effect: Effect,
-    /// Empty when the caller's options did.
+    /// In text order, each place once: without all of these pieces of text the effect is gone, and the
+    /// scene still whole. Empty when the caller's options called.
     pub by: Vec<Site>,
     /// What it costs: `one ray a light and hit`.
     pub cost: String,
+    /// How many rays the pilot sent for it, a ray of the camera; `None` for what sends none.
+    pub rays: Option<f64>,
 }
 
+/// An effect that nothing calls for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
-    pub what: String,
+    pub effect: Effect,
     pub why: String,
     pub site: Option<Site>,
 }
 
+/// A small picture of the same view, traced to count rays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pilot {
+    pub width: u32,
+    pub height: u32,
+    /// All rays, a ray of the camera.
+    pub rays: f64,
+}
+
 impl Plan {
     pub fn simulates(&self, effect: Effect) -> bool {
-        self.effects.iter().any(|called| called.effect == effect)
+        self.called(effect).is_some()
+    }
+
+    pub fn called(&self, effect: Effect) -> Option<&Called> {
+        self.effects.iter().find(|called| called.effect == effect)
+    }
+
+    /// Rays of the camera: the least number, where antialiasing is adaptive.
+    pub fn camera_rays(&self) -> f64 {
+        let Region { width, height, .. } = self.frame.region;
+        f64::from(width) * f64::from(height) * self.camera_rays_a_pixel()
+    }
+
+    /// Likewise.
+    pub fn camera_rays_a_pixel(&self) -> f64 {
+        match self.antialias {
+            Antialias::Off | Antialias::Adaptive { .. } => 1.0,
+            Antialias::Grid(n) => f64::from(n.max(1)) * f64::from(n.max(1)),
+        }
     }
 }

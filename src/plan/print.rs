@@ -2,62 +2,190 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Plan};
+use super::{Antialias, Called, Effect, Kernel, Measured, Plan};
 use crate::source::{Site, Sources};
 
 /// Places named for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
 
-/// The knobs, then each effect with what called for it and what it costs, then what was left out
-/// and why.
+/// Characters shown of a piece of the text.
+const QUOTE: usize = 48;
+
+/// The knobs and the kernel; each effect, on with what called for it and what it costs, or off and
+/// why; what was dropped; what is hard on the numbers.
 pub fn dump(plan: &Plan, sources: &Sources) -> String {
     let mut out = String::new();
+    let printer = Printer { plan, sources };
     // Writing to a string cannot fail.
-    let _ = write(&mut out, plan, sources);
+    let _ = printer.write(&mut out);
     out
 }
 
-fn write(out: &mut String, plan: &Plan, sources: &Sources) -> fmt::Result {
-    let frame = plan.frame;
-    write!(out, "picture {}×{}", frame.width, frame.height)?;
-    let region = frame.region;
-    if (region.width, region.height) != (frame.width, frame.height) {
-        write!(out, ", {}×{} from {},{}", region.width, region.height, region.x, region.y)?;
-    }
-    writeln!(out)?;
-    match plan.antialias {
-        Antialias::Off => writeln!(out, "antialias off: one ray a pixel")?,
-        Antialias::Grid(n) => writeln!(out, "antialias {n}: {n}×{n} rays a pixel")?,
-        Antialias::Adaptive { threshold, grid } => writeln!(
-            out,
-            "antialias adaptive: {grid}×{grid} rays where neighbours differ by more than {threshold}"
-        )?,
-    }
-    writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
-    writeln!(out, "adc_bailout {}", plan.adc_bailout)?;
-    writeln!(out, "simulated")?;
-    for called in &plan.effects {
-        writeln!(out, "  {}: {}", called.effect.name(), called.cost)?;
-        writeln!(out, "    called for by {}", callers(called, sources))?;
-    }
-    writeln!(out, "left out")?;
-    for left in &plan.left_out {
-        let place = left.site.map_or(String::new(), |site| format!("  ({})", place(site, sources)));
-        writeln!(out, "  {}: {}{place}", left.what, left.why)?;
-    }
-    Ok(())
+struct Printer<'a> {
+    plan: &'a Plan,
+    sources: &'a Sources,
 }
 
-fn callers(called: &Called, sources: &Sources) -> String {
-    let mut places: Vec<String> = called.by.iter().map(|&site| place(site, sources)).collect();
-    places.dedup();
-    match places.len() {
-        0 => "the options, or their defaults".to_owned(),
-        1..=PLACES_SHOWN => places.join(", "),
-        more => format!("{} and {} more", places[..PLACES_SHOWN].join(", "), more - PLACES_SHOWN),
+impl Printer<'_> {
+    fn write(&self, out: &mut String) -> fmt::Result {
+        self.knobs(out)?;
+        if !self.plan.effects.is_empty() {
+            writeln!(out, "on")?;
+        }
+        for called in &self.plan.effects {
+            self.called(out, called)?;
+        }
+        if !self.plan.left_out.is_empty() {
+            writeln!(out, "off")?;
+        }
+        for left in &self.plan.left_out {
+            writeln!(out, "  {}: {}{}", left.effect.name(), left.why, self.at(left.site))?;
+        }
+        if !self.plan.dropped.is_empty() {
+            writeln!(out, "dropped")?;
+            for part in &self.plan.dropped {
+                writeln!(out, "  {}: {}{}", part.what, part.why, self.at(Some(part.site)))?;
+            }
+        }
+        self.numerics(out)?;
+        self.rays(out)
+    }
+
+    fn knobs(&self, out: &mut String) -> fmt::Result {
+        let plan = self.plan;
+        let frame = plan.frame;
+        write!(out, "picture {}×{}", frame.width, frame.height)?;
+        let region = frame.region;
+        if (region.width, region.height) != (frame.width, frame.height) {
+            write!(out, ", {}×{} from {},{}", region.width, region.height, region.x, region.y)?;
+        }
+        writeln!(out)?;
+        match plan.antialias {
+            Antialias::Off => writeln!(out, "antialias off: one ray a pixel")?,
+            Antialias::Grid(n) => writeln!(out, "antialias {n}: {n}×{n} rays a pixel")?,
+            Antialias::Adaptive { threshold, grid } => writeln!(
+                out,
+                "antialias adaptive: {grid}×{grid} rays where neighbours differ by more than {threshold}"
+            )?,
+        }
+        writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
+        writeln!(out, "adc_bailout {}", plan.adc_bailout)?;
+        let compiled = Kernel::ALL.iter().filter(|kernel| kernel.is_compiled()).count();
+        writeln!(out, "kernel {}, one of {compiled} compiled in", plan.kernel.name())
+    }
+
+    fn called(&self, out: &mut String, called: &Called) -> fmt::Result {
+        write!(out, "  {}: {}", called.effect.name(), called.cost)?;
+        if let Some(rays) = called.rays {
+            write!(out, "; {}", self.counted(rays))?;
+        }
+        writeln!(out)?;
+        for &site in called.by.iter().take(PLACES_SHOWN) {
+            writeln!(out, "    {}{}", self.quote(site), self.at(Some(site)))?;
+        }
+        match called.by.len() {
+            0 if called.effect == Effect::Antialiasing => writeln!(out, "    by the options"),
+            0..=PLACES_SHOWN => Ok(()),
+            more => writeln!(out, "    and {} more", more - PLACES_SHOWN),
+        }
+    }
+
+    fn numerics(&self, out: &mut String) -> fmt::Result {
+        let numerics = &self.plan.numerics;
+        writeln!(out, "numerics")?;
+        let at = |measured: &Measured| self.at(measured.site);
+        if let (Some(least), Some(most)) = (&numerics.smallest, &numerics.largest) {
+            let (small, large) = (number(least.value), number(most.value));
+            writeln!(out, "  half widths from {small}{} to {large}{}", at(least), at(most))?;
+        }
+        if let Some(far) = &numerics.farthest {
+            let value = number(far.value);
+            writeln!(out, "  farthest for its size: {value} half widths away{}", at(far))?;
+        }
+        let near = &numerics.near_singular;
+        for found in near.iter().take(PLACES_SHOWN) {
+            let (quote, condition) = (self.quote(found.site), number(found.condition));
+            let place = self.at(Some(found.site));
+            writeln!(out, "  nearly flattens space: {quote}, condition {condition}{place}")?;
+        }
+        match near.len() {
+            0 => writeln!(out, "  no transform nearly flattens space"),
+            1..=PLACES_SHOWN => Ok(()),
+            more => writeln!(out, "  and {} more", more - PLACES_SHOWN),
+        }
+    }
+
+    fn rays(&self, out: &mut String) -> fmt::Result {
+        let Some(pilot) = self.plan.pilot else { return Ok(()) };
+        write!(out, "rays: {}", self.counted(pilot.rays))?;
+        if let Antialias::Adaptive { .. } = self.plan.antialias {
+            write!(out, " and what antialiasing adds")?;
+        }
+        writeln!(out, " (counted by a pilot of {}×{})", pilot.width, pilot.height)
+    }
+
+    /// Rays a camera ray, as rays a pixel and of the whole picture.
+    fn counted(&self, rays: f64) -> String {
+        let each = rays * self.plan.camera_rays_a_pixel();
+        format!("{each:.2} a pixel, about {}", round(rays * self.plan.camera_rays()))
+    }
+
+    fn at(&self, site: Option<Site>) -> String {
+        site.map_or(String::new(), |site| format!("  ({})", self.sources.place(site.span)))
+    }
+
+    /// The text of a place on one line, or as much of it as fits.
+    fn quote(&self, site: Site) -> String {
+        let words: Vec<&str> = self.sources.text(site.span).split_whitespace().collect();
+        let text = words.join(" ");
+        match text.char_indices().nth(QUOTE) {
+            Some((cut, _)) => format!("`{}…`", text[..cut].trim_end()),
+            None => format!("`{text}`"),
+        }
     }
 }
 
-fn place(site: Site, sources: &Sources) -> String {
-    sources.place(site.span)
+/// Three digits, in the shortest form.
+fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if (1e-3..1e6).contains(&size) || size == 0.0 => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// A count to two digits, in groups of three.
+fn round(count: f64) -> String {
+    let rounded: f64 = format!("{count:.1e}").parse().unwrap_or(count);
+    let digits = format!("{rounded:.0}");
+    let mut grouped = String::new();
+    for (i, digit) in digits.char_indices() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_rounded_and_grouped() {
+        assert_eq!(round(0.0), "0");
+        assert_eq!(round(640.0), "640");
+        assert_eq!(round(228_480.0), "230,000");
+        assert_eq!(round(12_345_678.0), "12,000,000");
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!(number(0.0), "0");
+        assert_eq!(number(1.0 / 3.0), "0.333");
+        assert_eq!(number(123_456.0), "123000");
+        assert_eq!(number(1.234e12), "1.23e12");
+        assert_eq!(number(f64::INFINITY), "inf");
+    }
 }

@@ -19,11 +19,9 @@ mod tiles;
 
 use std::ops::AddAssign;
 
-use crate::color::Rgb;
 use crate::film::Film;
 use crate::geometry::Occluder;
-use crate::plan::{Antialias, Effect, Frame, Plan, Region};
-use crate::shape::Ray;
+use crate::plan::{Antialias, Frame, Kernel, Plan, Region};
 use crate::world::World;
 
 use antialias::Shown;
@@ -112,28 +110,29 @@ pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Wat
     let tracer = Tracer::new(world, plan);
     watch.built();
     let crew = Crew::new(options.threads, watch);
-    // The hot effects, chosen once a frame.
-    match (plan.simulates(Effect::Shadows), plan.simulates(Effect::Reflection)) {
-        (false, false) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<false, false>(w, r)),
-        (false, true) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<false, true>(w, r)),
-        (true, false) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<true, false>(w, r)),
-        (true, true) => frame(&tracer, plan, &crew, |w, r| tracer.radiance::<true, true>(w, r)),
+    match (plan.kernel.shadows, plan.kernel.secondary) {
+        (false, false) => frame::<false, false>(&tracer, plan, &crew),
+        (false, true) => frame::<false, true>(&tracer, plan, &crew),
+        (true, false) => frame::<true, false>(&tracer, plan, &crew),
+        (true, true) => frame::<true, true>(&tracer, plan, &crew),
     }
 }
 
-/// Traces the region with one kernel.
-fn frame(
+/// Traces the region with one kernel. A function of its own, so that its instructions can be counted.
+#[inline(never)]
+fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     tracer: &Tracer,
     plan: &Plan,
     crew: &Crew,
-    kernel: impl Fn(&mut Walk, Ray) -> Rgb + Sync,
 ) -> Traced {
+    let kernel = Kernel { shadows: SHADOWS, secondary: SECONDARY };
+    assert!(kernel.is_compiled(), "built for measuring another kernel than {}", kernel.name());
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens { camera: &tracer.world.camera, width, height };
     let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
         let radiance = antialias::mean(grid, |i, j| {
             walk.counters.camera += 1;
-            kernel(walk, lens.ray((x, y), (i, j), grid))
+            tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray((x, y), (i, j), grid))
         });
         (radiance, grid * grid)
     };

@@ -8,19 +8,14 @@
 use super::{Walk, pigment, reflection, shade, sky};
 use crate::color::Rgb;
 use crate::geometry::{self, Geometry};
-use crate::plan::{Effect, Plan};
+use crate::plan::Plan;
 use crate::shape::Ray;
-use crate::world::{Light, Material, Sky, World};
+use crate::world::{Material, World};
 
-/// A World as its Plan wants it traced.
+/// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
     pub world: &'a World,
     pub geometry: Geometry,
-    /// One for each of the World's; what the Plan leaves out is absent.
-    pub materials: Vec<Material>,
-    /// Those that shine.
-    pub lights: Vec<Light>,
-    pub sky: Option<&'a Sky>,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
 }
@@ -38,27 +33,9 @@ pub(super) struct Link {
 
 impl<'a> Tracer<'a> {
     pub fn new(world: &'a World, plan: &Plan) -> Self {
-        let planned = |material: &Material| {
-            let mut material = material.clone();
-            let finish = &mut material.finish;
-            if !plan.simulates(Effect::Diffuse) {
-                finish.diffuse = 0.0;
-            }
-            if !plan.simulates(Effect::Highlights) {
-                finish.lobes.clear();
-            }
-            if !plan.simulates(Effect::Reflection) {
-                finish.reflection = None;
-            }
-            finish.lobes.retain(|lobe| lobe.weight != 0.0);
-            material
-        };
         Self {
             world,
             geometry: Geometry::build(world),
-            materials: world.materials.iter().map(planned).collect(),
-            lights: world.lights.iter().filter(|light| !light.color.is_black()).copied().collect(),
-            sky: world.sky.as_ref().filter(|_| plan.simulates(Effect::Sky)),
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
         }
@@ -68,7 +45,7 @@ impl<'a> Tracer<'a> {
     ///
     /// The weight that `adc_bailout` cuts at is the product of each reflection's largest component
     /// at any angle, as in POV-Ray; a seed finish neither lowers it nor is cut by it.
-    pub fn radiance<const SHADOWS: bool, const REFLECTION: bool>(
+    pub fn radiance<const SHADOWS: bool, const SECONDARY: bool>(
         &self,
         walk: &mut Walk,
         ray: Ray,
@@ -78,11 +55,11 @@ impl<'a> Tracer<'a> {
         walk.chain.clear();
         let mut seen = loop {
             let Some(hit) = self.geometry.nearest(&ray) else {
-                break sky::seen(self.sky, self.world.background, ray.direction);
+                break sky::seen(self.world.sky.as_ref(), self.world.background, ray.direction);
             };
             let surface = geometry::surface(self.world, &ray, &hit);
             let object = &self.world.objects[hit.object as usize];
-            let Material { pigment, finish } = &self.materials[object.material as usize];
+            let Material { pigment, finish } = &self.world.materials[object.material as usize];
             let normal = if hit.leaving { -surface.normal } else { surface.normal };
             let color = pigment::on_surface(pigment, self.world, object, &surface);
             let origin = surface.spawn(normal);
@@ -91,7 +68,7 @@ impl<'a> Tracer<'a> {
                 shade::Place { finish, color, point: surface.point, origin, normal, to_viewer };
             let local = shade::local::<SHADOWS>(self, walk, &place);
             let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
-            if !REFLECTION {
+            if !SECONDARY {
                 break clamped(local);
             }
             let Some(reflection) = &finish.reflection else { break clamped(local) };

@@ -38,7 +38,7 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
     if finish.diffuse == 0.0 && finish.lobes.is_empty() {
         return sum;
     }
-    for (number, light) in tracer.lights.iter().enumerate() {
+    for (number, light) in tracer.world.lights.iter().enumerate() {
         let height = shadow::height(&light.kind, place.point, place.normal);
         if !(height > 0.0 || (finish.seed && height == 0.0)) {
             continue;

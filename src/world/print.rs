@@ -38,7 +38,7 @@ impl Printer<'_> {
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
         writeln!(out, "background {}", self.world.background)?;
         if let Some(sky) = &self.world.sky {
-            writeln!(out, "sky{}", self.at(self.origins.sky))?;
+            writeln!(out, "sky{}", self.at(self.origins.sky.as_ref().map(|sky| sky.site)))?;
             for layer in &sky.pigments {
                 pigment(out, layer, "  ")?;
             }
@@ -50,8 +50,8 @@ impl Printer<'_> {
         }
         writeln!(out, "materials {}", self.world.materials.len())?;
         for (i, material) in self.world.materials.iter().enumerate() {
-            let origin = self.origins.materials.get(i).copied().unwrap_or_default();
-            let site = origin.pigment.or(origin.finish);
+            let origin = self.origins.materials.get(i);
+            let site = origin.and_then(|origin| origin.pigment.or(origin.finish));
             writeln!(out, "  {i}{}", self.at(site))?;
             pigment(out, &material.pigment, "    ")?;
             finish(out, &material.finish)?;

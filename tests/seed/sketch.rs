@@ -49,7 +49,12 @@ impl Sketch {
     pub fn texture(&mut self, color: Rgb, finish: Finish) -> TextureId {
         let scene = &mut self.scene;
         let kind = PigmentKind::Color(Color::opaque(color));
-        scene.pigments.push(Pigment { kind, transforms: Vec::new(), site: SITE });
+        scene.pigments.push(Pigment {
+            kind,
+            transforms: Vec::new(),
+            site: SITE,
+            pattern: Vec::new(),
+        });
         scene.finishes.push(finish);
         scene.textures.push(Texture {
             pigment: PigmentId(scene.pigments.len() as u32 - 1),
@@ -74,7 +79,7 @@ impl Sketch {
             modifiers.push(ModifierKind::Transform(TransformId(last)));
         }
         let modifiers = modifiers.into_iter().map(|kind| Modifier { kind, site: SITE }).collect();
-        self.scene.objects.push(Object { kind, modifiers, site: SITE });
+        self.scene.objects.push(Object { kind, modifiers, site: SITE, item: None });
         ObjectId(self.scene.objects.len() as u32 - 1)
     }
 

@@ -2,8 +2,8 @@
 
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{ClassicFinish, Finish, FinishId, Reflection};
-use crate::source::Span;
+use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin, Reflection};
+use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -19,7 +19,30 @@ struct Written {
     ks: Option<f64>,
     phong_exponent: Option<f64>,
     seed: Option<(Word, Span)>,
+    /// All of the seed's words, from the first to the last.
+    seed_item: Option<Site>,
     classic: Option<(Word, Span)>,
+    origin: FinishOrigin,
+}
+
+impl Written {
+    /// An item set the weight of `word`.
+    fn weigh(&mut self, word: Word, weightless: bool, item: Site) {
+        let Self { origin, .. } = self;
+        origin.zeros.retain(|(other, _)| *other != word);
+        match word {
+            _ if weightless => origin.zeros.push((word, item)),
+            Word::Reflection => list_once(&mut origin.reflection, item),
+            _ => list_once(&mut origin.highlights, item),
+        }
+    }
+}
+
+/// A loop may go through one place again and again.
+pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
+    if sites.iter().all(|site| site.span != item.span) {
+        sites.push(item);
+    }
 }
 
 impl Evaluator<'_> {
@@ -32,8 +55,9 @@ impl Evaluator<'_> {
     pub(super) fn finish_from(&mut self, token: &Token, start: FinishId) -> Outcome<FinishId> {
         let mut finish = self.scene.finishes[start.index()].clone();
         let opener = token.clone();
-        let finish = self.block(token, Word::Finish, |evaluator| {
-            let mut written = Written::default();
+        let origin = self.finish_origin(start);
+        let (finish, origin) = self.block(token, Word::Finish, |evaluator| {
+            let mut written = Written { origin, ..Written::default() };
             let mut failed = false;
             while let Some(token) = evaluator.next() {
                 if evaluator.finish_item(&token, &mut finish, &mut written) == Err(Reported) {
@@ -46,13 +70,29 @@ impl Evaluator<'_> {
                 return Err(Reported);
             }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
-            if failed { Err(Reported) } else { Ok(finish) }
+            if let (Finish::Seed { ks, .. }, Some(item)) = (&finish, written.seed_item) {
+                written.origin.zeros.clear();
+                match *ks == 0.0 {
+                    true => written.origin.zeros.push((Word::Ks, item)),
+                    false => {
+                        list_once(&mut written.origin.highlights, item);
+                        list_once(&mut written.origin.reflection, item);
+                    }
+                }
+            }
+            if failed { Err(Reported) } else { Ok((finish, written.origin)) }
         })?;
-        self.scene.finish_sites.resize(self.scene.finishes.len(), None);
-        self.scene.finish_sites.push(Some(opener.here.site(opener.span)));
-        self.stored += size_of::<Finish>() as u64;
+        let site = Some(opener.here.site(opener.span));
+        let sites = (origin.highlights.len() + origin.reflection.len()) * size_of::<Site>();
+        self.scene.finish_origins.resize(self.scene.finishes.len(), FinishOrigin::default());
+        self.scene.finish_origins.push(FinishOrigin { site, ..origin });
+        self.stored += (size_of::<Finish>() + size_of::<FinishOrigin>() + sites) as u64;
         self.scene.finishes.push(finish);
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
+    }
+
+    fn finish_origin(&self, id: FinishId) -> FinishOrigin {
+        self.scene.finish_origins.get(id.index()).cloned().unwrap_or_default()
     }
 
     /// The seed's words come together, and with none of POV-Ray's.
@@ -115,6 +155,7 @@ impl Evaluator<'_> {
             TokenKind::Expression(id) => match self.named(token, id) {
                 Some(Value::Finish(id)) => {
                     *finish = self.scene.finishes[id.index()].clone();
+                    written.origin = self.finish_origin(id);
                     return Ok(());
                 }
                 Some(Value::Poison(poison)) => {
@@ -140,6 +181,9 @@ impl Evaluator<'_> {
                     Word::Ks => written.ks = number,
                     _ => written.phong_exponent = number,
                 }
+                let item = self.whole(token);
+                written.seed_item =
+                    Some(written.seed_item.map_or(item, |first| self.joined(first, item)));
                 return Ok(());
             }
             _ => {}
@@ -152,6 +196,18 @@ impl Evaluator<'_> {
         let known = self.classic_item(token, word, &mut classic)?;
         if known {
             written.classic.get_or_insert((word, token.span));
+            let weightless = match word {
+                Word::Phong => Some(classic.phong == 0.0),
+                Word::Specular => Some(classic.specular == 0.0),
+                Word::Reflection => classic
+                    .reflection
+                    .as_ref()
+                    .map(|r| r.minimum.is_black() && r.maximum.is_black()),
+                _ => None,
+            };
+            if let Some(weightless) = weightless {
+                written.weigh(word, weightless, self.whole(token));
+            }
             if written.seed.is_none() {
                 *finish = Finish::Classic(classic);
             }

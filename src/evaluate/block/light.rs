@@ -43,7 +43,7 @@ impl Evaluator<'_> {
             outcome?;
             Ok((ObjectKind::LightSource(light), modifiers))
         })?;
-        self.add_object(Object { kind, modifiers, site })
+        self.add_object(Object { kind, modifiers, site, item: None })
     }
 
     /// A declared light's own parts, and every modifier it has got, in order.

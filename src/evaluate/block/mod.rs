@@ -22,6 +22,7 @@ use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Family, Word};
 
+use super::enclosure::Contents;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
@@ -61,7 +62,7 @@ impl Evaluator<'_> {
                 if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
             {
                 match self.object(token, word)? {
-                    Value::Object(object) => self.place(object),
+                    Value::Object(object) => self.place(object, token),
                     Value::Poison(poison) => {
                         let from = poison.site.span;
                         let elsewhere =
@@ -87,7 +88,8 @@ impl Evaluator<'_> {
         }
     }
 
-    fn place(&mut self, object: ObjectId) {
+    fn place(&mut self, object: ObjectId, token: &Token) {
+        self.note_item(object, token);
         self.scene.roots.push(Root { object, default_texture: self.default_texture });
     }
 
@@ -221,7 +223,11 @@ impl Evaluator<'_> {
         match self.next() {
             Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
+                let inside = Span { start: span.start + 1, end: span.end - 1, ..span };
+                let inside = matches!(contents, Contents::Items(_)).then(|| here.site(inside));
+                self.insides.push(inside);
                 let outcome = self.inside_block(&here, contents, span, consumer);
+                self.insides.pop();
                 self.openers.pop();
                 outcome
             }

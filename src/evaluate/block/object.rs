@@ -105,7 +105,7 @@ impl Evaluator<'_> {
         if failed == Err(Reported) {
             return Err(Reported);
         }
-        self.add_object(Object { kind, modifiers, site })
+        self.add_object(Object { kind, modifiers, site, item: None })
     }
 
     /// `sphere { Ball … }`: a declared object where the parts would stand.
@@ -270,7 +270,10 @@ impl Evaluator<'_> {
             }
             let Some(token) = self.next() else { break };
             match self.object(&token, word) {
-                Ok(Value::Object(child)) => children.push(child),
+                Ok(Value::Object(child)) => {
+                    self.note_item(child, &token);
+                    children.push(child);
+                }
                 Ok(Value::Poison(poison)) => self.set_poison(poison),
                 // Reported; the others still make a union.
                 Ok(_) | Err(Reported) => {}

@@ -3,6 +3,7 @@
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
+use crate::scene::ObjectId;
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
@@ -29,6 +30,29 @@ impl<T> Given<T> {
 }
 
 impl Evaluator<'_> {
+    /// All of what `opener` opened and what was taken last ends, as a piece that can be taken out of the
+    /// text. Where a directive stands between the two, it is all that the block around it holds.
+    pub(super) fn whole(&self, opener: &Token) -> Site {
+        let opener = opener.here.site(opener.span);
+        self.joined(opener, self.taken.unwrap_or(opener))
+    }
+
+    /// As [`Self::whole`], of two places in one block.
+    pub(super) fn joined(&self, a: Site, b: Site) -> Site {
+        let [a, b] = self.scene.expansions.side_by_side(a, b);
+        let between = Span { end: b.span.start, ..a.span };
+        if self.sources.text(between).contains('#') {
+            return self.insides.last().copied().flatten().unwrap_or(a);
+        }
+        Site { span: a.span.to(b.span), ..a }
+    }
+
+    /// An object that the scene or a union holds: it could be taken out.
+    pub(super) fn note_item(&mut self, object: ObjectId, token: &Token) {
+        let whole = self.whole(token);
+        self.scene.objects[object.index()].item = Some(whole);
+    }
+
     /// The value after `after` (a word of the block, or what opened it).
     pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
         self.skip_commas();

@@ -6,15 +6,24 @@ use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::pattern::Pattern;
 use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
+use crate::source::Site;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::finish::list_once;
 
 /// Entries of one map: more are a mistake, and soon more than memory holds.
 const MOST_ENTRIES: usize = 1 << 20;
+
+/// What was written in one block: its last pattern, and its last map.
+#[derive(Default)]
+struct Written {
+    pattern: Option<Site>,
+    map: Option<(ColorMap, Token, Site)>,
+}
 
 impl Evaluator<'_> {
     /// `pigment { [Name] … }`, starting from the default texture's pigment.
@@ -29,17 +38,25 @@ impl Evaluator<'_> {
         let pigment = self.block(token, Word::Pigment, |evaluator| {
             let mut failed = false;
             // A map may stand before its pattern.
-            let mut map = None;
+            let mut written = Written::default();
             while let Some(token) = evaluator.next() {
-                if evaluator.pigment_item(&token, &mut pigment, &mut map) == Err(Reported) {
+                if evaluator.pigment_item(&token, &mut pigment, &mut written) == Err(Reported) {
                     failed = true;
                     evaluator.skip_values();
                 }
             }
-            if let Some((given, token)) = map
+            if let Some((given, token, item)) = written.map
                 && !failed
             {
                 failed |= evaluator.paint(&mut pigment, given, &token) == Err(Reported);
+                // Without its pattern the map would be a mistake.
+                written.pattern = Some(match written.pattern {
+                    Some(pattern) => evaluator.joined(pattern, item),
+                    None => item,
+                });
+            }
+            if let Some(item) = written.pattern {
+                list_once(&mut pigment.pattern, item);
             }
             if failed { Err(Reported) } else { Ok(pigment) }
         })?;
@@ -72,7 +89,8 @@ impl Evaluator<'_> {
             PigmentKind::Patterned { map, .. } => size_of_val(&map.0[..]),
             PigmentKind::Color(_) => 0,
         };
-        let lists = map + 2 * size_of_val(&pigment.transforms[..]);
+        let lists =
+            map + 2 * size_of_val(&pigment.transforms[..]) + size_of_val(&pigment.pattern[..]);
         self.stored += (size_of::<Pigment>() + lists) as u64;
         self.scene.pigments.push(pigment);
         PigmentId(self.scene.pigments.len() as u32 - 1)
@@ -82,7 +100,7 @@ impl Evaluator<'_> {
         &mut self,
         token: &Token,
         pigment: &mut Pigment,
-        map: &mut Option<(ColorMap, Token)>,
+        written: &mut Written,
     ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
             pigment.transforms.push(transform?);
@@ -93,16 +111,20 @@ impl Evaluator<'_> {
                 let (first, second) = self.color_pair(token)?;
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
                 pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
+                let item = written.pattern.replace(self.whole(token));
+                item.into_iter().for_each(|item| list_once(&mut pigment.pattern, item));
             }
             TokenKind::Word(Word::Gradient) => {
                 let direction = self.direction_after(token, "the gradient's direction")?.value;
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
                 pigment.kind =
                     PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
+                let item = written.pattern.replace(self.whole(token));
+                item.into_iter().for_each(|item| list_once(&mut pigment.pattern, item));
             }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
-                *map = Some((given.as_ref().clone(), token.clone()));
+                written.map = Some((given.as_ref().clone(), token.clone(), self.whole(token)));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 pigment.kind = PigmentKind::Color(self.color_from(token)?);
@@ -126,6 +148,7 @@ impl Evaluator<'_> {
                         let site = pigment.site;
                         *pigment = self.scene.pigments[id.index()].clone();
                         pigment.site = site;
+                        written.pattern = None;
                     }
                     Value::Color(_) | Value::Vector(_) => {
                         let color = value.as_color().unwrap_or_default();

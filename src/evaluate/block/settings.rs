@@ -6,6 +6,7 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::finish::list_once;
 
 impl Evaluator<'_> {
     pub(super) fn global_settings(&mut self, token: &Token) -> Outcome<()> {
@@ -70,6 +71,7 @@ impl Evaluator<'_> {
             pigments: Vec::new(),
             transforms: Vec::new(),
             site: token.here.site(token.span),
+            items: Vec::new(),
         };
         self.block(token, Word::SkySphere, |evaluator| {
             let mut failed = false;
@@ -91,6 +93,8 @@ impl Evaluator<'_> {
             }
             if failed { Err(Reported) } else { Ok(()) }
         })?;
+        sky.items = self.scene.sky_sphere.take().map_or(Vec::new(), |replaced| replaced.items);
+        list_once(&mut sky.items, self.whole(token));
         self.scene.sky_sphere = Some(sky);
         Ok(())
     }

@@ -18,7 +18,7 @@ impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
     pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
         let step = self.step_from(token)?;
-        Some(step.map(|step| self.add_transform(vec![step])))
+        Some(step.map(|step| self.add_transform(vec![step], token)))
     }
 
     fn step_from(&mut self, token: &Token) -> Option<Outcome<Step>> {
@@ -32,10 +32,11 @@ impl Evaluator<'_> {
         }
     }
 
-    fn add_transform(&mut self, steps: Vec<Step>) -> TransformId {
+    fn add_transform(&mut self, steps: Vec<Step>, token: &Token) -> TransformId {
         if let [Step::Transform(whole)] = steps[..] {
             return whole;
         }
+        self.scene.transform_sites.push(self.whole(token));
         // Lowering keeps a map for each.
         self.stored += 256 + size_of_val(&steps[..]) as u64;
         self.scene.transforms.push(steps);
@@ -149,7 +150,7 @@ impl Evaluator<'_> {
                 other => Err(self.wrong_type(&given.here, given.span, "a transform", &other)),
             };
         }
-        self.block(token, Word::TransformWord, |evaluator| {
+        let steps = self.block(token, Word::TransformWord, |evaluator| {
             let mut steps = Vec::new();
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -158,7 +159,7 @@ impl Evaluator<'_> {
                     Some(Err(Reported)) => failed = true,
                     None => match token.kind {
                         TokenKind::Word(Word::Inverse) => {
-                            let all = evaluator.add_transform(std::mem::take(&mut steps));
+                            let all = evaluator.add_transform(std::mem::take(&mut steps), &token);
                             steps.push(Step::InverseOf(all));
                         }
                         TokenKind::Expression(id) => match evaluator.named(&token, id) {
@@ -172,8 +173,9 @@ impl Evaluator<'_> {
                     },
                 }
             }
-            if failed { Err(Reported) } else { Ok(evaluator.add_transform(steps)) }
-        })
+            if failed { Err(Reported) } else { Ok(steps) }
+        })?;
+        Ok(self.add_transform(steps, token))
     }
 
     /// A name that is a word in the block that `block` opened, where only running it shows that it stands

@@ -47,7 +47,7 @@ impl Build {
 
     pub fn pigment(&mut self, kind: PigmentKind, steps: Vec<Step>) -> PigmentId {
         let transforms = if steps.is_empty() { vec![] } else { vec![self.transform(steps)] };
-        self.0.pigments.push(Pigment { kind, transforms, site: site(900) });
+        self.0.pigments.push(Pigment { kind, transforms, site: site(900), pattern: vec![] });
         PigmentId(self.0.pigments.len() as u32 - 1)
     }
 
@@ -61,7 +61,7 @@ impl Build {
         let n = self.0.objects.len();
         let modifiers =
             modifiers.into_iter().map(|kind| Modifier { kind, site: site(500 + n) }).collect();
-        self.0.objects.push(Object { kind, modifiers, site: site(100 + n) });
+        self.0.objects.push(Object { kind, modifiers, site: site(100 + n), item: None });
         ObjectId(n as u32)
     }
 

@@ -303,15 +303,19 @@ fn the_skys_patterns_keep_their_own_places() {
     let mut build = Build::new();
     let pigment = checkered(&mut build, vec![scale(2.0, 2.0, 2.0)]);
     let turn = build.transform(vec![translate(-1.0, 0.0, 0.0)]);
-    build.0.sky_sphere =
-        Some(SkySphere { pigments: vec![pigment], transforms: vec![turn], site: site(7) });
+    build.0.sky_sphere = Some(SkySphere {
+        pigments: vec![pigment],
+        transforms: vec![turn],
+        site: site(7),
+        items: vec![],
+    });
     let (world, origins, _) = build.lower();
     let sky = world.sky.expect("a sky");
     let world::Pigment::Patterned { pattern_from_texture, .. } = &sky.pigments[0] else {
         panic!("a pattern: {sky:?}");
     };
     assert_eq!(pattern_from_texture.point(Vector::ZERO), v(0.5, 0.0, 0.0));
-    assert_eq!(origins.sky, Some(site(7)));
+    assert_eq!(origins.sky.map(|sky| sky.site), Some(site(7)));
     assert_ne!(*pattern_from_texture, Map::IDENTITY);
 }
 

@@ -4,11 +4,11 @@ mod film;
 mod light;
 
 use super::*;
-use crate::color::Color;
+use crate::color::{Color, Rgb};
 use crate::math::placement::Map;
 use crate::math::{Matrix, UnitVector, Vector};
 use crate::pattern::Pattern;
-use crate::plan::{Called, PlanOptions, plan};
+use crate::plan::{Effect, PlanOptions, plan};
 use crate::shape::{Box_, Plane, Shape, Sphere};
 use crate::world::{
     Camera, CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Material,

@@ -1,0 +1,400 @@
+//! Only what is called for, over every scene of `scenes/`: counters are zero for what is off, every place
+//! that a line quotes can be taken out, and without them all the effect is gone.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lucarne::diagnostic::render::{Style, human};
+use lucarne::film::{Depth, develop};
+use lucarne::picture::{Format, encode};
+use lucarne::plan::{Antialias, Effect, Frame, Kernel, Plan, PlanOptions, plan};
+use lucarne::road::{Options, Road, dialect};
+use lucarne::source::{FileError, Files, Found, Sources, Span};
+use lucarne::trace::{TraceOptions, Traced, Unwatched, trace};
+use lucarne::world::{Origins, World};
+
+const OPTIONS: PlanOptions = PlanOptions {
+    frame: Frame::whole(40, 30),
+    antialias: Antialias::Adaptive { threshold: 0.05, grid: 2 },
+    depth: None,
+};
+
+/// Files as they lie on disk, but for those that were changed here.
+#[derive(Default)]
+struct Changed(BTreeMap<String, String>);
+
+impl Files for Changed {
+    fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
+        let name = Path::new(from).with_file_name(name).to_string_lossy().into_owned();
+        let bytes = match self.0.get(&name) {
+            Some(text) => text.clone().into_bytes(),
+            None => fs::read(&name).map_err(|error| FileError::Unreadable(error.to_string()))?,
+        };
+        Ok(Found { name, bytes })
+    }
+}
+
+/// A scene on the far end of the road.
+struct Seen {
+    world: World,
+    plan: Plan,
+    sources: Sources,
+    errors: String,
+}
+
+fn see(name: &str, files: &Changed) -> Seen {
+    let text = files.0.get(name).cloned().unwrap_or_else(|| fs::read_to_string(name).expect(name));
+    let mut road = Road::new(files, Options::new(dialect(name)));
+    let (world, origins): (World, Origins) = road.compile(name, text.into_bytes());
+    let plan = plan(&world, &origins, &OPTIONS);
+    let message = |message| human(message, &road.sources, Style::PLAIN);
+    let broken = road.diagnostics.has_errors();
+    let errors =
+        if broken { road.diagnostics.iter().map(message).collect() } else { String::new() };
+    Seen { world, plan, sources: road.sources, errors }
+}
+
+fn see_text(text: &str) -> Seen {
+    let name = "a.scene".to_owned();
+    see(&name, &Changed([(name.clone(), text.to_owned())].into()))
+}
+
+/// Every scene of `scenes/`, by its path.
+fn scenes() -> Vec<String> {
+    let mut folders = vec![PathBuf::from("scenes")];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("listed").flatten() {
+            match entry.path() {
+                path if path.is_dir() => folders.push(path),
+                path if path.extension().is_some_and(|extension| extension == "scene") => {
+                    found.push(path.to_string_lossy().into_owned());
+                }
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    assert!(found.len() > 80, "{} scenes", found.len());
+    found
+}
+
+/// The texts without these pieces.
+fn without(spans: &[Span], sources: &Sources) -> Changed {
+    let mut spans = spans.to_vec();
+    // From the last to the first, so that a piece stands where it stood; of two nested ones the outer.
+    spans.sort_by_key(|span| (span.file, std::cmp::Reverse(span.end), span.start));
+    let mut changed = BTreeMap::new();
+    let mut last: Option<Span> = None;
+    for span in spans {
+        if last.is_some_and(|last| last.file == span.file && last.start < span.end) {
+            assert!(last.is_some_and(|last| last.start <= span.start), "pieces overlap: {span:?}");
+            continue;
+        }
+        let source = sources.get(span.file);
+        let text: &mut String =
+            changed.entry(source.name.clone()).or_insert_with(|| source.text.clone());
+        text.replace_range(span.range(), " ");
+        last = Some(span);
+    }
+    Changed(changed)
+}
+
+fn traced(world: &World, plan: &Plan) -> Traced {
+    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+}
+
+#[test]
+fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole() {
+    let mut quoted = 0;
+    for name in scenes() {
+        let seen = see(&name, &Changed::default());
+        assert_eq!(seen.errors, "", "{name}");
+        for called in seen.plan.effects.iter().filter(|c| c.effect != Effect::Antialiasing) {
+            let spans: Vec<Span> = called.by.iter().map(|site| site.span).collect();
+            assert!(!spans.is_empty(), "{name}: nobody called for {:?}", called.effect);
+            quoted += spans.len();
+            let text = |span: &Span| seen.sources.text(*span).to_owned();
+            let pieces: Vec<String> = spans.iter().map(text).collect();
+            let rest = see(&name, &without(&spans, &seen.sources));
+            assert_eq!(rest.errors, "", "{name}, {:?} without {pieces:#?}", called.effect);
+            let gone = !rest.plan.simulates(called.effect);
+            assert!(gone, "{name}, {:?} without {pieces:#?}", called.effect);
+            for (span, piece) in spans.iter().zip(&pieces) {
+                let rest = see(&name, &without(&[*span], &seen.sources));
+                assert_eq!(rest.errors, "", "{name}, {:?} without {piece}", called.effect);
+            }
+        }
+    }
+    assert!(quoted > 300, "{quoted} places");
+}
+
+#[test]
+fn what_is_off_is_counted_zero_and_what_is_on_changes_the_count() {
+    for name in scenes() {
+        let Seen { world, plan, .. } = see(&name, &Changed::default());
+        let counters = traced(&world, &plan).counters;
+        for (effect, rays) in
+            [(Effect::Shadows, counters.shadow), (Effect::Reflection, counters.reflection)]
+        {
+            assert!(plan.simulates(effect) || rays == 0, "{name}: {effect:?} {rays}");
+        }
+    }
+}
+
+#[test]
+fn the_kernel_for_everything_gives_the_same_bytes() {
+    let mut smaller = 0;
+    for name in scenes() {
+        let Seen { world, plan, .. } = see(&name, &Changed::default());
+        let full = Plan { kernel: Kernel::EVERYTHING, ..plan.clone() };
+        if full.kernel == plan.kernel {
+            continue;
+        }
+        smaller += 1;
+        let bytes = |plan: &Plan| {
+            let film = traced(&world, plan).film;
+            encode(&develop(&film, Depth::Sixteen), Format::Png).expect("a picture")
+        };
+        assert_eq!(bytes(&plan), bytes(&full), "{name}");
+    }
+    assert!(smaller > 20, "{smaller} scenes have a smaller kernel");
+}
+
+/// A scene in which nothing is called for but a camera: an object that only glows.
+const BARE: &str = "camera { location <0, 1, 6> look_at 0 }
+sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 diffuse 0 } }
+";
+
+/// As [`BARE`], under a light that casts shadows.
+const LIT: &str = "camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+sphere { 0, 1 pigment { rgb 1 } }
+";
+
+/// The lines of a plan: effects on with their places, but for antialiasing.
+fn lines(seen: &Seen) -> BTreeMap<&'static str, Vec<String>> {
+    let effects = seen.plan.effects.iter().filter(|c| c.effect != Effect::Antialiasing);
+    let text = |span: Span| seen.sources.text(span).to_owned();
+    effects.map(|c| (c.effect.name(), c.by.iter().map(|site| text(site.span)).collect())).collect()
+}
+
+#[test]
+fn one_object_with_one_effect_changes_exactly_its_line() {
+    let cases: [(&str, &str, Effect, &str); 8] = [
+        (
+            BARE,
+            "sphere { x, 1 finish { diffuse 0 reflection 0.3 } }",
+            Effect::Reflection,
+            "reflection 0.3",
+        ),
+        (
+            BARE,
+            "plane { y, 0 pigment { checker rgb 1 rgb 0 } finish { diffuse 0 } }",
+            Effect::Patterns,
+            "checker rgb 1 rgb 0",
+        ),
+        (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "sky_sphere { pigment { rgb 1 } }"),
+        (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),
+        (
+            LIT,
+            "#declare S = finish { specular 0.5 } box { 0, 1 finish { S } }",
+            Effect::Highlights,
+            "specular 0.5",
+        ),
+        (
+            LIT,
+            "sphere { x, 1 finish { reflection { 0.1, 1 falloff 2 } } }",
+            Effect::Reflection,
+            "reflection { 0.1, 1 falloff 2 }",
+        ),
+        (
+            LIT,
+            "#macro M(F) sphere { x, 1 finish { reflection F } } #end M(0.2)",
+            Effect::Reflection,
+            "reflection F",
+        ),
+        (
+            LIT,
+            "plane { y, 0 pigment { gradient y scale 2 color_map { [0 rgb 0] [1 rgb 1] } } }",
+            Effect::Patterns,
+            "gradient y scale 2 color_map { [0 rgb 0] [1 rgb 1] }",
+        ),
+    ];
+    for (scene, object, effect, quote) in cases {
+        let before = see_text(scene);
+        let after = see_text(&format!("{scene}{object}\n"));
+        assert_eq!((before.errors.as_str(), after.errors.as_str()), ("", ""), "{object}");
+        let mut expected = lines(&before);
+        let replaced = expected.insert(effect.name(), vec![quote.to_owned()]);
+        assert_eq!(replaced, None, "{object}");
+        assert_eq!(lines(&after), expected, "{object}");
+    }
+}
+
+/// What an effect's line quotes: pieces without each of which the scene is whole.
+fn quotes(text: &str, effect: Effect) -> Vec<String> {
+    let seen = see_text(text);
+    for span in seen.plan.called(effect).into_iter().flat_map(|c| &c.by).map(|site| site.span) {
+        let rest = see("a.scene", &without(&[span], &seen.sources));
+        assert_eq!(rest.errors, "", "{text} without {}", seen.sources.text(span));
+    }
+    quotes_together(text, effect)
+}
+
+/// What an effect's line quotes: pieces without all of which the scene is whole and the effect gone.
+fn quotes_together(text: &str, effect: Effect) -> Vec<String> {
+    let seen = see_text(text);
+    assert_eq!(seen.errors, "", "{text}");
+    let spans: Vec<Span> =
+        seen.plan.called(effect).into_iter().flat_map(|c| &c.by).map(|site| site.span).collect();
+    let rest = see("a.scene", &without(&spans, &seen.sources));
+    assert!(rest.errors.is_empty() && !rest.plan.simulates(effect), "{text}");
+    spans.iter().map(|&span| seen.sources.text(span).to_owned()).collect()
+}
+
+#[test]
+fn a_light_is_quoted_as_what_could_be_taken_out() {
+    let shadows = |text: &str| quotes(&format!("sphere {{ 0, 1 }} {text}"), Effect::Shadows);
+    let lamp = "light_source { 9, rgb 1 }";
+    assert_eq!(shadows(lamp), [lamp]);
+    assert_eq!(shadows(&format!("#declare L = {lamp} object {{ L }}")), ["object { L }"]);
+    let moved = "light_source { L translate x }";
+    assert_eq!(shadows(&format!("#declare L = {lamp} {moved}")), [moved]);
+    let shared = format!("#declare U = union {{ {lamp} }} object {{ U }} object {{ U scale 2 }}");
+    assert_eq!(shadows(&shared), [lamp]);
+    let inner = format!("object {{ {lamp} translate y }}");
+    assert_eq!(shadows(&inner), [inner.as_str()]);
+    assert_eq!(shadows(&format!("#macro M() {lamp} #end M() M()")), [lamp]);
+    let value = format!("#macro M() {lamp} #end object {{ M() }}");
+    assert_eq!(shadows(&value), ["object { M() }"]);
+    assert_eq!(shadows(&format!("#for (I, 1, 3) {lamp} #end")), [lamp]);
+    assert_eq!(shadows(&format!("{lamp} light_source {{ 5, rgb 0 }}")), [lamp]);
+    let opened = "#macro Open() light_source { #end #macro Close() } #end Open() 9, rgb 1 Close()";
+    assert_eq!(shadows(opened), ["Open() 9, rgb 1 Close()"]);
+    let switched = "light_source { 9, #if (1) rgb 1 #else rgb 2 #end }";
+    assert_eq!(shadows(switched), [switched]);
+}
+
+#[test]
+fn what_would_show_again_is_quoted_too() {
+    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
+    let over = "#declare F = finish { reflection 0.3 }
+sphere { x, 1 finish { F reflection 0.5 } }";
+    assert_eq!(mirrored(over), ["reflection 0.3", "reflection 0.5"]);
+    let default = "#default { finish { reflection 0.1 } } sphere { 0, 1 finish { phong 1 } }";
+    assert_eq!(mirrored(default), ["reflection 0.1"]);
+    let erased = "#declare F = finish { reflection 0.3 }
+sphere { x, 1 finish { F reflection 0 } } sphere { y, 1 finish { reflection 0.7 } }";
+    assert_eq!(mirrored(erased), ["reflection 0.7"]);
+    // Equal finishes are one material, and are quoted wherever they stand.
+    let twice =
+        "sphere { x, 1 finish { reflection 0.5 } } sphere { y, 1 finish { reflection 1/2 } }";
+    assert_eq!(mirrored(twice), ["reflection 0.5", "reflection 1/2"]);
+    let skies = "sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }";
+    assert_eq!(quotes(skies, Effect::Sky).len(), 2);
+}
+
+#[test]
+fn the_seeds_words_are_quoted_together_or_where_one_is_changed() {
+    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
+    let three = "kd 0.5 ks 0.6 phong_exponent 60";
+    assert_eq!(mirrored(&format!("sphere {{ x, 1 finish {{ {three} }} }}")), [three]);
+    let changed =
+        format!("#declare F = finish {{ {three} }} sphere {{ x, 1 finish {{ F ks 0.2 }} }}");
+    // A lone `ks` needs the other two, so only both pieces can be taken out.
+    let changed = quotes_together(&format!("{LIT}{changed}"), Effect::Reflection);
+    assert_eq!(changed, [three, "ks 0.2"]);
+}
+
+#[test]
+fn a_directive_amid_an_item_makes_the_blocks_inside_the_item() {
+    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
+    let amid = "sphere { x, 1 finish { reflection #if (1) 0.3 #else 0.5 #end } }";
+    assert_eq!(mirrored(amid), [" reflection #if (1) 0.3 #else 0.5 #end "]);
+    let around = "sphere { x, 1 finish { #if (1) reflection 0.3 #else reflection 0.5 #end } }";
+    assert_eq!(mirrored(around), ["reflection 0.3"]);
+    let macros = "#macro Word() reflection #end #macro Weight() 0.25 #end
+sphere { x, 1 finish { Word() Weight()*2 } } sphere { y, 1 finish { reflection Weight() } }";
+    assert_eq!(mirrored(macros), ["Word() Weight()*2", "reflection Weight()"]);
+}
+
+#[test]
+fn what_is_dropped_is_named_with_its_place() {
+    let text = format!(
+        "{LIT}light_source {{ 5, rgb 0 }}
+sphere {{ x, 1 pigment {{ checker rgb 1 rgb 1 }} finish {{ reflection 0 phong 0 }} }}
+union {{ }}
+#declare Wood = rgb 1;
+#for (I, 1, 5) light_source {{ I, rgb 0 }} #end
+"
+    );
+    let seen = see_text(&text);
+    assert_eq!(seen.errors, "");
+    let name = |part: &lucarne::world::Dropped| {
+        let text = seen.sources.text(part.site.span);
+        format!("{} ({text}): {}", part.what, part.why)
+    };
+    let dropped: Vec<String> = seen.plan.dropped.iter().map(name).collect();
+    let expected = [
+        "light_source (light_source): its colour is black",
+        "checker (checker rgb 1 rgb 1): its colours are all the same",
+        "reflection (reflection 0): its weight is zero",
+        "phong (phong 0): its weight is zero",
+        "union (union): it is empty",
+        "light_source (light_source): its colour is black",
+        "#declare Wood (Wood): nothing uses it",
+    ];
+    assert_eq!(dropped, expected);
+    assert_eq!(lines(&seen).keys().copied().collect::<Vec<_>>(), ["diffuse light", "shadows"]);
+}
+
+#[test]
+fn a_planted_near_singular_matrix_is_found_at_its_place() {
+    let near = |text: &str| {
+        let seen = see_text(&format!("{LIT}{text}"));
+        assert_eq!(seen.errors, "", "{text}");
+        let near = seen.plan.numerics.near_singular.iter();
+        let text = |span| seen.sources.text(span).to_owned();
+        near.map(|near| (text(near.site.span), near.condition)).collect::<Vec<_>>()
+    };
+    // Of two rows that differ by δ = 1e-9 the singular values are √2 and δ/√2, but for δ² of each.
+    let matrix = "matrix <1, 0, 0, 1, 1e-9, 0, 0, 0, 1, 0, 0, 0>";
+    let found = near(&format!("#for (I, 1, 3) box {{ 0, 1 {matrix} translate I*x }} #end"));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, matrix);
+    assert!((found[0].1 / 2e9 - 1.0).abs() < 1e-6, "{found:?}");
+    // In a pigment, too; and a flat scale is one.
+    let scale = "scale <1, 1e-9, 1>";
+    let found = near(&format!("sphere {{ 0, 1 pigment {{ checker rgb 1 rgb 0 {scale} }} }}"));
+    assert_eq!(found[0].0, scale);
+    assert!((found[0].1 / 1e9 - 1.0).abs() < 1e-12, "{found:?}");
+    // None alone, but all together: the object is named.
+    let found = near("sphere { 0, 1 scale <1, 1e-5, 1> translate y scale <1, 1e-5, 1> }");
+    assert_eq!((found.len(), found[0].0.as_str()), (1, "sphere"));
+    assert!(near("sphere { 0, 1 scale 1e-12 rotate 40 scale <1, 1000, 1> }").is_empty());
+}
+
+#[test]
+fn the_range_of_sizes_and_the_farthest_thing_are_found_at_their_places() {
+    let seen = see_text(
+        "camera { location <0, 0, 100> look_at 0 }
+sphere { 0, 2 }
+sphere { 50*x, 1e-6 }
+box { -7, <7, 7, 500> }
+union { sphere { 0, 1 scale <1, 2, 3> } translate 1e6*z }
+plane { y, -1e9 }",
+    );
+    let numerics = &seen.plan.numerics;
+    let found = |measured: Option<lucarne::plan::Measured>| {
+        let measured = measured.expect("found");
+        let place = seen.sources.place(measured.site.expect("a place").span);
+        (measured.value, place)
+    };
+    assert_eq!(found(numerics.smallest), (1e-6, "a.scene:3:1".to_owned()));
+    assert_eq!(found(numerics.largest), (253.5, "a.scene:4:1".to_owned()));
+    let (far, place) = found(numerics.farthest);
+    assert_eq!(place, "a.scene:3:1");
+    assert!((far / 1e6 / 12_500f64.sqrt() - 1.0).abs() < 1e-12, "{far}");
+}
