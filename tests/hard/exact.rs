@@ -59,6 +59,8 @@ struct Hit<'a> {
     point: WideVector,
     /// Toward where the ray came from.
     normal: WideVector,
+    /// The ray goes out of the solid here.
+    leaving: bool,
 }
 
 impl<'a> Exact<'a> {
@@ -78,26 +80,50 @@ impl<'a> Exact<'a> {
         let half = Wide::of(0.5);
         let u = Wide::of(x) / Wide::of(width.into()) - half.clone();
         let v = half - Wide::of(y) / Wide::of(height.into());
-        self.radiance(self.lens.ray(&u, &v))
+        self.radiance(&self.lens.ray(&u, &v), 1)
     }
 
-    fn radiance(&self, mut ray: Ray) -> Triple {
-        let mut passed = Vec::new();
-        let mut seen = loop {
-            let Some(hit) = self.nearest(&ray) else { break self.scene.background };
-            let local = self.local(&hit);
-            if hit.object.reflection == 0.0 || passed.len() + 1 >= self.scene.depth as usize {
-                break local;
-            }
-            passed.push((local, hit.object.reflection));
-            let twice = Wide::of(2.0) * &ray.direction.dot(&hit.normal) / &hit.normal.square();
-            let direction = ray.direction.minus(&hit.normal.times(&twice));
-            ray = Ray { start: hit.point, direction };
+    /// `level` is 1 for rays from the camera.
+    fn radiance(&self, ray: &Ray, level: u32) -> Triple {
+        let Some(hit) = self.nearest(ray) else { return self.scene.background };
+        let object = hit.object;
+        let mut seen = self.local(&hit);
+        if level >= self.scene.depth {
+            return seen;
+        }
+        let twice = Wide::of(2.0) * &ray.direction.dot(&hit.normal) / &hit.normal.square();
+        let mirrored = ray.direction.minus(&hit.normal.times(&twice));
+        let mut follow = |direction: WideVector, level: u32, factor: Triple| {
+            let there = self.radiance(&Ray { start: hit.point.clone(), direction }, level);
+            seen = std::array::from_fn(|c| seen[c] + product(factor[c], there[c]));
         };
-        while let Some((local, reflection)) = passed.pop() {
-            seen = std::array::from_fn(|c| local[c] + product(reflection, seen[c]));
+        if object.reflection != 0.0 {
+            follow(mirrored.clone(), level + 1, [object.reflection; 3]);
+        }
+        let through = object.transmittance();
+        if through != [0.0; 3] {
+            match self.bent(ray, &hit) {
+                // What cannot leave is mirrored whole.
+                None => follow(mirrored, level + 1, [1.0; 3]),
+                Some(direction) => follow(direction, level + u32::from(object.ior != 1.0), through),
+            }
         }
         seen
+    }
+
+    /// Snell's law; solids are not in each other. `None`: nothing goes through.
+    fn bent(&self, ray: &Ray, hit: &Hit) -> Option<WideVector> {
+        let direction = &ray.direction;
+        if hit.object.ior == 1.0 {
+            return Some(direction.clone());
+        }
+        let index = Wide::of(hit.object.ior);
+        let ratio = if hit.leaving { index } else { Wide::one() / index };
+        let normal = hit.normal.unit();
+        let cosine = -&direction.dot(&normal);
+        let along = direction.plus(&normal.times(&cosine)).times(&ratio);
+        let rest = direction.square() - &along.square();
+        rest.is_positive().then(|| along.minus(&normal.times(&rest.sqrt())))
     }
 
     /// The first surface; of those that are one, the first declared.
@@ -116,12 +142,14 @@ impl<'a> Exact<'a> {
         let (Crossing { t, normal }, index) = best?;
         let thing = &self.things[index];
         let normal = thing.world_normal(normal);
-        let toward = if ray.direction.dot(&normal).is_positive() { -1.0 } else { 1.0 };
+        let leaving = ray.direction.dot(&normal).is_positive();
+        let toward = if leaving { -1.0 } else { 1.0 };
         Some(Hit {
             object: &self.scene.objects[index],
             thing,
             point: ray.start.plus(&ray.direction.times(&t)),
             normal: normal.times(&Wide::of(toward)),
+            leaving,
         })
     }
 
@@ -130,17 +158,29 @@ impl<'a> Exact<'a> {
         &ray.start.largest() + &thing.size
     }
 
-    /// Whether something stands between the ray's start and the end of its direction.
-    fn is_hidden(&self, ray: &Ray) -> bool {
-        self.things.iter().any(|thing| {
+    /// What comes through of the light at the end of the ray's direction: straight on, by each
+    /// surface's part.
+    fn lit(&self, ray: &Ray) -> Triple {
+        let mut light = [1.0; 3];
+        for (object, thing) in self.scene.objects.iter().zip(&self.things) {
             let least = self.touch.clone() * &self.sizes(thing, ray) / &ray.direction.largest();
             let most = Wide::one() - least.clone();
-            thing.crossings(ray).iter().any(|crossing| crossing.t > least && crossing.t < most)
-        })
+            let through = object.transmittance();
+            for crossing in thing.crossings(ray) {
+                if crossing.t > least && crossing.t < most {
+                    light = std::array::from_fn(|c| light[c] * through[c]);
+                }
+            }
+            if light == [0.0; 3] {
+                break;
+            }
+        }
+        light
     }
 
     fn local(&self, hit: &Hit) -> Triple {
-        let color = self.color(hit);
+        let body = 1.0 - hit.object.filter - hit.object.transmit;
+        let color = self.color(hit).map(|c| c * body);
         let mut sum = color.map(|c| product(c, hit.object.ambient));
         for (position, intensity) in &self.lights {
             let way = position.minus(&hit.point);
@@ -149,13 +189,14 @@ impl<'a> Exact<'a> {
                 continue;
             }
             let ray = Ray { start: hit.point.clone(), direction: way };
-            if self.is_hidden(&ray) {
+            let light = self.lit(&ray);
+            if light == [0.0; 3] {
                 continue;
             }
             let square = along.clone() * &along / &(ray.direction.square() * hit.normal.square());
             let strength = hit.object.diffuse * square.to_f64().sqrt();
             for c in 0..3 {
-                sum[c] += product(intensity[c], color[c] * strength);
+                sum[c] += product(intensity[c], light[c] * color[c] * strength);
             }
         }
         sum
@@ -183,6 +224,16 @@ impl<'a> Exact<'a> {
             nearest
         } else {
             coordinate.floor()
+        }
+    }
+}
+
+impl Object {
+    /// The part of what lies behind that is seen.
+    fn transmittance(&self) -> Triple {
+        match self.paint {
+            Paint::Plain(color) => color.map(|c| c * self.filter + self.transmit),
+            Paint::Checker { .. } => [0.0; 3],
         }
     }
 }

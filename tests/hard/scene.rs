@@ -44,6 +44,11 @@ pub struct Object {
     pub ambient: f64,
     pub diffuse: f64,
     pub reflection: f64,
+    /// How much of what lies behind is seen, tinted and not.
+    pub filter: f64,
+    pub transmit: f64,
+    /// The index of refraction inside; outside it is 1.
+    pub ior: f64,
     /// They move the paint, too.
     pub steps: Vec<Step>,
     /// How many times the text places it.
@@ -93,7 +98,18 @@ pub fn cuboid(low: Triple, high: Triple) -> Object {
 impl Object {
     fn new(solid: Solid) -> Self {
         let (paint, steps) = (Paint::Plain(WHITE), Vec::new());
-        Self { solid, paint, ambient: 0.1, diffuse: 0.7, reflection: 0.0, steps, copies: 1 }
+        Self {
+            solid,
+            paint,
+            ambient: 0.1,
+            diffuse: 0.7,
+            reflection: 0.0,
+            filter: 0.0,
+            transmit: 0.0,
+            ior: 1.0,
+            steps,
+            copies: 1,
+        }
     }
 
     pub fn color(self, color: Triple) -> Self {
@@ -107,6 +123,11 @@ impl Object {
 
     pub fn finish(self, ambient: f64, diffuse: f64, reflection: f64) -> Self {
         Self { ambient, diffuse, reflection, ..self }
+    }
+
+    /// Of one colour; what is behind is seen as far as `filter` and `transmit` say.
+    pub fn clear(self, filter: f64, transmit: f64, ior: f64) -> Self {
+        Self { filter, transmit, ior, ..self }
     }
 
     pub fn moved(mut self, step: Step) -> Self {
@@ -190,7 +211,12 @@ impl Object {
             Solid::Box { corners: [a, b] } => format!("box {{ {}, {}", triple(a), triple(b)),
         };
         let paint = match &self.paint {
-            Paint::Plain(color) => format!("rgb {}", triple(*color)),
+            Paint::Plain(color) if self.filter == 0.0 && self.transmit == 0.0 => {
+                format!("rgb {}", triple(*color))
+            }
+            Paint::Plain([r, g, b]) => {
+                format!("rgbft <{r:e}, {g:e}, {b:e}, {:e}, {:e}>", self.filter, self.transmit)
+            }
             Paint::Checker { even, odd, steps } => {
                 format!("checker rgb {} rgb {} {}", triple(*even), triple(*odd), written(steps))
             }
@@ -199,7 +225,11 @@ impl Object {
         let finish =
             format!("ambient {ambient:e} diffuse {diffuse:e} reflection {{ rgb {reflection:e} }}");
         let steps = written(&self.steps);
-        format!("{solid} pigment {{ {paint} }} finish {{ {finish} }} {steps} }}\n")
+        let interior = match self.ior {
+            1.0 => String::new(),
+            ior => format!("interior {{ ior {ior:e} }}"),
+        };
+        format!("{solid} pigment {{ {paint} }} finish {{ {finish} }} {interior} {steps} }}\n")
     }
 }
 
