@@ -125,11 +125,6 @@ impl Object {
         Self { ambient, diffuse, reflection, ..self }
     }
 
-    /// Of one colour; what is behind is seen as far as `filter` and `transmit` say.
-    pub fn clear(self, filter: f64, transmit: f64, ior: f64) -> Self {
-        Self { filter, transmit, ior, ..self }
-    }
-
     pub fn moved(mut self, step: Step) -> Self {
         self.steps.push(step);
         self

@@ -2,39 +2,23 @@
 //!
 //! That the tree finds what trying every object finds is tested beside it (rows 65 and 66).
 
-use lucarne::color::{Color, Rgb};
+use std::sync::OnceLock;
+
 use lucarne::geometry::Geometry;
 use lucarne::math::{UnitVector, Vector};
 use lucarne::shape::{Chord, Ray, Shape, Sphere};
-
-use lucarne::world::{Finish, Material, Object, Pigment, World};
+use lucarne::world::{Object, World};
 
 use crate::dice::{Dice, rays};
+use crate::held::compiled;
 
 /// A World of spheres.
 fn of_spheres(spheres: Vec<Sphere>) -> World {
-    let finish = Finish {
-        glow: Rgb::BLACK,
-        diffuse: 0.6,
-        brilliance: 1.0,
-        lobes: Vec::new(),
-        reflection: None,
-        seed: false,
-    };
-    let object = |i| Object {
-        shape: Shape::Sphere(i),
-        material: 0,
-        texture_from_world: None,
-        faces: None,
-        casts_shadow: true,
-        inverse: false,
-    };
-    World {
-        objects: (0..spheres.len() as u32).map(object).collect(),
-        spheres,
-        materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
-        ..World::default()
-    }
+    static ONE: OnceLock<World> = OnceLock::new();
+    let one = ONE.get_or_init(|| compiled("sphere { 0, 1 }").0);
+    let object = |i| Object { shape: Shape::Sphere(i), ..one.objects[0] };
+    let objects = (0..spheres.len() as u32).map(object).collect();
+    World { objects, spheres, ..one.clone() }
 }
 
 /// The nearest hit, and whether something is in the way, are what the sphere's own `chord` says,
