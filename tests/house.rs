@@ -82,6 +82,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("pilot", &["plan", "trace", "world"]),
+    ("accuracy", &["color", "film", "geometry", "math", "plan", "trace", "world"]),
     ("lib", &[]),
     // doors: they use the library from outside, as anyone would
     ("cli", &[]),
