@@ -589,6 +589,7 @@ fn accuracy_writes_json_and_a_diagram() {
 fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
     let place = Place::new();
     let mirror = SCENE.replace("pigment", "finish { reflection 0.5 } pigment");
+    let mirror = format!("background {{ rgb 0.5 }}\n{mirror}");
     place.write("m.scene", &mirror);
     let words = "accuracy m.scene --size 32x24 --budget 200ms --knobs depth,adc-bailout";
     let table = place.run(words).ends(0, &[]).stdout();

@@ -131,7 +131,11 @@ pub fn amount(metric: Metric, value: f64) -> String {
 }
 
 pub(super) fn seconds(s: f64) -> String {
-    if s >= 10.0 { format!("{s:.1}") } else { format!("{s:.3}") }
+    match s {
+        10.0.. => format!("{s:.1}"),
+        0.1.. => format!("{s:.3}"),
+        _ => format!("{s:.5}"),
+    }
 }
 
 fn count(n: usize, noun: &str) -> String {

@@ -14,6 +14,8 @@ use super::stats::Stopwatch;
 const SEED: u64 = 1;
 /// Seconds to encode and write a pixel in, with room to spare.
 const TO_WRITE: f64 = 2e-7;
+/// Seconds to find an interval in.
+const TO_REPORT: f64 = 0.02;
 
 /// A picture, and what is to be said of it.
 pub struct Made {
@@ -101,7 +103,7 @@ fn spend(
 ) -> Made {
     let region = options.frame.region;
     let pixels = f64::from(region.width) * f64::from(region.height);
-    let until = 0.99 * seconds - TO_WRITE * pixels;
+    let until = 0.99 * seconds - TO_WRITE * pixels - TO_REPORT;
     let spent = accuracy::spend(world, origins, options, until, clock, progress);
     let interrupted = progress.is_stopped();
     let said = match (&spent.audit, spent.traced.complete) {
