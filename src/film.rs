@@ -115,8 +115,8 @@ fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {
     film.radiance.iter().map(|c| [encode(c.red), encode(c.green), encode(c.blue)]).collect()
 }
 
-/// Linear light of a component in the scene's working space.
-fn linear(component: f64, gamma: f64) -> f64 {
+/// Linear light of a component in the scene's working space; none where it is undefined.
+pub fn linear(component: f64, gamma: f64) -> f64 {
     if component.is_nan() || component <= 0.0 {
         0.0
     } else if gamma == 1.0 {

@@ -7,6 +7,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod accuracy;
 pub mod color;
 pub mod diagnostic;
 pub mod evaluate;

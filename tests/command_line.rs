@@ -356,9 +356,16 @@ fn wrong_usage_is_two() {
 fn help_and_version_are_asked_for() {
     let place = Place::new();
     let help = place.run("--help").ends(0, &[]).stdout();
-    for word in
-        ["lucarne [OPTIONS] <FILE>", "render", "check", "show", "plan", "explain", "Exit codes"]
-    {
+    for word in [
+        "lucarne [OPTIONS] <FILE>",
+        "render",
+        "check",
+        "show",
+        "plan",
+        "accuracy",
+        "explain",
+        "Exit codes",
+    ] {
         assert!(help.contains(word), "{word}");
     }
     assert!(place.run("--version").ends(0, &[]).stdout().starts_with("lucarne "));
@@ -543,4 +550,111 @@ fn a_reader_that_leaves_early_is_no_error() {
     let mut child = place.command("explain").stdout(Stdio::piped()).spawn().expect("runs");
     drop(child.stdout.take());
     assert!(child.wait().expect("ends").code().is_some_and(|code| code != 70));
+}
+
+// ── accuracy ──
+
+#[test]
+fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
+    let place = Place::new();
+    let run = place.run("accuracy a.scene --size 48x36 --budget 300ms --threads 1").ends(0, &[]);
+    let table = run.stdout();
+    assert!(table.starts_with("a.scene 48×36: 1728 audited pixels (seed 1), "), "{table}");
+    assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
+    assert!(table.contains("\nantialias bought, from off to "), "{table}");
+    // Nothing reflects.
+    assert!(!table.contains("depth"), "{table}");
+    assert_eq!(run.stderr(), "", "a bar only on a terminal");
+    assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+}
+
+#[test]
+fn accuracy_writes_json_and_a_diagram() {
+    let place = Place::new();
+    let words = "accuracy a.scene --size 32x24 --budget 200ms --json --svg d.svg --metric bad";
+    let run = place.run(words).ends(0, &["d.svg: the work-precision diagram"]);
+    let report: serde_json::Value = serde_json::from_str(&run.stdout()).expect("JSON");
+    assert_eq!(report["metric"], "bad");
+    assert_eq!(report["host"]["version"], env!("CARGO_PKG_VERSION"));
+    assert!(report["host"]["threads"].as_u64().is_some_and(|threads| threads > 0));
+    assert_eq!(report["knobs"][0]["settings"][0]["flag"], "--antialias off");
+    let rays = report["rows"][1]["rays"]["camera"].as_u64();
+    assert_eq!(rays, Some(32 * 24));
+    let svg = String::from_utf8(place.read("d.svg")).expect("text");
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    assert!(svg.contains("prefers-color-scheme:dark"));
+}
+
+#[test]
+fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
+    let place = Place::new();
+    let mirror = SCENE.replace("pigment", "finish { reflection 0.5 } pigment");
+    let mirror = format!("background {{ rgb 0.5 }}\n{mirror}");
+    place.write("m.scene", &mirror);
+    let words = "accuracy m.scene --size 32x24 --budget 200ms --knobs depth,adc-bailout";
+    let table = place.run(words).ends(0, &[]).stdout();
+    assert!(table.contains("\ndepth\n") && table.contains("\nadc-bailout\n"), "{table}");
+    assert!(!table.contains("\nantialias\n"), "{table}");
+    // A single convex mirror on nothing: the second level is the last.
+    assert!(table.contains("; beyond 2 not one audited pixel changes."), "{table}");
+    place
+        .run("accuracy m.scene --knobs depht")
+        .ends(2, &["antialias, depth, adc-bailout, precision"]);
+    place.run("accuracy m.scene --budget 0").ends(2, &["such as 500ms, 60s or 5m"]);
+    place.run("accuracy m.scene --svg d.png").ends(2, &["is an .svg"]);
+    place.run("accuracy broken.scene").ends(1, &["unknown-word"]);
+    place.run("accuracy no.scene").ends(3, &["no.scene"]);
+}
+
+#[test]
+fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
+    let place = Place::new();
+    let words = "a.scene --size 64x48 --max-error 0.02 -o one.png";
+    let run = place.run(words).ends(0, &["error 0.", "] ≤ 0.02", "fresh pixels"]);
+    let said = run.stderr();
+    let (_, flags) = said.split_once("the same picture: ").expect("flags");
+    place.run(&format!("a.scene --size 64x48 -o other.png {}", flags.trim())).ends(0, &[]);
+    assert_eq!(place.read("one.png"), place.read("other.png"));
+    let again = place.run(&words.replace("one.png", "one.png --threads 3")).ends(0, &[]).stderr();
+    let errors = |said: &str| said.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(errors(&again), errors(&said));
+}
+
+#[test]
+fn a_promise_has_a_right_form_and_enough_pixels() {
+    let place = Place::new();
+    place.run("a.scene --max-error 0").ends(2, &["such as 0.01"]);
+    place.run("a.scene --max-error 0.1 --antialias 3").ends(2, &["cannot be used with"]);
+    place.run("a.scene --max-error 0.1 --time-budget 3s").ends(2, &["cannot be used with"]);
+    place.run("a.scene --max-error 0.1 --size 4x4").ends(2, &["too few to prove"]);
+    assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+}
+
+#[test]
+fn a_time_that_suffices_is_used_and_one_that_does_not_leaves_what_there_is() {
+    let place = Place::new();
+    let run = place.run("a.scene --size 160x120 --time-budget 3s -o t.png");
+    let run = run.ends(0, &["t.png: 160×120", "made with: --antialias "]);
+    let said = run.stderr();
+    let took: f64 = said
+        .split(", ")
+        .find_map(|part| part.split_once(" s\n")?.0.parse().ok())
+        .unwrap_or_else(|| panic!("no time in {said}"));
+    assert!(took <= 3.0 * 1.05, "{said}");
+    assert!(said.contains("error ") && said.contains("fresh pixels, after"), "{said}");
+    let run = place.run("a.scene --size 2000x1500 --time-budget 50ms -o u.png");
+    run.ends(4, &["0.05 s are too few for one ray a pixel"]);
+    assert!(place.path("u.partial.png").exists() && !place.path("u.png").exists());
+}
+
+#[test]
+fn single_precision_makes_nearly_the_same_picture() {
+    let place = Place::new();
+    place.run("a.scene --size 64x48 -o double.ppm").ends(0, &[]);
+    place.run("a.scene --size 64x48 -o single.ppm --precision single").ends(0, &[]);
+    let (double, single) = (place.read("double.ppm"), place.read("single.ppm"));
+    let off = double.iter().zip(&single).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    assert!(double.len() == single.len() && off < 60, "{off}");
+    let plan = place.run("plan a.scene --precision single").ends(0, &[]).stdout();
+    assert!(plan.contains("\nprecision single\n"), "{plan}");
 }

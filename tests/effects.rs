@@ -18,6 +18,8 @@ const OPTIONS: PlanOptions = PlanOptions {
     frame: Frame::whole(40, 30),
     antialias: Antialias::Adaptive { threshold: 0.05, grid: 2 },
     depth: None,
+    adc_bailout: None,
+    precision: lucarne::plan::Precision::Double,
 };
 
 /// Files as they lie on disk, but for those that were changed here.

@@ -38,7 +38,7 @@ fn the_plan_of_the_first_picture_is_what_the_readme_says() {
     let bytes = std::fs::read(name).expect("the scene is there");
     let (world, origins) = road.compile(name, bytes);
     let (frame, antialias) = (Frame::whole(640, 480), Antialias::default());
-    let mut plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+    let mut plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
     pilot(&world, &mut plan);
     let said = print::dump(&plan, &road.sources);
     assert!(include_str!("../README.md").contains(&format!("```text\n{said}```\n")), "{said}");

@@ -16,6 +16,8 @@ const PLAN: PlanOptions = PlanOptions {
     },
     antialias: Antialias::Off,
     depth: None,
+    adc_bailout: None,
+    precision: lucarne::plan::Precision::Double,
 };
 
 fn stages(name: &str, text: &str) -> String {

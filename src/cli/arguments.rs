@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lucarne::plan::{Antialias, Frame, Region};
+use lucarne::accuracy::{KNOBS, Metric};
+use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::{Options, dialect};
 use lucarne::scene::Dialect;
 use lucarne::vocabulary::Word;
@@ -45,6 +46,8 @@ pub enum Command {
     Show(ShowArguments),
     /// Print what the tracer will simulate, what called for it, and what it leaves out
     Plan(PlanArguments),
+    /// Measure what each setting costs and what accuracy it buys, on this scene
+    Accuracy(AccuracyArguments),
     /// Explain a message by its code; without a code, list them all
     Explain(ExplainArguments),
 }
@@ -64,6 +67,19 @@ pub struct RenderArguments {
     /// Bits a channel: 8 or 16 (png and ppm)
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
+    /// Choose the settings so that the error is at most E, prove it on pixels that had no part in
+    /// the choice, and exit with 5 if it cannot be
+    #[arg(long, value_name = "E", value_parser = error)]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "time_budget"])]
+    pub max_error: Option<f64>,
+    /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
+    /// one ray a pixel fits
+    #[arg(long, value_name = "T", value_parser = seconds)]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision"])]
+    pub time_budget: Option<f64>,
+    /// What `--max-error` and `--time-budget` call an error
+    #[arg(long, value_enum, default_value_t, value_name = "METRIC")]
+    pub metric: MetricArgument,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -134,26 +150,102 @@ pub struct PlanArguments {
 }
 
 #[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    /// The scene
+    pub file: PathBuf,
+    /// The knobs to turn, separated by commas [default: all that the scene calls for]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
+    pub knobs: Vec<&'static str>,
+    /// About how long it may take, such as 60s or 5m: more time, more runs and dearer settings
+    #[arg(long, value_name = "T", value_parser = seconds, default_value = "60s")]
+    pub budget: f64,
+    /// What is called an error
+    #[arg(long, value_enum, default_value_t, value_name = "METRIC")]
+    pub metric: MetricArgument,
+    /// Print one JSON object instead of the table
+    #[arg(long)]
+    pub json: bool,
+    /// Also draw the work-precision diagram
+    #[arg(long, value_name = "OUT.svg")]
+    pub svg: Option<PathBuf>,
+    /// Of the audited pixels and the reference's samples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Threads to trace with [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub frame: FrameArguments,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+}
+
+/// What is called an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum MetricArgument {
+    /// Root of the mean square, over pixels and components
+    #[default]
+    Rmse,
+    /// What one pixel of a hundred exceeds
+    P99,
+    /// The share of pixels off by more than 2/255
+    Bad,
+}
+
+impl From<MetricArgument> for Metric {
+    fn from(metric: MetricArgument) -> Self {
+        match metric {
+            MetricArgument::Rmse => Self::Rmse,
+            MetricArgument::P99 => Self::P99,
+            MetricArgument::Bad => Self::Bad,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
 pub struct ExplainArguments {
     /// The word in front of a message, such as `unknown-word`
     pub code: Option<String>,
 }
 
-/// How large and how fine.
+/// How large.
 #[derive(Debug, Args)]
-pub struct PictureArguments {
+pub struct FrameArguments {
     /// The picture's width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x480")]
     size: (u32, u32),
     /// Trace only this part: left, top, width, height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     region: Option<Region>,
-    /// `off`: one ray a pixel; N: N×N rays a pixel; `adaptive`: more where neighbours differ
+}
+
+/// How large and how fine.
+#[derive(Debug, Args)]
+pub struct PictureArguments {
+    #[command(flatten)]
+    frame: FrameArguments,
+    /// `off`: one ray a pixel; N: N×N rays a pixel; `adaptive`: 4×4 where neighbours differ by more
+    /// than 0.05, or N×N by more than T with `adaptive:T:N`
     #[arg(long, value_name = "off|N|adaptive", value_parser = antialias, default_value = "adaptive")]
-    pub antialias: Antialias,
+    antialias: Antialias,
     /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub depth: Option<u32>,
+    depth: Option<u32>,
+    /// Follow no reflection of less weight than this, instead of the scene's adc_bailout
+    #[arg(long, value_name = "W", value_parser = weight)]
+    adc_bailout: Option<f64>,
+    /// The arithmetic that rays and shapes meet in
+    #[arg(long, value_enum, default_value_t, value_name = "single|double")]
+    precision: PrecisionArgument,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum PrecisionArgument {
+    /// 32 bits
+    Single,
+    /// 64 bits
+    #[default]
+    Double,
 }
 
 /// What a scene is compiled with, and how its messages are shown.
@@ -233,6 +325,23 @@ impl SceneArguments {
 impl PictureArguments {
     /// The picture and the part of it to trace; fails when the part is not inside.
     pub fn frame(&self, scene: &SceneArguments) -> Result<Frame, Failure> {
+        self.frame.frame(scene)
+    }
+
+    /// What is asked of the plan.
+    pub fn options(&self, frame: Frame) -> PlanOptions {
+        let Self { antialias, depth, adc_bailout, precision, .. } = *self;
+        let precision = match precision {
+            PrecisionArgument::Single => Precision::Single,
+            PrecisionArgument::Double => Precision::Double,
+        };
+        PlanOptions { frame, antialias, depth, adc_bailout, precision }
+    }
+}
+
+impl FrameArguments {
+    /// The picture and the part of it to trace; fails when the part is not inside.
+    pub fn frame(&self, scene: &SceneArguments) -> Result<Frame, Failure> {
         let (width, height) = self.size;
         let mut frame = Frame::whole(width, height);
         if let Some(region) = self.region {
@@ -286,8 +395,48 @@ fn antialias(text: &str) -> Result<Antialias, String> {
         ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
         ("adaptive", _) => Ok(Antialias::default()),
         (_, Ok(n @ 2..=64)) => Ok(Antialias::Grid(n)),
-        _ => Err("expected `off`, `adaptive`, or a number from 1 to 64".to_owned()),
+        _ => adaptive(text).ok_or_else(|| {
+            "expected `off`, `adaptive`, `adaptive:0.02:6`, or a number from 1 to 64".to_owned()
+        }),
     }
+}
+
+/// `adaptive:THRESHOLD:N`.
+fn adaptive(text: &str) -> Option<Antialias> {
+    let (threshold, grid) = text.strip_prefix("adaptive:")?.split_once(':')?;
+    let threshold = threshold.parse().ok().filter(|t: &f64| (0.0..=1.0).contains(t))?;
+    let grid = grid.parse().ok().filter(|n| (2..=64).contains(n))?;
+    Some(Antialias::Adaptive { threshold, grid })
+}
+
+fn weight(text: &str) -> Result<f64, String> {
+    let weight = text.parse().ok().filter(|weight: &f64| (0.0..=1.0).contains(weight));
+    weight.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+fn error(text: &str) -> Result<f64, String> {
+    let error = text.parse().ok().filter(|error: &f64| *error > 0.0 && *error <= 1.0);
+    error.ok_or_else(|| "expected an error above 0 and at most 1, such as 0.01".to_owned())
+}
+
+/// `90`, `90s`, `1.5m`, `2h` or `500ms`.
+fn seconds(text: &str) -> Result<f64, String> {
+    let units = [("ms", 0.001), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
+    let (number, unit) = units
+        .iter()
+        .find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)))
+        .unwrap_or((text, 1.0));
+    let seconds = number.parse().ok().map(|n: f64| n * unit);
+    let seconds = seconds.filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e9);
+    seconds.ok_or_else(|| "expected a time, such as 500ms, 60s or 5m".to_owned())
+}
+
+fn knob(text: &str) -> Result<&'static str, String> {
+    let mut names = KNOBS.iter().map(|knob| knob.name);
+    names.find(|&name| name == text).ok_or_else(|| {
+        let names: Vec<_> = KNOBS.iter().map(|knob| knob.name).collect();
+        format!("the knobs are {}", names.join(", "))
+    })
 }
 
 fn declare(text: &str) -> Result<(String, f64), String> {
@@ -350,7 +499,31 @@ mod tests {
         assert_eq!(antialias("1"), Ok(Antialias::Off));
         assert_eq!(antialias("3"), Ok(Antialias::Grid(3)));
         assert_eq!(antialias("adaptive"), Ok(Antialias::default()));
+        let fine = Antialias::Adaptive { threshold: 0.02, grid: 6 };
+        assert_eq!(antialias("adaptive:0.02:6"), Ok(fine));
+        for wrong in
+            ["adaptive:", "adaptive:0.02", "adaptive:2:6", "adaptive:0.1:1", "adaptive:x:3"]
+        {
+            assert!(antialias(wrong).is_err(), "{wrong}");
+        }
         assert!(antialias("0").is_err() && antialias("on").is_err() && antialias("65").is_err());
+    }
+
+    #[test]
+    fn times_have_units_and_errors_are_parts_of_white() {
+        let times = [("90", 90.0), ("90s", 90.0), ("1.5m", 90.0), ("2h", 7200.0), ("500ms", 0.5)];
+        for (text, expected) in times {
+            assert_eq!(seconds(text), Ok(expected));
+        }
+        for wrong in ["", "s", "-1s", "0", "inf", "nan", "1e99", "3d"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(error("0.01"), Ok(0.01));
+        assert!(error("0").is_err() && error("2").is_err() && error("x").is_err());
+        assert_eq!(weight("0"), Ok(0.0));
+        assert!(weight("-1").is_err() && weight("nan").is_err());
+        assert_eq!(knob("depth"), Ok("depth"));
+        assert!(knob("depht").is_err_and(|sentence| sentence.contains("antialias, depth")));
     }
 
     #[test]

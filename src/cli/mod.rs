@@ -2,6 +2,7 @@
 //!
 //! **Architecture invariant:** the only room that prints, reads and writes disks, and exits.
 
+mod accuracy;
 mod arguments;
 mod check;
 mod exit;
@@ -11,6 +12,7 @@ mod messages;
 mod output;
 mod plan;
 mod progress;
+mod promise;
 mod render;
 mod show;
 mod stats;
@@ -44,6 +46,7 @@ fn run(arguments: Arguments) -> Outcome {
         Command::Check(arguments) => check::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
+        Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     }
 }

@@ -128,14 +128,21 @@ impl Output {
 
     /// Writes the picture whole.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
-        let Self::File { path, .. } = self else { return messages::print_bytes(bytes) };
-        // A link stays a link: what it leads to is replaced.
-        let path = &fs::canonicalize(path).unwrap_or(path.clone());
-        let mut file = temporary(path)?;
-        file.write_all(bytes).map_err(|error| cannot(path, &reason(&error)))?;
-        file.persist(path).map_err(|error| cannot(path, &reason(&error.error)))?;
-        Ok(())
+        match self {
+            Self::Stdout => messages::print_bytes(bytes),
+            Self::File { path, .. } => write_whole(path, bytes),
+        }
     }
+}
+
+/// Writes a file that is whole or not there.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    // A link stays a link: what it leads to is replaced.
+    let path = &fs::canonicalize(path).unwrap_or(path.to_owned());
+    let mut file = temporary(path)?;
+    file.write_all(bytes).map_err(|error| cannot(path, &reason(&error)))?;
+    file.persist(path).map_err(|error| cannot(path, &reason(&error.error)))?;
+    Ok(())
 }
 
 fn folder(path: &Path) -> &Path {

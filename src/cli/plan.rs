@@ -1,7 +1,7 @@
 //! `lucarne plan`: what will be simulated, what called for it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, PlanOptions, plan, print};
+use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, plan, print};
 use lucarne::road::Road;
 use lucarne::source::{Position, Site, Sources};
 use serde::Serialize;
@@ -17,8 +17,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let (world, origins) = road.compile(&arguments.file.to_string_lossy(), bytes);
-    let (antialias, depth) = (arguments.picture.antialias, arguments.picture.depth);
-    let mut plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth });
+    let mut plan = plan(&world, &origins, &arguments.picture.options(frame));
     pilot(&world, &mut plan);
     let text = match arguments.json {
         // Names and numbers only: nothing here can fail to serialise.

@@ -52,6 +52,11 @@ impl Progress {
         self.built.get().map_or(0.0, |built| built - self.started)
     }
 
+    /// Ctrl-C was heard.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
     pub fn end(&self) {
         self.bar.finish_and_clear();
     }

@@ -5,9 +5,9 @@ use std::thread::available_parallelism;
 
 use lucarne::film::{Film, develop};
 use lucarne::picture::encode;
-use lucarne::plan::{PlanOptions, Region, plan};
+use lucarne::plan::Region;
 use lucarne::road::Road;
-use lucarne::trace::{TraceOptions, trace};
+use lucarne::trace::TraceOptions;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
@@ -15,6 +15,7 @@ use super::files::{DiskFiles, read_main};
 use super::messages;
 use super::output::Output;
 use super::progress::Progress;
+use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
@@ -56,13 +57,14 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.keeps(&road.sources)?;
 
     let picture = &arguments.picture;
-    let options = PlanOptions { frame, antialias: picture.antialias, depth: picture.depth };
-    let plan = plan(&world, &origins, &options);
+    let options = picture.options(frame);
     watch.lap();
     let progress = Progress::start();
     let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
-    let traced = trace(&world, &plan, &TraceOptions { threads }, &progress);
+    let threads = TraceOptions { threads };
+    let made = promise::make(arguments, (&world, &origins), &options, threads, &watch, &progress);
     progress.end();
+    let Made { traced, said, exit } = made?;
     stats.build_cpu_s = progress.build_cpu_seconds();
     stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
 
@@ -70,7 +72,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let bytes = encode(&develop(&traced.film, depth), format).map_err(cannot)?;
     let written = match traced.complete {
         true => Some(output.clone()),
-        false => output.partial(),
+        // What was interrupted is not wanted; what ran out of time is.
+        false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {
         place.write(&bytes)?;
@@ -81,7 +84,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     (stats.objects, stats.lights) = (world.objects.len(), world.lights.len());
     stats.rays = (&traced.counters).into();
 
-    if !traced.complete {
+    if !traced.complete && exit == Exit::Interrupted {
         messages::eprint(&match written {
             Some(place) => {
                 let samples = &traced.film.samples;
@@ -95,8 +98,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     }
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     messages::eprint(&format!(
-        "{}: {}×{}, {}, {}, {:.2} s\n",
-        output.name(),
+        "{}: {}×{}, {}, {}, {:.2} s\n{said}",
+        written.as_ref().unwrap_or(&output).name(),
         frame.region.width,
         frame.region.height,
         count(stats.objects, "object"),
@@ -106,7 +109,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     if let Some(format) = arguments.stats {
         stats.print(format, output == Output::Stdout)?;
     }
-    Ok(Exit::Done)
+    Ok(exit)
 }
 
 /// Fails when there is clearly not the memory for the film, which an allocation could only tell by

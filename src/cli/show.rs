@@ -1,6 +1,6 @@
 //! `lucarne show`: what a scene is at each stage of the road.
 
-use lucarne::plan::{self, PlanOptions};
+use lucarne::plan;
 use lucarne::road::Road;
 use lucarne::{scene, syntax, world};
 
@@ -36,8 +36,7 @@ pub fn show(
             let (world, origins) = road.lower(scene);
             match stage {
                 Stage::Plan => {
-                    let (antialias, depth) = (picture.antialias, picture.depth);
-                    let options = PlanOptions { frame, antialias, depth };
+                    let options = picture.options(frame);
                     plan::print::dump(&plan::plan(&world, &origins, &options), &road.sources)
                 }
                 Stage::Ast | Stage::Scene | Stage::World => {

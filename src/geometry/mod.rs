@@ -5,6 +5,7 @@
 //! kernels in `shape/` decide. No allocation per ray, no recursion.
 
 mod build;
+mod single;
 mod tree;
 
 use std::ops::Range;
@@ -32,6 +33,8 @@ pub struct Geometry {
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
+    /// Shapes are met in single precision.
+    single: bool,
 }
 
 /// An object, as far as rays ask.
@@ -100,6 +103,7 @@ impl Geometry {
             tree,
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
+            single: false,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -141,6 +145,9 @@ impl Geometry {
     /// coinciding faces wins everywhere.
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        if self.single {
+            return self.nearest_in_single(ray);
+        }
         let mut race = Race::new(self, ray);
         self.search(ray, f64::INFINITY, &mut race);
         if race.contested() { self.first_declared(ray) } else { race.winner() }
@@ -181,6 +188,9 @@ impl Geometry {
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another.
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
+        if self.single {
+            return self.occluder_in_single(ray, distance, guess);
+        }
         if self.entries.get(guess.0).is_some_and(|entry| self.shadows(entry, ray, distance)) {
             return guess;
         }

@@ -7,7 +7,6 @@
 pub mod double;
 pub mod elementary;
 pub mod placement;
-#[cfg(test)]
 pub(crate) mod random;
 pub mod singular;
 pub mod transform;

@@ -5,7 +5,8 @@
 //! zero, or nothing by its own flags can take part in it. No guess about what is visible.
 
 use super::numerics::numerics;
-use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
+use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions, Precision};
+use crate::shape::Shape;
 use crate::source::Site;
 use crate::world::{Dropped, Light, Material, MaterialOrigin, Origins, Pigment, World};
 
@@ -19,7 +20,8 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         frame: options.frame,
         antialias: options.antialias,
         max_trace_level,
-        adc_bailout: world.settings.adc_bailout,
+        adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
+        precision: options.precision,
         kernel: Kernel { shadows: false, secondary: false },
         effects: Vec::new(),
         left_out: Vec::new(),
@@ -166,8 +168,23 @@ impl Census<'_> {
             })
             .collect();
         dropped.dedup_by_key(|part| part.site.span);
+        if self.options.precision == Precision::Single {
+            dropped.extend(self.without_single_precision());
+        }
         dropped.extend(self.origins.dropped.iter().cloned());
         dropped
+    }
+
+    /// The first shape that is met in double precision all the same.
+    fn without_single_precision(&self) -> Option<Dropped> {
+        let objects = self.world.objects.iter().zip(&self.origins.objects);
+        let mut ellipsoids =
+            objects.filter(|(object, _)| matches!(object.shape, Shape::Ellipsoid(_)));
+        ellipsoids.next().map(|(_, &site)| Dropped {
+            site,
+            what: "single precision of ellipsoids".to_owned(),
+            why: "they have no kernel for it".to_owned(),
+        })
     }
 
     /// Where the lights that call stand.
@@ -279,8 +296,13 @@ mod tests {
         (world, origins)
     }
 
-    const OPTIONS: PlanOptions =
-        PlanOptions { frame: Frame::whole(4, 3), antialias: Antialias::Off, depth: None };
+    const OPTIONS: PlanOptions = PlanOptions {
+        frame: Frame::whole(4, 3),
+        antialias: Antialias::Off,
+        depth: None,
+        adc_bailout: None,
+        precision: Precision::Double,
+    };
 
     /// Changes the lit mirror and asks why the effect is left out.
     fn why_not(effect: Effect, change: impl FnOnce(&mut World)) -> (String, Option<Site>) {

@@ -59,6 +59,16 @@ impl Default for Antialias {
     }
 }
 
+/// The arithmetic that rays and shapes meet in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// 32 bits, for shapes that have such a kernel.
+    Single,
+    /// 64 bits.
+    #[default]
+    Double,
+}
+
 /// What the caller asks of the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanOptions {
@@ -66,6 +76,17 @@ pub struct PlanOptions {
     pub antialias: Antialias,
     /// Overrides the scene's `max_trace_level`.
     pub depth: Option<u32>,
+    /// Overrides the scene's `adc_bailout`.
+    pub adc_bailout: Option<f64>,
+    pub precision: Precision,
+}
+
+impl PlanOptions {
+    /// What `render` does unless it is told otherwise.
+    pub fn new(frame: Frame) -> Self {
+        let (antialias, precision) = (Antialias::default(), Precision::Double);
+        Self { frame, antialias, depth: None, adc_bailout: None, precision }
+    }
 }
 
 /// Something the tracer can simulate, or not.
@@ -113,6 +134,7 @@ pub struct Plan {
     /// Surfaces deep: 1 follows the camera's rays alone.
     pub max_trace_level: u32,
     pub adc_bailout: f64,
+    pub precision: Precision,
     pub kernel: Kernel,
     /// What will be simulated.
     pub effects: Vec<Called>,

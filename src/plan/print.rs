@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Effect, Kernel, Measured, Plan};
+use super::{Antialias, Called, Effect, Kernel, Measured, Plan, Precision};
 use crate::source::{Site, Sources};
 
 /// Places named for one effect; the rest are counted.
@@ -70,6 +70,10 @@ impl Printer<'_> {
         }
         writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
         writeln!(out, "adc_bailout {}", plan.adc_bailout)?;
+        match plan.precision {
+            Precision::Double => {}
+            Precision::Single => writeln!(out, "precision single")?,
+        }
         let compiled = Kernel::ALL.iter().filter(|kernel| kernel.is_compiled()).count();
         writeln!(out, "kernel {}, one of {compiled} compiled in", plan.kernel.name())
     }

@@ -18,8 +18,19 @@ impl Lens<'_> {
     /// The ray through sample (`i`, `j`) of the `grid` × `grid` samples of pixel (`x`, `y`), both
     /// counted from the top left.
     pub fn ray(&self, (x, y): (u32, u32), (i, j): (u32, u32), grid: u32) -> Ray {
-        let u = centre(x, i, self.width, grid);
-        let v = -centre(y, j, self.height, grid);
+        self.through(centre(x, i, self.width, grid), -centre(y, j, self.height, grid))
+    }
+
+    /// The ray through a point of pixel (`x`, `y`), 0 … 1 from its left and from its top.
+    pub fn ray_within(&self, (x, y): (u32, u32), (right, down): (f64, f64)) -> Ray {
+        let place = |pixel: u32, within: f64, pixels: u32| {
+            (f64::from(pixel) + within) / f64::from(pixels) - 0.5
+        };
+        self.through(place(x, right, self.width), -place(y, down, self.height))
+    }
+
+    /// The ray through the point (`u`, `v`) of the screen.
+    fn through(&self, u: f64, v: f64) -> Ray {
         let Camera { kind, location, forward, right, up } = *self.camera;
         let on_screen = right * u + up * v;
         match kind {
@@ -76,6 +87,14 @@ mod tests {
         let ray = lens.ray((3, 0), (0, 0), 1);
         let expected = Vector::new(4.0 / 3.0 * 0.375, 0.25, -1.0).normalize();
         assert!((ray.direction - expected).length() < 1e-15, "{ray:?}");
+    }
+
+    #[test]
+    fn the_middle_of_a_pixel_is_its_single_sample() {
+        let camera = Camera::default();
+        let lens = Lens { camera: &camera, width: 4, height: 2 };
+        let (middle, sample) = (lens.ray_within((3, 0), (0.5, 0.5)), lens.ray((3, 0), (0, 0), 1));
+        assert_eq!(middle, sample);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod highlight;
 mod metal;
 mod path;
 mod pigment;
+mod pixels;
 mod power;
 mod reflection;
 mod shade;
@@ -20,14 +21,16 @@ mod tiles;
 use std::ops::AddAssign;
 
 use crate::film::Film;
-use crate::geometry::Occluder;
-use crate::plan::{Antialias, Frame, Kernel, Plan, Region};
+use crate::geometry::{Geometry, Occluder};
+use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
 use crate::world::World;
 
 use antialias::Shown;
 use camera::Lens;
 use path::{Link, Tracer};
 use tiles::Crew;
+
+pub use pixels::{Pixels, Sampling, pixels};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {
@@ -83,6 +86,14 @@ pub struct Traced {
     pub complete: bool,
 }
 
+impl Traced {
+    /// Before any ray: every pixel black.
+    pub fn unbegun(frame: Frame, assumed_gamma: f64) -> Self {
+        let film = Film::new(frame, assumed_gamma);
+        Self { film, counters: Counters::default(), complete: false }
+    }
+}
+
 /// What a thread keeps from ray to ray.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
@@ -107,7 +118,8 @@ impl Walk {
 /// (and through those of a border one pixel wide around a region), then `grid` × `grid` samples
 /// instead in each pixel that differs from a neighbour.
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
-    let tracer = Tracer::new(world, plan);
+    let geometry = geometry(world, plan);
+    let tracer = Tracer::new(world, &geometry, plan);
     watch.built();
     let crew = Crew::new(options.threads, watch);
     match (plan.kernel.shadows, plan.kernel.secondary) {
@@ -115,6 +127,15 @@ pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Wat
         (false, true) => frame::<false, true>(&tracer, plan, &crew),
         (true, false) => frame::<true, false>(&tracer, plan, &crew),
         (true, true) => frame::<true, true>(&tracer, plan, &crew),
+    }
+}
+
+/// The World's geometry in the Plan's arithmetic.
+pub fn geometry(world: &World, plan: &Plan) -> Geometry {
+    let geometry = Geometry::build(world);
+    match plan.precision {
+        Precision::Double => geometry,
+        Precision::Single => geometry.in_single_precision(),
     }
 }
 

@@ -15,7 +15,7 @@ use crate::world::{Material, World};
 /// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
     pub world: &'a World,
-    pub geometry: Geometry,
+    pub geometry: &'a Geometry,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
 }
@@ -32,10 +32,10 @@ pub(super) struct Link {
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(world: &'a World, plan: &Plan) -> Self {
+    pub fn new(world: &'a World, geometry: &'a Geometry, plan: &Plan) -> Self {
         Self {
             world,
-            geometry: Geometry::build(world),
+            geometry,
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
         }

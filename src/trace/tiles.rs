@@ -16,6 +16,8 @@ use crate::plan::Region;
 /// Pixels along a tile's side: small enough to share a picture evenly, large enough that handing
 /// out costs nothing.
 const SIDE: u32 = 32;
+/// Things of a list that a thread takes at once.
+const PART: usize = 16;
 
 /// The threads and who waits for them.
 pub(super) struct Crew<'a> {
@@ -30,6 +32,35 @@ impl<'a> Crew<'a> {
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
         let pool = if threads == Some(1) { None } else { builder.build().ok() };
         Self { pool, watch }
+    }
+
+    /// Computes something for each thing of a list, in the list's order, and the work it was;
+    /// `None` when the watch stopped it.
+    pub fn each<I: Sync, T: Send>(
+        &self,
+        list: &[I],
+        one: impl Fn(&mut Walk, &I) -> T + Sync,
+    ) -> Option<(Vec<T>, Counters)> {
+        let done = AtomicUsize::new(0);
+        let work = |part: &[I]| {
+            let mut walk = Walk::default();
+            let stopped = self.watch.should_stop();
+            let values = part.iter().take_while(|_| !stopped).map(|thing| one(&mut walk, thing));
+            let values: Vec<T> = values.collect();
+            let done = done.fetch_add(part.len(), Ordering::Relaxed) + part.len();
+            self.watch.progress(done, list.len());
+            (!stopped).then_some((values, walk.counters))
+        };
+        let parts: Option<Vec<_>> = match &self.pool {
+            Some(pool) => pool.install(|| list.par_chunks(PART).map(work).collect()),
+            None => list.chunks(PART).map(work).collect(),
+        };
+        let mut all = (Vec::with_capacity(list.len()), Counters::default());
+        for (values, counters) in parts? {
+            all.0.extend(values);
+            all.1 += counters;
+        }
+        Some(all)
     }
 
     /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`;
@@ -50,6 +81,11 @@ impl<'a> Crew<'a> {
                 return;
             }
             for (y, (radiance, samples)) in (tile.y..).zip(tile.rows) {
+                // A row may take long; what is done of the tile is kept.
+                if y > tile.y && self.watch.should_stop() {
+                    stopped.store(true, Ordering::Relaxed);
+                    break;
+                }
                 for ((x, radiance), samples) in (tile.x..).zip(radiance).zip(samples) {
                     if let Some(seen) = pixel(walk, x, y) {
                         (*radiance, *samples) = seen;

@@ -14,7 +14,7 @@ use crate::scene::{Camera, Light, Scene, Triple, WHITE, cuboid, plane, sphere};
 fn sampled(text: &str, (width, height): (u32, u32), antialias: Antialias) -> Film {
     let (world, origins) = compiled(text);
     let frame = Frame::whole(width, height);
-    let plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+    let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
     trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
 }
 
@@ -115,7 +115,11 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
             .spawn(move || {
                 let (world, origins) = compiled(&text);
                 let frame = Frame::whole(2, 1);
-                let options = PlanOptions { frame, antialias: Antialias::Off, depth: Some(level) };
+                let options = PlanOptions {
+                    antialias: Antialias::Off,
+                    depth: Some(level),
+                    ..PlanOptions::new(frame)
+                };
                 let plan = plan(&world, &origins, &options);
                 trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
             })

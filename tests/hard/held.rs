@@ -31,7 +31,7 @@ pub fn compiled(text: &str) -> (World, Origins) {
 pub fn rendered(text: &str, (width, height): (u32, u32)) -> Film {
     let (world, origins) = compiled(text);
     let frame = Frame::whole(width, height);
-    let options = PlanOptions { frame, antialias: Antialias::Off, depth: None };
+    let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
     let plan = plan(&world, &origins, &options);
     trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
 }

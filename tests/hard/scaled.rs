@@ -42,7 +42,7 @@ fn scene(k: f64, camera: &str) -> String {
 fn film(text: &str, antialias: Antialias, threads: usize) -> Film {
     let (world, origins) = compiled(text);
     let frame = Frame::whole(SIZE.0, SIZE.1);
-    let plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+    let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
     trace(&world, &plan, &TraceOptions { threads: Some(threads) }, &Unwatched).film
 }
 
@@ -149,7 +149,7 @@ fn row_68_order_threads_and_tiles_change_no_byte_of_the_picture() {
     for (x, y, width, height) in [(0, 0, 1, 1), (5, 3, 20, 17), (27, 20, 1, 1), (3, 20, 25, 1)] {
         let region = Region { x, y, width, height };
         let frame = Frame { region, ..Frame::whole(SIZE.0, SIZE.1) };
-        let plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+        let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
         let part = trace(&world, &plan, &TraceOptions { threads: Some(2) }, &Unwatched).film;
         let crop = whole.clone().crop(region);
         assert!(png(&part) == png(&crop), "{region:?}");

@@ -49,7 +49,7 @@ impl Shot {
     pub fn of(self, text: &str) -> Vec<Rgb> {
         let (world, origins) = compiled(text, &[]);
         let Self { frame, antialias, threads } = self;
-        let plan = plan(&world, &origins, &PlanOptions { frame, antialias, depth: None });
+        let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
         let options = TraceOptions { threads: Some(threads) };
         trace(&world, &plan, &options, &Unwatched).film.radiance
     }

@@ -57,7 +57,7 @@ fn lowered(name: &str, scene: Scene) -> (World, Origins) {
 
 fn traced(world: &World, origins: &Origins, width: u32, height: u32) -> Vec<Rgb> {
     let frame = Frame::whole(width, height);
-    let options = PlanOptions { frame, antialias: Antialias::Off, depth: None };
+    let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
     let plan = plan(world, origins, &options);
     trace(world, &plan, &TraceOptions::default(), &Unwatched).film.radiance
 }

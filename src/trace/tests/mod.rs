@@ -2,6 +2,7 @@
 
 mod film;
 mod light;
+mod single;
 
 use super::*;
 use crate::color::{Color, Rgb};
@@ -133,7 +134,7 @@ fn varied() -> World {
 }
 
 fn options(width: u32, height: u32, antialias: Antialias) -> PlanOptions {
-    PlanOptions { frame: Frame::whole(width, height), antialias, depth: None }
+    PlanOptions { antialias, ..PlanOptions::new(Frame::whole(width, height)) }
 }
 
 fn traced_by(world: &World, plan: &Plan) -> Traced {

@@ -1,0 +1,93 @@
+//! Which pixels are looked at: spread over the picture, at random, and never twice.
+//!
+//! **Invariant:** every pixel of the picture is as likely as any other; sets from one call have no
+//! pixel in common.
+
+use crate::math::random::Random;
+use crate::plan::Region;
+
+/// About how many pixels a set has where the picture has enough.
+pub const WANTED: u32 = 4096;
+
+/// `count` sets of about `wanted` pixels each: one pixel a set out of each square of a lattice, in
+/// the lattice's order. A picture of few pixels has fewer: a square has at least `count`.
+///
+/// **Source:** jittered (stratified) sampling; a square that hangs over the border keeps its empty
+/// part in the draw, which is what makes all pixels equally likely.
+pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u32, u32)>> {
+    let pixels = f64::from(region.width) * f64::from(region.height);
+    let least = (count as f64).sqrt().ceil() as u32;
+    let side = ((pixels / f64::from(wanted.max(1))).sqrt().floor() as u32).max(least).max(1);
+    let mut random = Random::of(seed, 0);
+    let mut sets = vec![Vec::new(); count];
+    for top in (0..region.height).step_by(side as usize) {
+        for left in (0..region.width).step_by(side as usize) {
+            let mut drawn: Vec<usize> = Vec::with_capacity(count);
+            let parts = side as usize * side as usize;
+            while drawn.len() < count {
+                let place = random.below(parts);
+                if !drawn.contains(&place) {
+                    drawn.push(place);
+                }
+            }
+            for (set, place) in sets.iter_mut().zip(drawn) {
+                let x = left + (place % side as usize) as u32;
+                let y = top + (place / side as usize) as u32;
+                if x < region.width && y < region.height {
+                    set.push((region.x + x, region.y + y));
+                }
+            }
+        }
+    }
+    sets
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn sets_are_disjoint_inside_the_region_and_about_as_large_as_wanted() {
+        for (width, height) in [(640, 480), (33, 17), (1000, 3), (5, 4)] {
+            let region = Region { x: 7, y: 9, width, height };
+            let sets = sets(region, 1000, 3, 1);
+            let all: Vec<_> = sets.iter().flatten().copied().collect();
+            let different: BTreeSet<_> = all.iter().copied().collect();
+            assert_eq!(all.len(), different.len());
+            let inside =
+                |&(x, y): &(u32, u32)| (7..7 + width).contains(&x) && (9..9 + height).contains(&y);
+            assert!(all.iter().all(inside));
+            if width == 640 {
+                assert!(sets.iter().all(|set| (1000..1200).contains(&set.len())));
+            }
+        }
+    }
+
+    #[test]
+    fn one_set_of_a_small_picture_is_all_of_it() {
+        let region = Region { x: 0, y: 0, width: 20, height: 10 };
+        assert_eq!(sets(region, WANTED, 1, 3)[0].len(), 200);
+    }
+
+    #[test]
+    fn every_pixel_is_as_likely_as_any_other() {
+        // Squares of 3 × 3 on 10 × 7 pixels hang over two borders.
+        let region = Region { x: 0, y: 0, width: 10, height: 7 };
+        let mut times = vec![0u32; 70];
+        for seed in 0..9000 {
+            for &(x, y) in &sets(region, 7, 2, seed)[1] {
+                times[(y * 10 + x) as usize] += 1;
+            }
+        }
+        // 1000 ± 30 each.
+        assert!(times.iter().all(|&times| (860..1140).contains(&times)), "{times:?}");
+    }
+
+    #[test]
+    fn a_seed_gives_its_own_pixels() {
+        let region = Region { x: 0, y: 0, width: 64, height: 48 };
+        assert_eq!(sets(region, 100, 2, 5), sets(region, 100, 2, 5));
+        assert_ne!(sets(region, 100, 2, 5), sets(region, 100, 2, 6));
+    }
+}

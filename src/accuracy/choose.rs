@@ -1,0 +1,138 @@
+//! Which settings to render with: the cheapest that keep a promise, or the best that are affordable.
+//!
+//! **In:** tuning pixels and their reference. **Out:** a [`Choice`]. **Invariant:** costs are rays
+//! times unit costs, no clock is read: the same choice on every run.
+
+use std::collections::BTreeMap;
+
+use super::knob::{Knob, cost};
+use super::reference::{Reference, Studio};
+use super::statistics::{Estimate, Metric};
+use crate::plan::{PlanOptions, plan};
+use crate::trace::Sampling;
+use crate::world::Origins;
+
+/// Settings and what the tuning pixels say of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    pub options: PlanOptions,
+    /// In camera rays a pixel.
+    pub cost: f64,
+    pub error: Estimate,
+}
+
+/// Pixels whose truth is known, to try settings on.
+pub struct Tuning<'a> {
+    pub studio: Studio<'a>,
+    pub origins: &'a Origins,
+    pub list: &'a [(u32, u32)],
+    pub reference: &'a Reference,
+    pub metric: Metric,
+    /// Those the scene calls for.
+    pub knobs: &'a [&'a Knob],
+    /// The scene's own settings.
+    pub own: PlanOptions,
+    tried: BTreeMap<Vec<usize>, Choice>,
+    settings: Vec<Vec<f64>>,
+}
+
+impl<'a> Tuning<'a> {
+    pub fn new(
+        studio: Studio<'a>,
+        origins: &'a Origins,
+        (list, reference): (&'a [(u32, u32)], &'a Reference),
+        metric: Metric,
+        knobs: &'a [&'a Knob],
+        own: PlanOptions,
+    ) -> Self {
+        let settings = knobs.iter().map(|knob| knob.with((knob.get)(&own))).collect();
+        let tried = BTreeMap::new();
+        Self { studio, origins, list, reference, metric, knobs, own, tried, settings }
+    }
+
+    /// What the tuning pixels say of settings, one of each knob. `None` when stopped.
+    fn try_out(&mut self, places: &[usize]) -> Option<Choice> {
+        if let Some(known) = self.tried.get(places) {
+            return Some(known.clone());
+        }
+        let mut options = self.own;
+        for ((knob, settings), &place) in self.knobs.iter().zip(&self.settings).zip(places) {
+            (knob.set)(&mut options, settings[place]);
+        }
+        let plan = plan(self.studio.world, self.origins, &options);
+        let (colors, counters) = self.studio.colors(&plan, self.list, Sampling::Planned)?;
+        let error = self.metric.estimate(&self.reference.deviations(&colors));
+        let factors = self.knobs.iter().map(|knob| (knob.factor)((knob.get)(&options)));
+        let cost = factors.product::<f64>() * cost(&counters) / self.list.len() as f64;
+        let choice = Choice { options, cost, error };
+        self.tried.insert(places.to_vec(), choice.clone());
+        Some(choice)
+    }
+
+    /// The cheapest settings whose error is below `aim` at the upper end of its interval; the
+    /// dearest when none is. One knob after the other is lowered, the rest at their dearest or as
+    /// settled before.
+    pub fn cheapest(&mut self, aim: f64) -> Option<Choice> {
+        let mut places: Vec<usize> = self.settings.iter().map(|all| all.len() - 1).collect();
+        let mut best: Option<Choice> = None;
+        for turned in 0..places.len() {
+            if turned > 0 && best.is_none() {
+                break;
+            }
+            let settings = self.settings[turned].clone();
+            for (place, &setting) in settings.iter().enumerate() {
+                // Not even a frame of nothing but its rays could be cheaper.
+                let least = (self.knobs[turned].least)(setting);
+                if best.as_ref().is_some_and(|best| least >= best.cost) {
+                    continue;
+                }
+                let mut trial = places.clone();
+                trial[turned] = place;
+                let choice = self.try_out(&trial)?;
+                let keeps = choice.error.high <= aim;
+                // Of equals the first, so that nothing is set deeper than it is looked at.
+                let cheaper = best.as_ref().is_none_or(|best| {
+                    choice.cost < best.cost || (choice.cost == best.cost && place < places[turned])
+                });
+                if keeps && cheaper {
+                    places = trial;
+                    best = Some(choice);
+                }
+            }
+        }
+        match best {
+            Some(best) => Some(best),
+            None => self.try_out(&places),
+        }
+    }
+
+    /// The settings of least error whose cost is at most `affordable` camera rays a pixel, of those
+    /// tried before it was stopped. One knob after the other, the rest as the scene has them.
+    pub fn best(&mut self, affordable: f64) -> Option<Choice> {
+        let at_own = |(knob, all): (&&Knob, &Vec<f64>)| {
+            let own = (knob.get)(&self.own);
+            all.iter().position(|&setting| setting == own).unwrap_or(0)
+        };
+        let mut places: Vec<usize> = self.knobs.iter().zip(&self.settings).map(at_own).collect();
+        let mut best: Option<Choice> = None;
+        for turned in 0..places.len() {
+            let settings = self.settings[turned].clone();
+            for (place, &setting) in settings.iter().enumerate() {
+                if (self.knobs[turned].least)(setting) > affordable {
+                    continue;
+                }
+                let mut trial = places.clone();
+                trial[turned] = place;
+                let Some(choice) = self.try_out(&trial) else { return best };
+                let better = best.as_ref().is_none_or(|best| {
+                    (choice.error.value, choice.cost) < (best.error.value, best.cost)
+                });
+                if choice.cost <= affordable && better {
+                    places = trial;
+                    best = Some(choice);
+                }
+            }
+        }
+        best
+    }
+}

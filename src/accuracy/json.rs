@@ -1,0 +1,174 @@
+//! The report for programs: one JSON object.
+
+use serde::Serialize;
+
+use super::{Estimate, Metric, Report, Verdict};
+use crate::trace::Counters;
+
+/// What was measured where.
+#[derive(Debug, Clone, Serialize)]
+pub struct Host {
+    pub os: String,
+    pub arch: String,
+    pub cpu: String,
+    pub cores: usize,
+    pub threads: usize,
+    /// Of lucarne.
+    pub version: String,
+}
+
+#[derive(Serialize)]
+struct Whole<'a> {
+    file: &'a str,
+    host: &'a Host,
+    width: u32,
+    height: u32,
+    metric: &'a str,
+    seed: u64,
+    audited_pixels: usize,
+    reference_samples: u32,
+    noise_floor: Numbers,
+    runs: usize,
+    knobs: Vec<KnobJson<'a>>,
+    rows: Vec<RowJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct Numbers {
+    rmse: f64,
+    p99: f64,
+    bad: f64,
+}
+
+#[derive(Serialize)]
+struct KnobJson<'a> {
+    name: &'a str,
+    sentence: &'a str,
+    left_out: &'a [String],
+    settings: Vec<SettingJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct SettingJson<'a> {
+    label: &'a str,
+    flag: &'a str,
+    own: bool,
+    row: usize,
+    #[serde(flatten)]
+    verdict: VerdictJson,
+}
+
+#[derive(Serialize)]
+struct RowJson<'a> {
+    name: &'a str,
+    cpu_s: &'a [f64],
+    wall_s: &'a [f64],
+    rays: Rays,
+    errors: Errors,
+    resolved: bool,
+    #[serde(flatten)]
+    verdict: VerdictJson,
+}
+
+/// `front`; `tied` with another row; or `dominated` by one, in whose time this one's is
+/// `times_its_time`, and in this one's error that one's is `part_of_error`.
+#[derive(Serialize)]
+struct VerdictJson {
+    verdict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    other: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times_its_time: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part_of_error: Option<f64>,
+}
+
+impl From<Verdict> for VerdictJson {
+    fn from(verdict: Verdict) -> Self {
+        let (verdict, other, times_its_time, part_of_error) = match verdict {
+            Verdict::Front => ("front", None, None, None),
+            Verdict::Tied { with } => ("tied", Some(with), None, None),
+            Verdict::Dominated { by, time, error } => {
+                ("dominated", Some(by), Some(time), Some(error))
+            }
+        };
+        Self { verdict, other, times_its_time, part_of_error }
+    }
+}
+
+#[derive(Serialize)]
+struct Rays {
+    camera: u64,
+    shadow: u64,
+    reflection: u64,
+}
+
+#[derive(Serialize)]
+struct Errors {
+    rmse: Bounds,
+    p99: Bounds,
+    bad: Bounds,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    value: f64,
+    low: f64,
+    high: f64,
+}
+
+impl From<Estimate> for Bounds {
+    fn from(Estimate { value, low, high }: Estimate) -> Self {
+        Self { value, low, high }
+    }
+}
+
+/// One line.
+pub fn line(report: &Report, file: &str, host: &Host) -> String {
+    let [rmse, p99, bad] = report.floors;
+    let knobs = report.knobs.iter().map(|knob| KnobJson {
+        name: knob.name,
+        sentence: &knob.sentence,
+        left_out: &knob.left_out,
+        settings: knob
+            .settings
+            .iter()
+            .map(|s| SettingJson {
+                label: &s.label,
+                flag: &s.flag,
+                own: s.is_own,
+                row: s.row,
+                verdict: s.verdict.into(),
+            })
+            .collect(),
+    });
+    let rows = report.rows.iter().enumerate().map(|(place, row)| {
+        let [rmse, p99, bad] = row.errors.map(Bounds::from);
+        let Counters { camera, shadow, reflection } = row.counters;
+        RowJson {
+            name: &row.name,
+            cpu_s: &row.times.cpu,
+            wall_s: &row.times.wall,
+            rays: Rays { camera, shadow, reflection },
+            errors: Errors { rmse, p99, bad },
+            resolved: report.is_resolved(place),
+            verdict: row.verdict.into(),
+        }
+    });
+    let whole = Whole {
+        file,
+        host,
+        width: report.frame.region.width,
+        height: report.frame.region.height,
+        metric: Metric::name(report.metric),
+        seed: report.seed,
+        audited_pixels: report.audited,
+        reference_samples: report.reference_samples,
+        noise_floor: Numbers { rmse, p99, bad },
+        runs: report.runs,
+        knobs: knobs.collect(),
+        rows: rows.collect(),
+    };
+    // Numbers and texts only: nothing here can fail to serialise.
+    serde_json::to_string(&whole).unwrap_or_default()
+}

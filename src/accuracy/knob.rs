@@ -1,0 +1,186 @@
+//! The knobs: every setting that buys accuracy with time, in one table.
+//!
+//! **Invariant:** a knob is one entry of [`KNOBS`] and nothing else; one whose effect the scene does
+//! not call for is not looked at. Unit costs are constants, so what is chosen by them is the same on
+//! every machine and run.
+
+use crate::plan::{Antialias, Effect, PlanOptions, Precision};
+use crate::trace::Counters;
+
+/// A setting of the plan with its values from cheap to dear.
+#[derive(Debug, Clone, Copy)]
+pub struct Knob {
+    pub name: &'static str,
+    /// Without any of them the knob does nothing.
+    pub effects: &'static [Effect],
+    /// From cheap to dear, rising or falling.
+    pub settings: &'static [f64],
+    /// Whether the scene's own value may stand between them; else it is one of them.
+    pub between: bool,
+    pub set: fn(&mut PlanOptions, f64),
+    pub get: fn(&PlanOptions) -> f64,
+    /// The least a setting can cost, in camera rays a pixel.
+    pub least: fn(f64) -> f64,
+    /// What a setting does to the cost of every ray.
+    pub factor: fn(f64) -> f64,
+    pub label: fn(f64) -> String,
+    /// The flag of `render` that sets it.
+    pub flag: fn(f64) -> String,
+}
+
+/// Every knob. A later effect adds its entry here.
+pub const KNOBS: &[Knob] = &[
+    Knob {
+        name: "antialias",
+        effects: &[Effect::Antialiasing],
+        settings: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0],
+        between: false,
+        set: |options, place| options.antialias = LADDER[place as usize % LADDER.len()],
+        get: |options| {
+            LADDER.iter().position(|&rung| rung == options.antialias).unwrap_or(0) as f64
+        },
+        least: |place| match LADDER[place as usize % LADDER.len()] {
+            Antialias::Off | Antialias::Adaptive { .. } => 1.0,
+            Antialias::Grid(n) => f64::from(n * n),
+        },
+        factor: |_| 1.0,
+        label: |place| match LADDER[place as usize % LADDER.len()] {
+            Antialias::Off => "off".to_owned(),
+            Antialias::Adaptive { threshold, grid } => {
+                format!("adaptive {threshold} {grid}×{grid}")
+            }
+            Antialias::Grid(n) => format!("{n}×{n}"),
+        },
+        flag: |place| match LADDER[place as usize % LADDER.len()] {
+            Antialias::Off => "--antialias off".to_owned(),
+            Antialias::Adaptive { threshold, grid } => {
+                format!("--antialias adaptive:{threshold}:{grid}")
+            }
+            Antialias::Grid(n) => format!("--antialias {n}"),
+        },
+    },
+    Knob {
+        name: "depth",
+        effects: &[Effect::Reflection],
+        settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
+        between: true,
+        set: |options, depth| options.depth = Some(depth as u32),
+        get: |options| options.depth.map_or(0.0, f64::from),
+        least: |_| 1.0,
+        factor: |_| 1.0,
+        label: |depth| format!("{depth}"),
+        flag: |depth| format!("--depth {depth}"),
+    },
+    Knob {
+        name: "adc-bailout",
+        effects: &[Effect::Reflection],
+        settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
+        between: true,
+        set: |options, weight| options.adc_bailout = Some(weight),
+        get: |options| options.adc_bailout.unwrap_or(0.0),
+        least: |_| 1.0,
+        factor: |_| 1.0,
+        label: |weight| match 1.0 / weight {
+            parts if parts.is_finite() && parts.round() == parts => format!("1/{parts}"),
+            _ => format!("{weight}"),
+        },
+        flag: |weight| format!("--adc-bailout {weight}"),
+    },
+    Knob {
+        name: "precision",
+        effects: &Effect::ALL,
+        settings: &[0.0, 1.0],
+        between: false,
+        set: |options, double| options.precision = PRECISIONS[usize::from(double > 0.0)],
+        get: |options| f64::from(u8::from(options.precision == Precision::Double)),
+        least: |_| 1.0,
+        factor: |double| if double > 0.0 { 1.0 } else { SINGLE },
+        label: |double| precision(double).to_owned(),
+        flag: |double| format!("--precision {}", precision(double)),
+    },
+];
+
+const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
+/// What a ray costs in single precision, of what it costs in double: kernels that make up for what
+/// rounding the ray to them costs are few.
+const SINGLE: f64 = 1.05;
+
+fn precision(double: f64) -> &'static str {
+    if double > 0.0 { "double" } else { "single" }
+}
+
+/// The ways to antialias, about from cheap to dear; the third is what `render` does.
+const LADDER: [Antialias; 14] = [
+    Antialias::Off,
+    Antialias::Adaptive { threshold: 0.1, grid: 3 },
+    Antialias::Adaptive { threshold: 0.05, grid: 4 },
+    Antialias::Adaptive { threshold: 0.02, grid: 6 },
+    Antialias::Adaptive { threshold: 0.01, grid: 8 },
+    Antialias::Grid(2),
+    Antialias::Grid(3),
+    Antialias::Grid(4),
+    Antialias::Grid(6),
+    Antialias::Grid(8),
+    Antialias::Grid(12),
+    Antialias::Grid(16),
+    Antialias::Grid(24),
+    Antialias::Grid(32),
+];
+
+impl Knob {
+    /// The settings, with the scene's `own` among them: each once, from cheap to dear.
+    pub fn with(&self, own: f64) -> Vec<f64> {
+        let mut all = self.settings.to_vec();
+        if self.between && !all.contains(&own) {
+            let rising = all.first() < all.last();
+            let dearer = |&setting: &f64| if rising { setting > own } else { setting < own };
+            let place = all.iter().position(dearer).unwrap_or(all.len());
+            all.insert(place, own);
+        }
+        all
+    }
+}
+
+/// What rays cost, in rays of the camera: fitted to CPU seconds of the gallery's scenes.
+pub fn cost(counters: &Counters) -> f64 {
+    let Counters { camera, shadow, reflection } = *counters;
+    camera as f64 + 0.6 * shadow as f64 + reflection as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Frame;
+
+    #[test]
+    fn every_setting_is_what_it_says_after_it_was_set() {
+        for knob in KNOBS {
+            for &setting in knob.settings {
+                let mut options = PlanOptions::new(Frame::whole(1, 1));
+                (knob.set)(&mut options, setting);
+                assert_eq!((knob.get)(&options), setting, "{}", knob.name);
+                assert!(!(knob.label)(setting).is_empty());
+                assert!((knob.flag)(setting).starts_with(&format!("--{} ", knob.name)));
+            }
+        }
+    }
+
+    #[test]
+    fn what_render_does_is_a_rung_of_the_ladder() {
+        assert!(LADDER.contains(&Antialias::default()));
+        let options = PlanOptions::new(Frame::whole(1, 1));
+        assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 4×4");
+        assert_eq!(KNOBS[0].settings.len(), LADDER.len());
+    }
+
+    #[test]
+    fn the_scenes_own_setting_stands_where_it_belongs() {
+        let depth = KNOBS.iter().find(|knob| knob.name == "depth").expect("a knob");
+        assert_eq!(depth.with(7.0)[3..6], [5.0, 7.0, 10.0]);
+        assert_eq!(depth.with(5.0), depth.settings);
+        assert_eq!(depth.with(999.0).last(), Some(&999.0));
+        let cut = KNOBS.iter().find(|knob| knob.name == "adc-bailout").expect("a knob");
+        assert_eq!(cut.with(0.05)[..3], [0.1, 0.05, 1.0 / 64.0]);
+        assert_eq!((cut.label)(1.0 / 255.0), "1/255");
+    }
+}

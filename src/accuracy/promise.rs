@@ -1,0 +1,292 @@
+//! Pictures with a promise: an error not exceeded, or a time.
+//!
+//! **Invariant:** the error reported is found on pixels that had no part in the choice of settings.
+//! [`keep`] reads no clock: the same picture and the same numbers on every run.
+
+use super::audit;
+use super::choose::{Choice, Tuning};
+use super::knob::{Knob, cost};
+use super::measure::{Clock, Timer};
+use super::reference::{Geometries, Reference, Studio, clamped};
+use super::statistics::{Estimate, Metric};
+use super::{Options, Quiet, called_for, dearest, own};
+use crate::plan::{Antialias, Plan, PlanOptions, plan};
+use crate::trace::{Traced, Watch, trace};
+use crate::world::{Origins, World};
+
+/// Part of the promised error that is aimed at: room for what chance does to the audit.
+const AIM: f64 = 0.9;
+/// Of the time that is left after the first pass: for trying settings out, and for the audit.
+const FOR_TUNING: f64 = 0.1;
+const FOR_AUDIT: f64 = 0.15;
+/// Of the time to render in: what the prediction may be wrong by.
+const PREDICTED: f64 = 0.85;
+
+/// What fresh pixels say of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Audit {
+    pub metric: Metric,
+    pub error: Estimate,
+    /// Four times the reference's own error: what is below cannot be told from it.
+    pub resolution: f64,
+    pub pixels: usize,
+}
+
+impl Audit {
+    /// Its interval ends below `most`.
+    pub fn proves(&self, most: f64) -> bool {
+        self.error.high <= most
+    }
+}
+
+/// A picture whose error was promised.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    pub traced: Traced,
+    /// The flags of `render` that make the same picture.
+    pub flags: String,
+    /// None when it was interrupted.
+    pub audit: Option<Audit>,
+    /// A second picture had to be made.
+    pub refined: bool,
+}
+
+/// A picture whose time was promised.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spent {
+    /// Not complete when even the first pass did not fit.
+    pub traced: Traced,
+    pub flags: String,
+    /// None when no time was left for it.
+    pub audit: Option<Audit>,
+}
+
+/// The picture has too few pixels to choose by some and audit by others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TooSmall;
+
+/// Fewer pixels than this prove nothing.
+const LEAST: usize = 30;
+/// About how many there are of each kind where the picture has enough.
+const WANTED: u32 = 2048;
+
+/// Renders with the cheapest settings whose error is at most `promise`, and audits. `None` when
+/// stopped before the picture was begun; `options.budget` is not used.
+pub fn keep(
+    world: &World,
+    origins: &Origins,
+    options: &Options,
+    promise: f64,
+    watch: &dyn Watch,
+) -> Result<Option<Kept>, TooSmall> {
+    let sets = audit::sets(options.frame.region, WANTED, 3, options.seed);
+    if sets.iter().any(|set| set.len() < LEAST) {
+        return Err(TooSmall);
+    }
+    Ok(kept(world, origins, options, promise, &sets, watch))
+}
+
+fn kept(
+    world: &World,
+    origins: &Origins,
+    options: &Options,
+    promise: f64,
+    sets: &[Vec<(u32, u32)>],
+    watch: &dyn Watch,
+) -> Option<Kept> {
+    let geometry = Geometries::new(world);
+    let quiet = Quiet(watch);
+    let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
+    let easel = Easel::new(world, origins, options);
+    let metric = options.metric;
+    let truth = |list: &[(u32, u32)]| {
+        let mut reference = Reference::new(&studio, &easel.deep, list, options.seed, 0)?;
+        reference.resolve(&studio, &easel.deep, list, metric, promise)?;
+        Some(reference)
+    };
+    let choose =
+        |list: &[(u32, u32)], reference: &Reference, aims: &[f64], not: Option<&Choice>| {
+            let mut tuning =
+                Tuning::new(studio, origins, (list, reference), metric, &easel.knobs, easel.own);
+            let mut choice = tuning.cheapest(aims[0])?;
+            for &aim in &aims[1..] {
+                if not.is_some_and(|not| not.options == choice.options) {
+                    choice = tuning.cheapest(aim)?;
+                }
+            }
+            Some(choice)
+        };
+    let mut kept = Kept {
+        traced: Traced::unbegun(options.frame, world.settings.assumed_gamma),
+        flags: String::new(),
+        audit: None,
+        refined: false,
+    };
+    let mut render = |choice: &Choice, list: &[(u32, u32)], reference: &mut Reference| {
+        kept.flags = easel.flags(&choice.options);
+        kept.audit = None;
+        kept.traced = trace(world, &plan(world, origins, &choice.options), &options.trace, watch);
+        if kept.traced.complete {
+            let error = audited(&kept.traced, list, reference, metric).error.value;
+            reference.resolve(&studio, &easel.deep, list, metric, error)?;
+            kept.audit = Some(audited(&kept.traced, list, reference, metric));
+        }
+        kept.audit
+    };
+
+    let reference = truth(&sets[0])?;
+    let choice = choose(&sets[0], &reference, &[AIM * promise], None)?;
+    let mut fresh = truth(&sets[1])?;
+    let Some(audit) = render(&choice, &sets[1], &mut fresh) else { return Some(kept) };
+    if audit.proves(promise) {
+        return Some(kept);
+    }
+    // By how much it failed is how much lower to aim; what audited it now helps to choose.
+    let aim = AIM * promise * (promise / audit.error.high);
+    let both: Vec<_> = sets[0].iter().chain(&sets[1]).copied().collect();
+    let aims = [AIM * aim, 0.7 * aim, 0.5 * aim, 0.3 * aim];
+    let choice = choose(&both, &reference.and(fresh), &aims, Some(&choice))?;
+    let mut fresh = truth(&sets[2])?;
+    render(&choice, &sets[2], &mut fresh);
+    kept.refined = true;
+    Some(kept)
+}
+
+/// Renders as well as can be before the clock shows `until`, and audits in what is left of it.
+pub fn spend(
+    world: &World,
+    origins: &Origins,
+    options: &Options,
+    until: f64,
+    clock: &dyn Clock,
+    watch: &dyn Watch,
+) -> Spent {
+    let easel = Easel::new(world, origins, options);
+    let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
+    let in_time = Deadline { clock, until, watch };
+    let timer = Timer::new(clock, &in_time);
+    let first = trace(world, &plan(world, origins, &off), &options.trace, &timer);
+    let took = timer.read().1;
+    let mut spent = Spent { traced: first, flags: easel.flags(&off), audit: None };
+    if !spent.traced.complete {
+        return spent;
+    }
+    let geometry = Geometries::new(world);
+    let left = until - clock.wall();
+    let render_until = until - FOR_AUDIT * left;
+    let pixels = spent.traced.film.radiance.len() as f64;
+    let a_sample = took / pixels;
+    let a_unit = took / cost(&spent.traced.counters);
+    let mut sets = audit::sets(options.frame.region, WANTED, 2, options.seed).into_iter();
+    let (mut tuning, fresh) = (sets.next().unwrap_or_default(), sets.next().unwrap_or_default());
+
+    // As many tuning pixels as there is time for, of the coarsest reference.
+    let mut deep_sample = a_sample;
+    let affordable = (FOR_TUNING * left / a_sample / Reference::LEAST_SAMPLES).min(pixels / 16.0);
+    thin(&mut tuning, affordable as usize);
+    let choice = (tuning.len() >= LEAST).then(|| {
+        let late = Deadline { clock, until: clock.wall() + 2.0 * FOR_TUNING * left, watch };
+        let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &late };
+        let began = clock.wall();
+        let reference = Reference::new(&studio, &easel.deep, &tuning, options.seed, 0)?;
+        deep_sample =
+            (clock.wall() - began) / (tuning.len() as f64 * f64::from(reference.samples()));
+        let (list, knobs) = ((tuning.as_slice(), &reference), &easel.knobs);
+        let mut tuning = Tuning::new(studio, origins, list, options.metric, knobs, easel.own);
+        tuning.best(PREDICTED * (render_until - clock.wall()) / (a_unit * pixels))
+    });
+    // What is known of nothing better, or of nothing at all, still has edges to smooth.
+    let chosen = choice.flatten().map_or(easel.own, |choice| choice.options);
+    let choice = if chosen == off { easel.own } else { chosen };
+    if left > 0.0 {
+        let late = Deadline { clock, until: render_until, watch };
+        let second = trace(world, &plan(world, origins, &choice), &options.trace, &late);
+        spent.flags = easel.flags(&choice);
+        spent.traced = over(spent.traced, second);
+    }
+
+    let left = PREDICTED * (until - clock.wall());
+    let mut fresh = fresh;
+    let affordable = (left / deep_sample.max(a_sample)) as usize;
+    thin(&mut fresh, affordable / Reference::LEAST_SAMPLES as usize);
+    if fresh.len() >= LEAST {
+        let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
+        let step = Reference::finest_within(affordable / fresh.len());
+        let reference = Reference::new(&studio, &easel.deep, &fresh, options.seed, step);
+        spent.audit =
+            reference.map(|reference| audited(&spent.traced, &fresh, &reference, options.metric));
+    }
+    spent
+}
+
+/// The plans a picture is made and judged by.
+struct Easel<'a> {
+    own: PlanOptions,
+    deep: Plan,
+    knobs: Vec<&'a Knob>,
+}
+
+impl<'a> Easel<'a> {
+    fn new(world: &World, origins: &Origins, options: &Options<'a>) -> Self {
+        let own = own(world, options.frame);
+        let deep = plan(world, origins, &dearest(own, options.knobs));
+        Self { own, deep, knobs: called_for(world, origins, own, options.knobs) }
+    }
+
+    fn flags(&self, options: &PlanOptions) -> String {
+        let flags = self.knobs.iter().map(|knob| (knob.flag)((knob.get)(options)));
+        flags.collect::<Vec<_>>().join(" ")
+    }
+}
+
+fn audited(traced: &Traced, list: &[(u32, u32)], reference: &Reference, metric: Metric) -> Audit {
+    let film = &traced.film;
+    let color = |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
+    let colors: Vec<_> = list.iter().map(color).collect();
+    Audit {
+        metric,
+        error: metric.estimate(&reference.deviations(&colors)),
+        resolution: 4.0 * reference.floor(metric),
+        pixels: list.len(),
+    }
+}
+
+/// The better film where it was reached, else the first.
+fn over(first: Traced, mut better: Traced) -> Traced {
+    for (i, samples) in better.film.samples.iter_mut().enumerate() {
+        if *samples == 0 {
+            *samples = first.film.samples[i];
+            better.film.radiance[i] = first.film.radiance[i];
+        }
+    }
+    better.counters += first.counters;
+    better.complete = true;
+    better
+}
+
+/// Keeps about `most` of a list, evenly.
+fn thin(list: &mut Vec<(u32, u32)>, most: usize) {
+    if list.len() > most {
+        let (count, kept) = (list.len(), most);
+        *list = (0..kept).map(|i| list[i * count / kept]).collect();
+    }
+}
+
+/// Asks to stop when the time is up.
+struct Deadline<'a> {
+    clock: &'a dyn Clock,
+    until: f64,
+    watch: &'a dyn Watch,
+}
+
+impl Watch for Deadline<'_> {
+    fn progress(&self, _: usize, _: usize) {}
+
+    fn built(&self) {
+        self.watch.built();
+    }
+
+    fn should_stop(&self) -> bool {
+        self.clock.wall() >= self.until || self.watch.should_stop()
+    }
+}

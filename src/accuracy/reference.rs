@@ -1,0 +1,163 @@
+//! What the pixels really look like, as closely as one cares to know, and how closely that is.
+//!
+//! **Invariant:** made of two halves that share no sample; half their difference is the reference's
+//! own error, and is reported.
+
+use std::sync::OnceLock;
+
+use super::statistics::{Deviation, Metric};
+use crate::color::Rgb;
+use crate::film::linear;
+use crate::geometry::Geometry;
+use crate::plan::{Plan, Precision};
+use crate::trace::{self, Counters, Sampling, TraceOptions, Watch, pixels};
+use crate::world::World;
+
+/// Samples along the side of a pixel, a half: each has about twice the samples of the last.
+const SIDES: [u32; 7] = [8, 11, 16, 23, 32, 45, 64];
+
+/// A colour as errors are measured: linear, clamped to 0 … 1.
+pub fn clamped(radiance: Rgb, assumed_gamma: f64) -> [f64; 3] {
+    radiance.components().map(|c| linear(c, assumed_gamma).min(1.0))
+}
+
+/// The same World in each arithmetic, the second made when it is first asked for.
+pub struct Geometries {
+    double: Geometry,
+    single: OnceLock<Geometry>,
+}
+
+impl Geometries {
+    pub fn new(world: &World) -> Self {
+        Self { double: Geometry::build(world), single: OnceLock::new() }
+    }
+}
+
+/// What is traced, and with what.
+#[derive(Clone, Copy)]
+pub struct Studio<'a> {
+    pub world: &'a World,
+    pub geometry: &'a Geometries,
+    pub options: TraceOptions,
+    pub watch: &'a dyn Watch,
+}
+
+impl Studio<'_> {
+    /// The colours of some pixels under a Plan, and the work they were. `None` when stopped.
+    pub fn colors(
+        &self,
+        plan: &Plan,
+        list: &[(u32, u32)],
+        sampling: Sampling,
+    ) -> Option<(Vec<[f64; 3]>, Counters)> {
+        let Self { world, geometry, options, watch } = *self;
+        let geometry = match plan.precision {
+            Precision::Double => &geometry.double,
+            Precision::Single => geometry.single.get_or_init(|| trace::geometry(world, plan)),
+        };
+        let seen = pixels(world, geometry, plan, list, sampling, &options, watch)?;
+        let gamma = world.settings.assumed_gamma;
+        Some((seen.radiance.iter().map(|&c| clamped(c, gamma)).collect(), seen.counters))
+    }
+}
+
+/// Two independent estimates of each pixel of a list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    halves: [Vec<[f64; 3]>; 2],
+    /// Which of [`SIDES`].
+    step: usize,
+    seed: u64,
+    pub counters: Counters,
+}
+
+impl Reference {
+    /// Of the coarsest, each pixel.
+    pub const LEAST_SAMPLES: f64 = 128.0;
+
+    /// How often it can be doubled with `samples` a pixel to spend.
+    pub fn finest_within(samples: usize) -> usize {
+        SIDES.iter().rposition(|&side| 2 * side as usize * side as usize <= samples).unwrap_or(0)
+    }
+
+    /// The coarsest, or `step` doublings of it. `plan` says how deep; its antialiasing is not used.
+    pub fn new(
+        studio: &Studio,
+        plan: &Plan,
+        list: &[(u32, u32)],
+        seed: u64,
+        step: usize,
+    ) -> Option<Self> {
+        let step = step.min(SIDES.len() - 1);
+        let mut counters = Counters::default();
+        let mut half = |number: u64| {
+            let seed =
+                seed.wrapping_mul(2 * SIDES.len() as u64).wrapping_add(2 * step as u64 + number);
+            let sampling = Sampling::Jittered { side: SIDES[step], seed };
+            let (colors, work) = studio.colors(plan, list, sampling)?;
+            counters += work;
+            Some(colors)
+        };
+        let halves = [half(0)?, half(1)?];
+        Some(Self { halves, step, seed, counters })
+    }
+
+    /// Of twice the samples; `Ok(false)` where it is as fine as it gets.
+    pub fn double(&mut self, studio: &Studio, plan: &Plan, list: &[(u32, u32)]) -> Option<bool> {
+        if self.is_finest() {
+            return Some(false);
+        }
+        let finer = Self::new(studio, plan, list, self.seed, self.step + 1)?;
+        let before = self.counters;
+        *self = finer;
+        self.counters += before;
+        Some(true)
+    }
+
+    /// Doubles it until its own error is below a quarter of `error`, or the cap is reached.
+    pub fn resolve(
+        &mut self,
+        studio: &Studio,
+        plan: &Plan,
+        list: &[(u32, u32)],
+        metric: Metric,
+        error: f64,
+    ) -> Option<()> {
+        while 4.0 * self.floor(metric) > error && self.double(studio, plan, list)? {}
+        Some(())
+    }
+
+    pub fn is_finest(&self) -> bool {
+        self.step + 1 == SIDES.len()
+    }
+
+    /// Samples of each pixel.
+    pub fn samples(&self) -> u32 {
+        2 * SIDES[self.step] * SIDES[self.step]
+    }
+
+    /// How far `colors` are from it, pixel by pixel.
+    pub fn deviations(&self, colors: &[[f64; 3]]) -> Vec<Deviation> {
+        let halves = self.halves[0].iter().zip(&self.halves[1]);
+        let of = |(color, (a, b)): (&[f64; 3], (&[f64; 3], &[f64; 3]))| Deviation {
+            off: std::array::from_fn(|i| color[i] - (a[i] + b[i]) / 2.0),
+            noise: std::array::from_fn(|i| (a[i] - b[i]) / 2.0),
+        };
+        colors.iter().zip(halves).map(of).collect()
+    }
+
+    /// Its own error.
+    pub fn floor(&self, metric: Metric) -> f64 {
+        metric.floor(&self.deviations(&self.halves[0]))
+    }
+
+    /// Both, as one list after the other.
+    pub fn and(mut self, other: Self) -> Self {
+        let [a, b] = other.halves;
+        self.halves[0].extend(a);
+        self.halves[1].extend(b);
+        self.step = self.step.min(other.step);
+        self.counters += other.counters;
+        self
+    }
+}

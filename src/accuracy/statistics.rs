@@ -1,0 +1,310 @@
+//! One number for how wrong a picture is, and how sure that number is.
+//!
+//! **In:** deviations of single pixels from a reference. **Out:** [`Estimate`]s. **Invariant:** the
+//! same on every run: what is drawn at random is drawn from a fixed seed.
+
+use crate::math::elementary::erf;
+use crate::math::random::Random;
+
+/// A pixel is bad when a component is off by more than this: two steps of 255.
+pub const BAD: f64 = 2.0 / 255.0;
+/// Of the standard normal distribution: 95 % lie within ± this.
+const Z: f64 = 1.959_963_984_540_054;
+/// How many resamples an interval is read from.
+const RESAMPLES: usize = 1000;
+/// Of the resamples. All rows share them, so that their differences are those of pairs.
+const SEED: u64 = 0x6c75_6361_726e_6521;
+
+/// What "wrong" means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Metric {
+    /// The root of the mean square over pixels and components.
+    #[default]
+    Rmse,
+    /// Of a hundred pixels one has a component that is off by more.
+    P99,
+    /// The share of pixels that are off by more than [`BAD`].
+    Bad,
+}
+
+/// How far one pixel is from the reference, in linear components clamped to 0 … 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Deviation {
+    /// From the reference: the mean of its two halves.
+    pub off: [f64; 3],
+    /// Half the difference of the halves: as large as the reference's own standard error.
+    pub noise: [f64; 3],
+}
+
+/// A number and the interval that holds the true one 95 times of 100.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Estimate {
+    pub value: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Metric {
+    pub const ALL: [Self; 3] = [Self::Rmse, Self::P99, Self::Bad];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rmse => "rmse",
+            Self::P99 => "p99",
+            Self::Bad => "bad",
+        }
+    }
+
+    /// The part of one pixel in the number: its square error without what the reference's noise
+    /// adds to it, its largest component, or 1 if it is bad.
+    ///
+    /// The first is (x − A)(x − B) for a reference of independent halves A and B, whose mean is
+    /// the true square error whatever their noise.
+    fn part(self, pixel: &Deviation) -> f64 {
+        let largest = pixel.off.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+        match self {
+            Self::Rmse => {
+                let parts = pixel.off.iter().zip(pixel.noise);
+                parts.map(|(off, noise)| off * off - noise * noise).sum::<f64>() / 3.0
+            }
+            Self::P99 => largest,
+            Self::Bad => f64::from(u8::from(largest > BAD)),
+        }
+    }
+
+    /// From the parts of all pixels, which it may rearrange.
+    fn whole(self, parts: &mut [f64]) -> f64 {
+        let mean = |parts: &[f64]| parts.iter().sum::<f64>() / parts.len().max(1) as f64;
+        match self {
+            Self::Rmse => mean(parts).max(0.0).sqrt(),
+            Self::P99 => quantile(parts, 0.99),
+            Self::Bad => mean(parts),
+        }
+    }
+
+    pub fn of(self, pixels: &[Deviation]) -> f64 {
+        let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
+        self.whole(&mut parts)
+    }
+
+    /// The same measure of the reference's own error.
+    pub fn floor(self, pixels: &[Deviation]) -> f64 {
+        let own: Vec<Deviation> =
+            pixels.iter().map(|p| Deviation { off: p.noise, noise: [0.0; 3] }).collect();
+        self.of(&own)
+    }
+
+    /// What [`Metric::of`] would have been with other pixels: one number a resample (with
+    /// replacement). The k-th resample takes the same pixels whatever they hold.
+    ///
+    /// **Source:** B. Efron, R. Tibshirani, An Introduction to the Bootstrap (1993), ch. 13.
+    pub fn resampled(self, pixels: &[Deviation]) -> Vec<f64> {
+        self.redrawn(&pixels.iter().map(|pixel| self.part(pixel)).collect::<Vec<_>>())
+    }
+
+    fn redrawn(self, parts: &[f64]) -> Vec<f64> {
+        if parts.is_empty() {
+            return Vec::new();
+        }
+        let mut drawn = vec![0.0; parts.len()];
+        let draw = |resample| {
+            let mut random = Random::of(SEED, resample as u64);
+            // The upper half of a product is as even as a remainder, and much sooner had.
+            let mut place = || ((random.bits() >> 32) * parts.len() as u64 >> 32) as usize;
+            drawn.iter_mut().for_each(|part| *part = parts[place()]);
+            self.whole(&mut drawn)
+        };
+        (0..RESAMPLES).map(draw).collect()
+    }
+
+    /// The number with its interval: by bootstrap for RMSE, by Wilson's for shares, and for the
+    /// 99th percentile by the ranks that Wilson's interval of 99 % spans.
+    pub fn estimate(self, pixels: &[Deviation]) -> Estimate {
+        let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
+        let value = self.whole(&mut parts);
+        let (low, high) = match self {
+            Self::Rmse => {
+                let (low, _) = self.corrected(&parts);
+                // The next pixel may be as bad as the worst so far.
+                parts.extend(parts.iter().copied().max_by(f64::total_cmp));
+                (low, self.corrected(&parts).1)
+            }
+            Self::Bad => wilson(parts.iter().sum(), parts.len() as f64),
+            Self::P99 => {
+                let count = parts.len() as f64;
+                let (low, high) = wilson(0.99 * count, count);
+                (quantile(&mut parts, low), quantile(&mut parts, high))
+            }
+        };
+        Estimate { value, low: low.min(value), high: high.max(value) }
+    }
+
+    /// As [`interval`] of the resamples, corrected for bias and for the skewness of the parts, of
+    /// whose mean the number is a rising function: errors are skewed, a few pixels have most of them.
+    ///
+    /// **Source:** B. Efron, "Better bootstrap confidence intervals", JASA 82, 1987 (BCa); the
+    /// acceleration of a mean is a sixth of its standardised third moment.
+    fn corrected(self, parts: &[f64]) -> (f64, f64) {
+        let resamples = self.redrawn(parts);
+        let value = self.whole(&mut parts.to_vec());
+        let count = resamples.len().max(1) as f64;
+        let below = resamples.iter().filter(|&&resample| resample < value).count() as f64;
+        let bias = normal_quantile(((below + 0.5) / (count + 1.0)).clamp(0.01, 0.99));
+        let mean = parts.iter().sum::<f64>() / parts.len().max(1) as f64;
+        let (squares, cubes) = parts.iter().fold((0.0, 0.0), |(squares, cubes), part| {
+            let off = part - mean;
+            (squares + off * off, cubes + off * off * off)
+        });
+        let acceleration =
+            if squares > 0.0 { cubes / (6.0 * squares * squares.sqrt()) } else { 0.0 };
+        let mut sorted = resamples;
+        let mut bound = |z: f64| {
+            let shifted = bias + z;
+            // Beyond its pole the correction has no meaning; the outermost resample is what there is.
+            let stretched = shifted / (1.0 - acceleration * shifted).max(0.1);
+            quantile(&mut sorted, normal_share(bias + stretched))
+        };
+        (bound(-Z), bound(Z))
+    }
+}
+
+/// What lies between the 2½th and the 97½th hundredth.
+pub fn interval(resamples: &[f64]) -> (f64, f64) {
+    let mut sorted = resamples.to_vec();
+    (quantile(&mut sorted, 0.025), quantile(&mut sorted, 0.975))
+}
+
+/// The share of a standard normal distribution below `z`.
+fn normal_share(z: f64) -> f64 {
+    0.5 * (1.0 + erf(z * std::f64::consts::FRAC_1_SQRT_2))
+}
+
+/// The inverse of [`normal_share`], by bisection.
+fn normal_quantile(share: f64) -> f64 {
+    let (mut low, mut high) = (-10.0, 10.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if normal_share(middle) < share { low = middle } else { high = middle }
+    }
+    (low + high) / 2.0
+}
+
+/// How much more `a` is than `b`, resample by resample; the interval tells whether it is proven.
+pub fn difference(a: &[f64], b: &[f64]) -> (f64, f64) {
+    interval(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
+}
+
+/// The least number that at least `share` of the list do not exceed; 0 of an empty one.
+fn quantile(list: &mut [f64], share: f64) -> f64 {
+    let rank = (share * list.len() as f64).ceil() as usize;
+    let place = rank.clamp(1, list.len().max(1)) - 1;
+    match place < list.len() {
+        true => *list.select_nth_unstable_by(place, f64::total_cmp).1,
+        false => 0.0,
+    }
+}
+
+/// The 95 % interval of a share of which `hits` of `count` were seen; 0 of n is at most 3.84/n.
+///
+/// **Source:** E. Wilson, "Probable inference, the law of succession, and statistical inference",
+/// JASA 22, 1927.
+pub fn wilson(hits: f64, count: f64) -> (f64, f64) {
+    if count <= 0.0 {
+        return (0.0, 1.0);
+    }
+    let (share, z) = (hits / count, Z * Z / count);
+    let middle = share + z / 2.0;
+    let half = (z * share * (1.0 - share) + z * z / 4.0).sqrt();
+    (((middle - half) / (1.0 + z)).max(0.0), ((middle + half) / (1.0 + z)).min(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gray(off: f64) -> Deviation {
+        Deviation { off: [off; 3], noise: [0.0; 3] }
+    }
+
+    #[test]
+    fn wilsons_interval_has_its_published_values() {
+        // R. Newcombe, Statistics in Medicine 17 (1998), table I, method 3.
+        let published = [
+            (81.0, 263.0, 0.2553, 0.3662),
+            (15.0, 148.0, 0.0624, 0.1605),
+            (0.0, 20.0, 0.0, 0.1611),
+            (1.0, 29.0, 0.0061, 0.1718),
+        ];
+        for (hits, count, low, high) in published {
+            let (l, h) = wilson(hits, count);
+            assert!((l - low).abs() < 6e-5 && (h - high).abs() < 6e-5, "{hits}/{count}: {l} {h}");
+        }
+        assert_eq!(wilson(0.0, 0.0), (0.0, 1.0));
+        assert_eq!(wilson(7.0, 7.0).1, 1.0);
+    }
+
+    #[test]
+    fn the_numbers_are_what_they_are_called() {
+        let pixels: Vec<_> = (1..=1000).map(|i| gray(f64::from(i) * 1e-4)).collect();
+        let rmse = (1001.0f64 * 2001.0 / 6.0).sqrt() * 1e-4;
+        assert!((Metric::Rmse.of(&pixels) - rmse).abs() < 1e-12);
+        assert_eq!(Metric::P99.of(&pixels), 0.099);
+        // 0.0078 is not bad, 0.0079 is.
+        assert_eq!(Metric::Bad.of(&pixels), 0.922);
+        let one = [Deviation { off: [0.0, -0.5, 0.1], noise: [0.0; 3] }];
+        assert_eq!(Metric::P99.of(&one), 0.5);
+        assert!((Metric::Rmse.of(&one) - (0.26f64 / 3.0).sqrt()).abs() < 1e-15);
+        for metric in Metric::ALL {
+            assert_eq!(metric.of(&[]), 0.0);
+            assert!(metric.resampled(&[]).is_empty());
+        }
+    }
+
+    #[test]
+    fn the_bootstrap_of_a_mean_has_the_standard_error_that_theory_says() {
+        // Squares are uniform on 0 … 1: their mean is 1/2 ± 1.96·√(1/12n).
+        let mut random = Random(8);
+        let pixels: Vec<_> = (0..2000).map(|_| gray(random.number(0.0, 1.0).sqrt())).collect();
+        let Estimate { value, low, high } = Metric::Rmse.estimate(&pixels);
+        let half = Z * (1.0f64 / 12.0 / 2000.0).sqrt();
+        assert!(((high * high - low * low) / 2.0 / half - 1.0).abs() < 0.1);
+        assert!(low < value && value < high);
+    }
+
+    #[test]
+    fn the_noise_of_the_reference_is_not_counted_as_error() {
+        // Truth 0.5, x = 0.6, and a reference whose halves are off by ±0.3 at random.
+        let mut random = Random(3);
+        let pixels: Vec<_> = (0..20_000)
+            .map(|_| {
+                let mut half = || 0.5 + random.number(-0.3, 0.3);
+                let (a, b) = (half(), half());
+                Deviation { off: [0.6 - (a + b) / 2.0; 3], noise: [(a - b) / 2.0; 3] }
+            })
+            .collect();
+        assert!((Metric::Rmse.of(&pixels) - 0.1).abs() < 0.01);
+        assert!((Metric::Rmse.floor(&pixels) - 0.3 / 6f64.sqrt()).abs() < 0.003);
+    }
+
+    #[test]
+    fn the_interval_of_a_percentile_holds_it_95_times_of_100() {
+        let mut random = Random(5);
+        let holds = (0..400).filter(|_| {
+            let pixels: Vec<_> = (0..600).map(|_| gray(random.number(0.0, 1.0))).collect();
+            let Estimate { low, high, .. } = Metric::P99.estimate(&pixels);
+            low <= 0.99 && 0.99 <= high
+        });
+        assert!((365..=396).contains(&holds.count()));
+    }
+
+    #[test]
+    fn pairs_tell_apart_what_single_intervals_cannot() {
+        let mut random = Random(9);
+        let a: Vec<_> = (0..500).map(|_| gray(random.number(0.0, 0.2))).collect();
+        let b: Vec<_> = a.iter().map(|pixel| gray(pixel.off[0] * 0.99)).collect();
+        let (of_a, of_b) = (Metric::Rmse.resampled(&a), Metric::Rmse.resampled(&b));
+        assert!(interval(&of_a).0 < interval(&of_b).1);
+        assert!(difference(&of_a, &of_b).0 > 0.0);
+        assert_eq!(difference(&of_a, &of_a), (0.0, 0.0));
+    }
+}

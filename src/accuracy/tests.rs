@@ -1,0 +1,341 @@
+//! Whole measurements of small pictures, held against what every pixel says.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::reference::clamped;
+use super::statistics::Deviation;
+use super::*;
+use crate::math::random::long;
+use crate::plan::{Antialias, Effect};
+use crate::road::{Options as RoadOptions, Road};
+use crate::scene::Dialect;
+use crate::source::NoFiles;
+use crate::trace::{Traced, Unwatched, trace};
+
+/// Balls over a checker, in one another's mirrors; `{}` is a number to vary it by.
+const BALLS: &str = "
+camera { location <0, 1.5, 7> look_at <0, 0.6, 0> angle 45 }
+light_source { <4, 7, 5>, rgb 1 }
+background { rgb <0.3, 0.5, 0.8> }
+plane { y, 0 pigment { checker rgb 1, rgb 0.1 } finish { reflection 0.1 } }
+sphere { <-1, 0.8, {}>, 0.8 pigment { rgb <0.8, 0.3, 0.1> } finish { reflection 0.7 } }
+sphere { <1, 0.7, 0.3>, 0.7 pigment { rgb 0.1 } finish { reflection 0.8 phong 0.7 } }
+box { <-0.3, 0, 1.6>, <0.3, 0.5, 2.1> rotate 20*y pigment { rgb <0.2, 0.7, 0.3> } }
+";
+
+/// No mirror: nothing of depth.
+const PLAIN: &str = "
+camera { location <0, 1.5, 7> look_at 0 angle 40 }
+light_source { <4, 7, 5>, rgb 1 }
+sphere { <-0.6, {}, 0>, 1 pigment { rgb <1, 0.6, 0.2> } }
+box { <0.4, -1, -1>, <1.6, 0.3, 1> rotate 30*y pigment { rgb <0.3, 0.5, 1> } }
+plane { y, -1 pigment { rgb 0.7 } }
+";
+
+fn compiled(text: &str, number: f64) -> (World, Origins) {
+    let mut road = Road::new(&NoFiles, RoadOptions::new(Dialect::Scene));
+    let text = text.replace("{}", &number.to_string());
+    let compiled = road.compile("a.scene", text.into_bytes());
+    assert_eq!(road.diagnostics.len(), 0, "{:?}", road.diagnostics.iter().collect::<Vec<_>>());
+    compiled
+}
+
+const ONE_THREAD: TraceOptions = TraceOptions { threads: Some(1) };
+
+fn asked(width: u32, height: u32) -> Options<'static> {
+    Options {
+        frame: Frame::whole(width, height),
+        knobs: KNOBS,
+        metric: Metric::Rmse,
+        budget: 1e4,
+        seed: 1,
+        trace: ONE_THREAD,
+    }
+}
+
+/// A clock that stands still unless it is asked: then a tick passes.
+struct Ticking(AtomicU64, f64);
+
+impl Ticking {
+    fn new(tick: f64) -> Self {
+        Self(AtomicU64::new(0), tick)
+    }
+}
+
+impl Clock for Ticking {
+    fn wall(&self) -> f64 {
+        self.0.fetch_add(1, Ordering::Relaxed) as f64 * self.1
+    }
+
+    fn cpu(&self) -> f64 {
+        self.wall()
+    }
+}
+
+/// Every pixel of a film against a fine reference.
+struct Truth {
+    reference: Reference,
+    list: Vec<(u32, u32)>,
+}
+
+impl Truth {
+    fn new(world: &World, origins: &Origins, frame: Frame, step: usize) -> Self {
+        let geometry = Geometries::new(world);
+        let studio = Studio { world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+        let list = audit::sets(frame.region, u32::MAX, 1, 0).remove(0);
+        let deep = plan(world, origins, &dearest(own(world, frame), KNOBS));
+        let reference = Reference::new(&studio, &deep, &list, 77, step).expect("not stopped");
+        Self { reference, list }
+    }
+
+    fn deviations(&self, traced: &Traced) -> Vec<Deviation> {
+        let film = &traced.film;
+        let color =
+            |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
+        self.reference.deviations(&self.list.iter().map(color).collect::<Vec<_>>())
+    }
+}
+
+#[test]
+fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
+    let frame = Frame::whole(96, 72);
+    for (text, antialias) in
+        [(BALLS, Antialias::Grid(2)), (BALLS, Antialias::default()), (PLAIN, Antialias::Off)]
+    {
+        let (world, origins) = compiled(text, 0.0);
+        let truth = Truth::new(&world, &origins, frame, 2);
+        let own = own(&world, frame);
+        let deep = plan(&world, &origins, &dearest(own, KNOBS));
+        let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
+        let traced = trace(&world, &plan, &ONE_THREAD, &Unwatched);
+        let exact = truth.deviations(&traced);
+        let geometry = Geometries::new(&world);
+        let studio =
+            Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+        let mut holds = [0; 3];
+        for seed in 0..100 {
+            // A ninth of the pixels.
+            let list = audit::sets(frame.region, 700, 1, seed).remove(0);
+            let reference = Reference::new(&studio, &deep, &list, seed, 0).expect("not stopped");
+            let film = &traced.film;
+            let colors: Vec<_> = list
+                .iter()
+                .map(|&(x, y)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma))
+                .collect();
+            let off = reference.deviations(&colors);
+            for (holds, metric) in holds.iter_mut().zip(Metric::ALL) {
+                let Estimate { low, high, .. } = metric.estimate(&off);
+                *holds += u32::from((low..=high).contains(&metric.of(&exact)));
+            }
+        }
+        // Those of shares and percentiles are wide on purpose.
+        let [rmse, p99, bad] = holds;
+        let fair = (90..=99).contains(&rmse) && p99 >= 90 && bad >= 90;
+        assert!(fair, "{antialias:?} {holds:?}");
+    }
+}
+
+/// Changes what no scene notices.
+const PLANTED: Knob = Knob {
+    name: "planted",
+    effects: &[Effect::Antialiasing],
+    settings: &[1.0, 2.0, 3.0],
+    between: false,
+    set: |_, _| (),
+    get: |_| 2.0,
+    least: |_| 1.0,
+    factor: |_| 1.0,
+    label: |value| format!("{value}"),
+    flag: |value| format!("--planted {value}"),
+};
+
+#[test]
+fn a_knob_that_does_nothing_is_said_to_buy_nothing() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let options = Options { knobs: &[KNOBS[0], PLANTED], ..asked(40, 30) };
+    let clock = Ticking::new(1e-3);
+    let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
+    let planted = report.knobs.iter().find(|knob| knob.name == "planted").expect("tried");
+    assert_eq!(
+        planted.sentence,
+        "planted buys nothing here: from 1 to 3 not one of 1200 audited pixels changes."
+    );
+    assert!(planted.settings[1].is_own && planted.settings[1].row == 0);
+    let antialias = &report.knobs[0];
+    assert!(
+        antialias.sentence.starts_with("antialias bought, from off to "),
+        "{}",
+        antialias.sentence
+    );
+}
+
+#[test]
+fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
+    let names = |text| {
+        let (world, origins) = compiled(text, 0.0);
+        let own = own(&world, Frame::whole(8, 6));
+        let called = called_for(&world, &origins, own, KNOBS);
+        called.iter().map(|knob| knob.name).collect::<Vec<_>>()
+    };
+    assert_eq!(names(PLAIN), ["antialias", "precision"]);
+    assert_eq!(names(BALLS), ["antialias", "depth", "adc-bailout", "precision"]);
+    // A scene that reflects and says how deep not to look is told what that costs it.
+    let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
+    assert_eq!(names(&flat), ["antialias", "depth", "adc-bailout", "precision"]);
+}
+
+#[test]
+fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let options = Options { knobs: &KNOBS[..2], ..asked(40, 30) };
+    let clock = Ticking::new(1e-3);
+    let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
+    assert_eq!(report.audited, 1200, "all of them");
+    let truth = Truth::new(&world, &origins, options.frame, 3);
+    for (row, antialias, depth) in [
+        (0, Antialias::default(), 5),
+        (report.knobs[0].settings[0].row, Antialias::Off, 5),
+        (report.knobs[1].settings[1].row, Antialias::default(), 2),
+    ] {
+        let options = PlanOptions { antialias, depth: Some(depth), ..own(&world, options.frame) };
+        let traced = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched);
+        let exact = Metric::Rmse.of(&truth.deviations(&traced));
+        let Estimate { value, low, high } = report.rows[row].errors[0];
+        assert!((value / exact - 1.0).abs() < 0.1, "{antialias:?} {depth}: {value} {exact}");
+        assert!(low < exact && exact < high);
+        assert_eq!(report.rows[row].counters, traced.counters);
+    }
+    let rows = &report.knobs[1].settings;
+    assert!(rows.iter().position(|setting| setting.is_own) == Some(3) && rows[3].label == "5");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_errors_whatever_the_threads() {
+    let (world, origins) = compiled(BALLS, 0.4);
+    let errors = |threads, seed| {
+        let trace = TraceOptions { threads: Some(threads) };
+        let options = Options { knobs: &KNOBS[2..], trace, seed, ..asked(120, 90) };
+        let clock = Ticking::new(1e-3);
+        let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("done");
+        report.rows.iter().map(|row| row.errors).collect::<Vec<_>>()
+    };
+    let one = errors(1, 4);
+    assert_eq!(one, errors(3, 4));
+    assert_ne!(one, errors(1, 5));
+}
+
+#[test]
+fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let clock = Ticking::new(1e-3);
+    let report =
+        accuracy(&world, &origins, &asked(40, 30), &clock, &Unwatched).expect("not stopped");
+    let table = table::text(&report, "a.scene", 1);
+    let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
+    assert_eq!(stars.len(), 4, "{table}");
+    assert!(stars[0].contains("adaptive 0.05 4×4") && stars[1].contains("5 "), "{table}");
+    let host = json::Host {
+        os: "linux".to_owned(),
+        arch: "x86_64".to_owned(),
+        cpu: "<fast & cheap>".to_owned(),
+        cores: 2,
+        threads: 1,
+        version: "0".to_owned(),
+    };
+    let value: serde_json::Value =
+        serde_json::from_str(&json::line(&report, "a.scene", &host)).expect("JSON");
+    assert_eq!(value["host"]["threads"], 1);
+    assert_eq!(value["rows"].as_array().map(Vec::len), Some(report.rows.len()));
+    assert_eq!(value["knobs"][1]["settings"][3]["flag"], "--depth 5");
+    let svg = svg::text(&report, "a<b>.scene", &host);
+    balanced(&svg);
+    let points = report.knobs.iter().map(|knob| knob.settings.len()).sum::<usize>();
+    assert_eq!(svg.matches("<g class=\"k").count(), points + report.knobs.len());
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+}
+
+/// Every element that is opened is closed, in order.
+fn balanced(svg: &str) {
+    let mut open = Vec::new();
+    for tag in svg.split('<').skip(1) {
+        let (tag, _) = tag.split_once('>').expect("closed");
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        let name = tag.trim_start_matches('/').split([' ', '/']).next().expect("a name");
+        if tag.starts_with('/') {
+            assert_eq!(open.pop(), Some(name), "{tag}");
+        } else if !tag.ends_with('/') {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+}
+
+#[test]
+fn a_promised_error_is_kept_for_95_of_100_pictures_and_errors() {
+    let pairs = if long() > 1 { 100 } else { 20 };
+    let errors = [0.05, 0.03, 0.02, 0.015, 0.01];
+    let mut broken = Vec::new();
+    for pair in 0..pairs {
+        let (text, number) = (if pair % 2 == 0 { BALLS } else { PLAIN }, 0.1 * (pair / 10) as f64);
+        let promise = errors[pair / 2 % errors.len()];
+        let (world, origins) = compiled(text, number);
+        let options = Options { seed: pair as u64, ..asked(48, 36) };
+        let kept = keep(&world, &origins, &options, promise, &Unwatched);
+        let kept = kept.expect("large enough").expect("not stopped");
+        let truth = Truth::new(&world, &origins, options.frame, 1);
+        let exact = Metric::Rmse.of(&truth.deviations(&kept.traced));
+        let audit = kept.audit.expect("not interrupted");
+        if !audit.proves(promise) || exact > promise {
+            broken.push((pair, promise, exact, audit, kept.refined));
+        }
+    }
+    assert!(20 * broken.len() <= pairs, "{broken:#?}");
+}
+
+#[test]
+fn a_promise_is_kept_by_the_same_picture_on_every_run() {
+    let (world, origins) = compiled(BALLS, 0.2);
+    let picture = |threads| {
+        let trace = TraceOptions { threads: Some(threads) };
+        let options = Options { trace, ..asked(48, 36) };
+        keep(&world, &origins, &options, 0.03, &Unwatched)
+    };
+    assert_eq!(picture(1), picture(4));
+    let tiny = asked(6, 4);
+    assert_eq!(keep(&world, &origins, &tiny, 0.03, &Unwatched), Err(TooSmall));
+}
+
+#[test]
+fn a_promise_that_cannot_be_kept_is_missed_after_one_refinement() {
+    let (world, origins) = compiled(BALLS, 0.2);
+    // Two settings, and both are poor.
+    let poor = Knob { settings: &[0.0, 5.0], ..KNOBS[0] };
+    let options = Options { knobs: &[poor], ..asked(40, 30) };
+    let kept = keep(&world, &origins, &options, 1e-3, &Unwatched);
+    let kept = kept.expect("large enough").expect("not stopped");
+    assert!(kept.refined && !kept.audit.expect("done").proves(1e-3));
+    assert_eq!(kept.flags, "--antialias 2");
+}
+
+#[test]
+fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let frame = Frame::whole(160, 120);
+    let truth = Truth::new(&world, &origins, frame, 0);
+    let mut last = f64::INFINITY;
+    // A tick is a row of a tile: the first pass takes about 600.
+    for time in [1500.0, 6000.0, 40_000.0] {
+        let clock = Ticking::new(1.0);
+        let options = asked(160, 120);
+        let spent = spend(&world, &origins, &options, time, &clock, &Unwatched);
+        assert!(spent.traced.complete && clock.wall() <= 1.05 * time);
+        let error = Metric::Rmse.of(&truth.deviations(&spent.traced));
+        assert!(error <= last, "{error} {last}");
+        last = error;
+    }
+    let clock = Ticking::new(1.0);
+    let spent = spend(&world, &origins, &asked(160, 120), 300.0, &clock, &Unwatched);
+    assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 315.0);
+    let done = spent.traced.film.samples.iter().filter(|&&samples| samples == 1).count();
+    assert!(done > 0 && done < 160 * 120);
+}

@@ -1,0 +1,101 @@
+//! `lucarne accuracy`: what each setting costs and buys, as a table, a diagram, JSON.
+
+use std::fs;
+use std::num::NonZero;
+use std::path::Path;
+use std::thread::available_parallelism;
+
+use lucarne::accuracy::json::{self, Host};
+use lucarne::accuracy::{Clock, KNOBS, Knob, Options, accuracy, svg, table};
+use lucarne::road::Road;
+use lucarne::trace::TraceOptions;
+
+use super::arguments::AccuracyArguments;
+use super::exit::{Exit, Failure, Outcome};
+use super::files::{DiskFiles, read_main};
+use super::messages;
+use super::output::write_whole;
+use super::progress::Progress;
+use super::stats::{Stopwatch, cpu_seconds};
+
+impl Clock for Stopwatch {
+    fn wall(&self) -> f64 {
+        self.wall_seconds()
+    }
+
+    fn cpu(&self) -> f64 {
+        cpu_seconds()
+    }
+}
+
+pub fn run(arguments: &AccuracyArguments) -> Outcome {
+    let clock = Stopwatch::start();
+    let frame = arguments.frame.frame(&arguments.scene)?;
+    let svg_path = arguments.svg.as_deref();
+    if let Some(path) = svg_path.filter(|path| path.extension().is_none_or(|e| e != "svg")) {
+        let sentence = format!("the diagram is an .svg, and `{}` is not", path.display());
+        return Err(Failure::usage(sentence));
+    }
+    let bytes = read_main(&arguments.file)?;
+    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
+    let name = arguments.file.to_string_lossy();
+    let (world, origins) = road.compile(&name, bytes);
+    let mut messages = arguments.scene.messages();
+    // The report takes standard output.
+    messages.picture_on_stdout = true;
+    messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
+    messages.summarize();
+    match messages.exit() {
+        Exit::Done => {}
+        other => return Ok(other),
+    }
+
+    let asked = |knob: &&Knob| arguments.knobs.is_empty() || arguments.knobs.contains(&knob.name);
+    let knobs: Vec<Knob> = KNOBS.iter().filter(asked).copied().collect();
+    let cores = available_parallelism().map_or(1, NonZero::get);
+    let threads = arguments.threads.map_or(cores, usize::from);
+    let options = Options {
+        frame,
+        knobs: &knobs,
+        metric: arguments.metric.into(),
+        budget: (arguments.budget - clock.wall_seconds()).max(0.0),
+        seed: arguments.seed,
+        trace: TraceOptions { threads: Some(threads) },
+    };
+    let progress = Progress::start();
+    let report = accuracy(&world, &origins, &options, &clock, &progress);
+    progress.end();
+    let Some(report) = report else {
+        messages::eprint("interrupted: nothing was reported\n");
+        return Ok(Exit::Interrupted);
+    };
+    let host = host(cores, threads);
+    match arguments.json {
+        true => messages::print(&(json::line(&report, &name, &host) + "\n"))?,
+        false => messages::print(&table::text(&report, &name, threads))?,
+    }
+    if let Some(path) = svg_path {
+        write_whole(path, svg::text(&report, &short(&arguments.file), &host).as_bytes())?;
+        messages::eprint(&format!("{}: the work-precision diagram\n", path.display()));
+    }
+    Ok(Exit::Done)
+}
+
+fn short(file: &Path) -> String {
+    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The machine, as far as a reader of seconds wants to know it.
+fn host(cores: usize, threads: usize) -> Host {
+    let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    Host {
+        os: std::env::consts::OS.to_owned(),
+        arch: std::env::consts::ARCH.to_owned(),
+        cpu: model.map_or("unknown".to_owned(), |(_, model)| model.trim().to_owned()),
+        cores,
+        threads,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+    }
+}

@@ -1,0 +1,144 @@
+//! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
+
+use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, TooSmall, table};
+use lucarne::plan::{Frame, PlanOptions, plan};
+use lucarne::trace::{TraceOptions, Traced, trace};
+use lucarne::world::{Origins, World};
+
+use super::arguments::RenderArguments;
+use super::exit::{Exit, Failure};
+use super::progress::Progress;
+use super::stats::Stopwatch;
+
+/// The pixels and samples of an audit are drawn from this.
+const SEED: u64 = 1;
+/// Seconds to encode and write a pixel in, with room to spare.
+const TO_WRITE: f64 = 2e-7;
+/// Seconds to find an interval in.
+const TO_REPORT: f64 = 0.02;
+
+/// A picture, and what is to be said of it.
+pub struct Made {
+    pub traced: Traced,
+    /// A line for people; empty where nothing was promised.
+    pub said: String,
+    /// What the program ends with once the picture is written.
+    pub exit: Exit,
+}
+
+/// Makes the picture as the command line wants it.
+pub fn make(
+    arguments: &RenderArguments,
+    (world, origins): (&World, &Origins),
+    plain: &PlanOptions,
+    trace_options: TraceOptions,
+    clock: &Stopwatch,
+    progress: &Progress,
+) -> Result<Made, Failure> {
+    let options = Options {
+        frame: plain.frame,
+        knobs: KNOBS,
+        metric: arguments.metric.into(),
+        budget: 0.0,
+        seed: SEED,
+        trace: trace_options,
+    };
+    if let Some(promise) = arguments.max_error {
+        return keep(world, origins, &options, promise, progress);
+    }
+    if let Some(seconds) = arguments.time_budget {
+        return Ok(spend(world, origins, &options, seconds, clock, progress));
+    }
+    let traced = trace(world, &plan(world, origins, plain), &trace_options, progress);
+    let exit = if traced.complete { Exit::Done } else { Exit::Interrupted };
+    Ok(Made { traced, said: String::new(), exit })
+}
+
+fn keep(
+    world: &World,
+    origins: &Origins,
+    options: &Options,
+    promise: f64,
+    progress: &Progress,
+) -> Result<Made, Failure> {
+    let kept = accuracy::keep(world, origins, options, promise, progress);
+    let kept = kept.map_err(|TooSmall| {
+        let Frame { region, .. } = options.frame;
+        let (width, height) = (region.width, region.height);
+        Failure::usage(format!("{width}×{height} pixels are too few to prove an error by"))
+            .help("`--max-error` needs about 16×16")
+    })?;
+    let Some(kept) = kept else {
+        let gamma = world.settings.assumed_gamma;
+        let traced = Traced::unbegun(options.frame, gamma);
+        return Ok(Made { traced, said: String::new(), exit: Exit::Interrupted });
+    };
+    let Some(audit) = kept.audit else {
+        return Ok(Made { traced: kept.traced, said: String::new(), exit: Exit::Interrupted });
+    };
+    let proven = audit.proves(promise);
+    let sign = match (proven, audit.error.value <= promise) {
+        (true, _) => "≤",
+        (false, true) => "is not proven to be ≤",
+        (false, false) => ">",
+    };
+    let amount = table::amount(audit.metric, promise);
+    let refined = if kept.refined { ", in the second picture" } else { "" };
+    let said = format!(
+        "{} {sign} {amount}, on {} fresh pixels{refined}\nthe same picture: {}\n",
+        error(&audit),
+        audit.pixels,
+        kept.flags
+    );
+    Ok(Made { traced: kept.traced, said, exit: if proven { Exit::Done } else { Exit::Promise } })
+}
+
+fn spend(
+    world: &World,
+    origins: &Origins,
+    options: &Options,
+    seconds: f64,
+    clock: &Stopwatch,
+    progress: &Progress,
+) -> Made {
+    let region = options.frame.region;
+    let pixels = f64::from(region.width) * f64::from(region.height);
+    let until = 0.99 * seconds - TO_WRITE * pixels - TO_REPORT;
+    let spent = accuracy::spend(world, origins, options, until, clock, progress);
+    let interrupted = progress.is_stopped();
+    let said = match (&spent.audit, spent.traced.complete) {
+        (_, false) if interrupted => String::new(),
+        (_, false) => {
+            let samples = &spent.traced.film.samples;
+            let done = samples.iter().filter(|samples| **samples > 0).count();
+            let share = 100 * done / samples.len().max(1);
+            format!("{seconds} s are too few for one ray a pixel: {share} % of them are done\n")
+        }
+        (None, true) => {
+            format!("no time was left to find the error by\nmade with: {}\n", spent.flags)
+        }
+        (Some(audit), true) => format!(
+            "{}, on {} fresh pixels, after {:.2} s\nmade with: {}\n",
+            error(audit),
+            audit.pixels,
+            clock.wall(),
+            spent.flags
+        ),
+    };
+    let exit = match spent.traced.complete {
+        _ if interrupted => Exit::Interrupted,
+        true => Exit::Done,
+        false => Exit::Limit,
+    };
+    Made { traced: spent.traced, said, exit }
+}
+
+/// `error 0.0088 [0.0081, 0.0096]`.
+fn error(audit: &Audit) -> String {
+    let amount = |error: f64| table::amount(audit.metric, error);
+    let value = match audit.error.value < audit.resolution {
+        true => format!("< {}", amount(audit.resolution)),
+        false => amount(audit.error.value),
+    };
+    format!("error {value} [{}, {}]", amount(audit.error.low), amount(audit.error.high))
+}

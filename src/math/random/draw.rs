@@ -1,0 +1,50 @@
+//! Sizes, directions and maps drawn at random, and how long tests run.
+
+use super::Random;
+use crate::math::{Matrix, UnitVector, Vector, elementary};
+
+impl Random {
+    /// 10^U(low, high).
+    pub fn size(&mut self, low: f64, high: f64) -> f64 {
+        elementary::pow(10.0, self.number(low, high))
+    }
+
+    pub fn point(&mut self, reach: f64) -> Vector {
+        Vector::from_array([0; 3].map(|_| self.number(-reach, reach)))
+    }
+
+    pub fn direction(&mut self) -> UnitVector {
+        loop {
+            let v = self.point(1.0);
+            if v.length_squared() <= 1.0
+                && let Some(unit) = UnitVector::from_direction(v)
+            {
+                return unit;
+            }
+        }
+    }
+
+    /// One of the 26 directions of faces, edges and corners, its zeros of either sign.
+    pub fn structured_direction(&mut self) -> UnitVector {
+        loop {
+            let v = Vector::from_array([0; 3].map(|_| [-1.0, -0.0, 0.0, 1.0][self.below(4)]));
+            if let Some(unit) = UnitVector::from_direction(v) {
+                return unit;
+            }
+        }
+    }
+
+    pub fn matrix(&mut self) -> Matrix {
+        loop {
+            let m = Matrix::from_cols(self.point(1.0), self.point(1.0), self.point(1.0));
+            if m.determinant().abs() > 0.05 {
+                return m;
+            }
+        }
+    }
+}
+
+/// How many times as much to test: `LUCARNE_LONG=100 cargo test --release`.
+pub(crate) fn long() -> usize {
+    std::env::var("LUCARNE_LONG").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
+}

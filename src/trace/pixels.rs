@@ -1,0 +1,135 @@
+//! Single pixels of a picture: as its Plan has them, or sampled anew as finely as one likes.
+//!
+//! **In:** a list of pixels. **Out:** [`Pixels`]. **Invariant:** as for the film, nothing depends
+//! on the number of threads; a planned pixel has the bits that [`super::trace`] puts there.
+
+use super::antialias::{self, Shown};
+use super::camera::Lens;
+use super::path::Tracer;
+use super::tiles::Crew;
+use super::{Counters, TraceOptions, Walk, Watch, grown};
+use crate::color::Rgb;
+use crate::film::Film;
+use crate::geometry::Geometry;
+use crate::math::random::Random;
+use crate::plan::{Antialias, Frame, Plan, Region};
+use crate::shape::Ray;
+use crate::world::World;
+
+/// Where a pixel's samples lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// As the Plan says. An adaptive Plan looks at the neighbours first; their rays are counted
+    /// with theirs, not here.
+    Planned,
+    /// One sample somewhere in each of `side` × `side` equal parts of the pixel: an unbiased
+    /// estimate of the mean over the pixel, independent of that of any other `seed`.
+    ///
+    /// **Source:** R. Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986.
+    Jittered { side: u32, seed: u64 },
+}
+
+/// What was seen in the pixels of a list, in its order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pixels {
+    /// The mean of each pixel's samples, in the scene's working space.
+    pub radiance: Vec<Rgb>,
+    pub counters: Counters,
+}
+
+/// Traces the pixels `list` of the Plan's frame; all must lie in its region. `geometry` is that of
+/// [`super::geometry`] for this Plan, or one like it. `None` when the
+/// watch stopped it.
+pub fn pixels(
+    world: &World,
+    geometry: &Geometry,
+    plan: &Plan,
+    list: &[(u32, u32)],
+    sampling: Sampling,
+    options: &TraceOptions,
+    watch: &dyn Watch,
+) -> Option<Pixels> {
+    let tracer = Tracer::new(world, geometry, plan);
+    let Frame { width, height, .. } = plan.frame;
+    let kernel = match (plan.kernel.shadows, plan.kernel.secondary) {
+        (false, false) => Tracer::radiance::<false, false>,
+        (false, true) => Tracer::radiance::<false, true>,
+        (true, false) => Tracer::radiance::<true, false>,
+        (true, true) => Tracer::radiance::<true, true>,
+    };
+    let pixel = Pixel {
+        plan,
+        kernel,
+        tracer: &tracer,
+        lens: Lens { camera: &world.camera, width, height },
+    };
+    let crew = Crew::new(options.threads, watch);
+    let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
+        Sampling::Planned => pixel.planned(walk, place),
+        Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
+    })?;
+    Some(Pixels { radiance, counters })
+}
+
+struct Pixel<'a> {
+    plan: &'a Plan,
+    kernel: fn(&Tracer<'a>, &mut Walk, Ray) -> Rgb,
+    tracer: &'a Tracer<'a>,
+    lens: Lens<'a>,
+}
+
+impl Pixel<'_> {
+    fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
+        match self.plan.antialias {
+            Antialias::Off => self.grid(walk, place, 1),
+            Antialias::Grid(n) => self.grid(walk, place, n.max(1)),
+            Antialias::Adaptive { threshold, grid } => {
+                let (first, is_edge) = self.first_pass(walk, place, threshold);
+                if is_edge { self.grid(walk, place, grid.max(1)) } else { first }
+            }
+        }
+    }
+
+    /// The pixel's single sample, and whether its neighbours' make it an edge.
+    fn first_pass(&self, walk: &mut Walk, (x, y): (u32, u32), threshold: f64) -> (Rgb, bool) {
+        let Frame { width, height, .. } = self.plan.frame;
+        let region = grown(Region { x, y, width: 1, height: 1 }, width, height);
+        let gamma = self.tracer.world.settings.assumed_gamma;
+        let mut around = Film::new(Frame { region, ..self.plan.frame }, gamma);
+        let mut own = Counters::default();
+        for line in region.y..region.y + region.height {
+            for column in region.x..region.x + region.width {
+                let before = std::mem::take(&mut walk.counters);
+                let at = around.index(column, line);
+                around.radiance[at] = self.grid(walk, (column, line), 1);
+                let these = std::mem::replace(&mut walk.counters, before);
+                if (column, line) == (x, y) {
+                    own = these;
+                }
+            }
+        }
+        walk.counters += own;
+        let edge = Shown::new(&around).is_edge(x, y, threshold);
+        (around.radiance[around.index(x, y)], edge)
+    }
+
+    fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Rgb {
+        antialias::mean(grid, |i, j| self.seen(walk, self.lens.ray(place, (i, j), grid)))
+    }
+
+    fn jittered(&self, walk: &mut Walk, (x, y): (u32, u32), side: u32, seed: u64) -> Rgb {
+        let mut random = Random::of(seed, u64::from(x) << 32 | u64::from(y));
+        let within = |part: u32, random: &mut Random| {
+            (f64::from(part) + random.number(0.0, 1.0)) / f64::from(side)
+        };
+        antialias::mean(side, |i, j| {
+            let place = (within(i, &mut random), within(j, &mut random));
+            self.seen(walk, self.lens.ray_within((x, y), place))
+        })
+    }
+
+    fn seen(&self, walk: &mut Walk, ray: Ray) -> Rgb {
+        walk.counters.camera += 1;
+        (self.kernel)(self.tracer, walk, ray)
+    }
+}

@@ -1,0 +1,69 @@
+//! Single pixels are those of the film.
+
+use super::*;
+
+/// Every pixel of a region, in no particular order.
+fn scattered(region: Region) -> Vec<(u32, u32)> {
+    let count = region.width * region.height;
+    let place = |i: u32| (i * 37) % count;
+    (0..count)
+        .map(place)
+        .map(|i| (region.x + i % region.width, region.y + i / region.width))
+        .collect()
+}
+
+fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
+    let geometry = Geometry::build(world);
+    let threads = TraceOptions { threads: Some(1) };
+    let alone = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
+    let threads = TraceOptions { threads: Some(3) };
+    let shared = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
+    assert_eq!(alone, shared, "threads");
+    alone.expect("not stopped")
+}
+
+#[test]
+fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
+    let world = varied();
+    for (gamma, antialias) in [
+        (1.0, Antialias::Off),
+        (1.0, Antialias::Grid(3)),
+        (1.0, Antialias::default()),
+        (2.2, Antialias::Adaptive { threshold: 0.01, grid: 2 }),
+    ] {
+        let mut world = world.clone();
+        world.settings.assumed_gamma = gamma;
+        let mut options = options(43, 31, antialias);
+        for region in [options.frame.region, Region { x: 5, y: 0, width: 20, height: 31 }] {
+            options.frame.region = region;
+            let plan = plan(&world, &Origins::default(), &options);
+            let traced = traced_by(&world, &plan);
+            let list = scattered(region);
+            let single = some(&plan, &world, &list, Sampling::Planned);
+            for (&(x, y), radiance) in list.iter().zip(&single.radiance) {
+                assert_eq!(*radiance, traced.film.radiance[traced.film.index(x, y)], "{x} {y}");
+            }
+            let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
+            assert!(border || single.counters == traced.counters, "{antialias:?}");
+        }
+    }
+}
+
+#[test]
+fn jittered_samples_agree_with_a_fine_grid_and_differ_by_their_seed() {
+    let world = varied();
+    let plan = plan(&world, &Origins::default(), &options(16, 12, Antialias::Grid(24)));
+    let list = scattered(plan.frame.region);
+    let fine = some(&plan, &world, &list, Sampling::Planned);
+    let jittered = |seed| some(&plan, &world, &list, Sampling::Jittered { side: 12, seed });
+    let (one, other) = (jittered(1), jittered(2));
+    assert_ne!(one.radiance, other.radiance);
+    assert_eq!(one.counters.camera, list.len() as u64 * 144);
+    let off = |a: &Rgb, b: &Rgb| (a.green - b.green) * (a.green - b.green);
+    let rms = |a: &Pixels, b: &Pixels| {
+        let sum: f64 = a.radiance.iter().zip(&b.radiance).map(|(a, b)| off(a, b)).sum();
+        (sum / list.len() as f64).sqrt()
+    };
+    let (noise, bias) = (rms(&one, &other), rms(&one, &fine));
+    assert!(noise < 0.02 && bias < noise, "{noise} {bias}");
+}
