@@ -180,6 +180,7 @@ impl Geometry {
 
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another.
+    #[inline(never)]
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
         if self.entries.get(guess.0).is_some_and(|entry| self.shadows(entry, ray, distance)) {
             return guess;
