@@ -133,7 +133,7 @@ fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole(
 }
 
 #[test]
-fn what_is_off_is_counted_zero_and_what_is_on_changes_the_count() {
+fn what_is_off_is_counted_zero() {
     for name in scenes() {
         let Seen { world, plan, .. } = see(&name, &Changed::default());
         let counters = traced(&world, &plan).counters;

@@ -187,6 +187,7 @@ impl Geometry {
 
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another.
+    #[inline(never)]
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
         if self.single {
             return self.occluder_in_single(ray, distance, guess);

@@ -42,6 +42,7 @@ impl Box_ {
     ///
     /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) and u·|N|·|P|; the same again is
     /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
+    #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let normals = self.normals.map(UnitVector::get);
         let face = match slabs(self.centre, normals, self.half_widths, ray) {

@@ -18,6 +18,7 @@ impl Ellipsoid {
     /// of absolute values, R = ‖|L|·|f|‖, κ = ‖|L|·|D|‖ / |L·D|, b and m the sphere's:
     /// u·(6R + 6κ·|b|) across the ray, u·(6R + 6κ·(|b| + m)) along it, 12u·R·|L·f| of |L·f|² − 1, and
     /// 6u·κ of every t.
+    #[inline(never)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         let matrix = self.placement.local_from_world;
         let sizes = matrix.abs();
@@ -45,6 +46,7 @@ impl Ellipsoid {
     /// The point of the ellipsoid where `ray` crosses it at `t`: what is left of |L·(P − C)| − 1 is
     /// taken off along the normal, the shortest way in the world. Its distance is bounded by what is
     /// left then and the rounding of that very sum.
+    #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let Placement { centre, local_from_world, .. } = self.placement;
         let local = |point: Vector| {

@@ -10,6 +10,7 @@ use crate::math::elementary::pow;
 use crate::plan::Region;
 
 /// The mean of the `grid` × `grid` samples that `sample` gives, in a fixed order.
+#[inline(always)]
 pub(super) fn mean(grid: u32, mut sample: impl FnMut(u32, u32) -> Rgb) -> Rgb {
     let mut sum = Rgb::BLACK;
     for j in 0..grid {
@@ -31,6 +32,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
+    #[inline(never)]
     pub fn new(film: &Film) -> Self {
         let mut last = (Rgb::BLACK, [0.0; 3]);
         let encoded = film.radiance.iter().map(|&radiance| {
@@ -45,6 +47,7 @@ impl Shown {
 
     /// Whether pixel (`x`, `y`) differs by more than `threshold`, in an encoded component, from
     /// one of its neighbours on the film.
+    #[inline(never)]
     pub fn is_edge(&self, x: u32, y: u32, threshold: f64) -> bool {
         let region = self.region;
         let row = region.width as usize;

@@ -17,6 +17,7 @@ pub(super) struct Lens<'a> {
 impl Lens<'_> {
     /// The ray through sample (`i`, `j`) of the `grid` × `grid` samples of pixel (`x`, `y`), both
     /// counted from the top left.
+    #[inline(always)]
     pub fn ray(&self, (x, y): (u32, u32), (i, j): (u32, u32), grid: u32) -> Ray {
         self.through(centre(x, i, self.width, grid), -centre(y, j, self.height, grid))
     }
@@ -46,6 +47,7 @@ impl Lens<'_> {
 
 /// Where the centre of sample `sample` of pixel `pixel` lies between −½ and ½ of a screen `pixels`
 /// wide: (2k + 1 − n) / 2n for the k-th of n, whose numerator is a whole number.
+#[inline(always)]
 fn centre(pixel: u32, sample: u32, pixels: u32, grid: u32) -> f64 {
     let n = f64::from(pixels) * f64::from(grid);
     let k = f64::from(pixel) * f64::from(grid) + f64::from(sample);
@@ -54,6 +56,7 @@ fn centre(pixel: u32, sample: u32, pixels: u32, grid: u32) -> f64 {
 
 /// The direction of `v`, also where its square over- or underflows. A screen whose axes are at
 /// right angles to its (non-zero) `forward` has no point in direction zero.
+#[inline(always)]
 fn unit(v: Vector) -> Vector {
     let square = v.length_squared();
     if square.is_normal() {

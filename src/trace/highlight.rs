@@ -20,6 +20,7 @@ pub(super) struct Gloss {
 /// The part of a light's intensity that the finish's lobes send to the viewer.
 ///
 /// A seed finish has its own colour in full; others tint by `metallic`.
+#[inline(never)]
 pub(super) fn lobes(finish: &Finish, gloss: &Gloss) -> Rgb {
     let mut sum = Rgb::BLACK;
     for lobe in &finish.lobes {

@@ -104,6 +104,7 @@ pub(crate) struct Walk {
 }
 
 impl Walk {
+    #[inline(never)]
     fn remember(&mut self, light: usize, occluder: Occluder) {
         if self.occluders.len() <= light {
             self.occluders.resize(light + 1, Occluder::NONE);

@@ -3,7 +3,8 @@
 //!
 //! **In:** a ray. **Out:** the radiance that comes back along it. **Invariant:** nothing grows on
 //! the call stack; colours are folded, never accumulated into a throughput, so a clamp at each
-//! surface is possible and every kernel rounds alike.
+//! surface is possible and every kernel rounds alike. What is inlined into a kernel is said outright
+//! where it is written, so a kernel is the same machine code whichever others stand beside it.
 
 use super::{Walk, pigment, reflection, shade, sky};
 use crate::color::Rgb;
@@ -45,6 +46,7 @@ impl<'a> Tracer<'a> {
     ///
     /// The weight that `adc_bailout` cuts at is the product of each reflection's largest component
     /// at any angle, as in POV-Ray; a seed finish neither lowers it nor is cut by it.
+    #[inline(never)]
     pub fn radiance<const SHADOWS: bool, const SECONDARY: bool>(
         &self,
         walk: &mut Walk,

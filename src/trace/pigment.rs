@@ -9,7 +9,7 @@ use crate::shape::SurfacePoint;
 use crate::world::{Object, Pigment, World};
 
 /// The colour of the object's surface where it was hit.
-#[inline]
+#[inline(always)]
 pub(super) fn on_surface(
     pigment: &Pigment,
     world: &World,
@@ -23,6 +23,7 @@ pub(super) fn on_surface(
 }
 
 /// The colour at a point in the texture's space.
+#[inline(never)]
 pub(super) fn at(pigment: &Pigment, point: Vector) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
@@ -34,6 +35,7 @@ pub(super) fn at(pigment: &Pigment, point: Vector) -> Color {
 
 /// The hit in the texture's space; on a flat face the coordinates that are constant there are
 /// taken as `lower` computed them, not from the rounded hit.
+#[inline(always)]
 fn texture_point(world: &World, object: &Object, surface: &SurfacePoint) -> Vector {
     let mut point = match object.texture_from_world {
         Some(map) => world.texture_maps[map as usize].point(surface.point),

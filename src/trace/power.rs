@@ -7,7 +7,7 @@ use crate::math::elementary::pow;
 /// A whole exponent up to 1,024 is raised by repeated squaring: at most 2 roundings a bit and
 /// each is doubled by the squarings after it, so the relative error is below
 /// 2 · exponent · 2⁻⁵³; others cost a call of `pow`.
-#[inline]
+#[inline(never)]
 pub(super) fn power(base: f64, exponent: f64) -> f64 {
     let whole = exponent as u32;
     if f64::from(whole) != exponent || whole > 1024 {

@@ -11,6 +11,7 @@ use crate::world::Reflection;
 /// `minimum + (maximum − minimum)·(1 − cosine)^falloff`, tinted by `metallic`.
 ///
 /// **Source:** POV-Ray manual, section "Reflection"; measured to 1/65535.
+#[inline(never)]
 pub(super) fn reflectance(reflection: &Reflection, color: Rgb, cosine: f64) -> Rgb {
     let cosine = cosine.clamp(0.0, 1.0);
     let Reflection { minimum, maximum, falloff, metallic, .. } = *reflection;
@@ -26,6 +27,7 @@ pub(super) fn reflectance(reflection: &Reflection, color: Rgb, cosine: f64) -> R
 /// What arrives of `seen` before the factor: each component raised to 1 / `exponent`.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured with exponents 2 and ½.
+#[inline(always)]
 pub(super) fn adapted(seen: Rgb, exponent: f64) -> Rgb {
     if exponent == 1.0 {
         return seen;
@@ -35,7 +37,7 @@ pub(super) fn adapted(seen: Rgb, exponent: f64) -> Rgb {
 
 /// The part of `seen` that is reflected. A component of weight zero is absent, not multiplied:
 /// what is seen may be infinite.
-#[inline]
+#[inline(always)]
 pub(super) fn passed_on(reflectance: Rgb, seen: Rgb) -> Rgb {
     let part = |weight: f64, light: f64| if weight == 0.0 { 0.0 } else { weight * light };
     Rgb::new(
@@ -46,7 +48,7 @@ pub(super) fn passed_on(reflectance: Rgb, seen: Rgb) -> Rgb {
 }
 
 /// The mirrored direction.
-#[inline]
+#[inline(always)]
 pub(super) fn mirrored(direction: Vector, normal: Vector) -> Vector {
     let mirrored = direction - normal * (2.0 * direction.dot(normal));
     // Without this the length's rounding errors would add up along a path.

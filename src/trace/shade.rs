@@ -32,6 +32,7 @@ pub(super) struct Place<'a> {
 ///
 /// Whether the surface faces a light is asked of its point; rays are aimed from where they start,
 /// or what they pass near the light would not be where the light is.
+#[inline(always)]
 pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place: &Place) -> Rgb {
     let Place { finish, color, .. } = *place;
     let mut sum = color * finish.glow;
@@ -58,7 +59,7 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
 
 /// What part of the light's intensity goes to the viewer. A shadowless light makes no highlight
 /// on a classic finish. **Source:** POV-Ray manual, section "Shadowless Lights".
-#[inline]
+#[inline(always)]
 fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
     let Place { finish, color, normal, to_viewer, .. } = *place;
     let mut sum = Rgb::BLACK;

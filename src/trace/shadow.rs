@@ -17,7 +17,7 @@ pub(super) struct Aim {
 
 /// Positive where `light` is on the side of a surface that `normal` points to, 0 where it is in the
 /// very plane of it.
-#[inline]
+#[inline(always)]
 pub(super) fn height(light: &LightKind, point: Vector, normal: Vector) -> f64 {
     match *light {
         LightKind::Point { position } => normal.dot(position - point),
@@ -31,7 +31,7 @@ pub(super) fn height(light: &LightKind, point: Vector, normal: Vector) -> f64 {
 ///
 /// A `parallel` light shines on both sides of its plane; only what stands between the plane and
 /// the point, on the side it shines to, casts a shadow. **Source:** POV-Ray 3.7's behaviour.
-#[inline]
+#[inline(always)]
 pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
     match *light {
         LightKind::Point { position } => {
@@ -56,7 +56,7 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
 }
 
 /// Whether something stands between `origin` (just off a surface) and the light, the `light`th.
-#[inline]
+#[inline(always)]
 pub(super) fn shadowed(
     tracer: &Tracer,
     walk: &mut Walk,

@@ -10,6 +10,7 @@ use crate::world::Sky;
 /// tinted through its `filter`.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured for each kind of colour, alone and layered.
+#[inline(never)]
 pub(super) fn seen(sky: Option<&Sky>, background: Rgb, direction: Vector) -> Rgb {
     let pigments = sky.iter().flat_map(|sky| &sky.pigments);
     pigments.fold(background, |below, pigment| {

@@ -22,7 +22,6 @@ use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Family, Word};
 
-use super::enclosure::Contents;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
@@ -223,8 +222,12 @@ impl Evaluator<'_> {
         match self.next() {
             Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
-                let inside = Span { start: span.start + 1, end: span.end - 1, ..span };
-                let inside = matches!(contents, Contents::Items(_)).then(|| here.site(inside));
+                // A block that is never closed has no end to stop before.
+                let whole = self.sources.text(span).strip_prefix('{');
+                let inside = whole.and_then(|text| text.strip_suffix('}')).map(|text| {
+                    let start = span.start as usize + 1;
+                    here.site(Span::new(span.file, start, start + text.len()))
+                });
                 self.insides.push(inside);
                 let outcome = self.inside_block(&here, contents, span, consumer);
                 self.insides.pop();

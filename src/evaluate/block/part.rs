@@ -41,7 +41,7 @@ impl Evaluator<'_> {
     pub(super) fn joined(&self, a: Site, b: Site) -> Site {
         let [a, b] = self.scene.expansions.side_by_side(a, b);
         let between = Span { end: b.span.start, ..a.span };
-        if self.sources.text(between).contains('#') {
+        if a.span.file != b.span.file || self.sources.text(between).contains('#') {
             return self.insides.last().copied().flatten().unwrap_or(a);
         }
         Site { span: a.span.to(b.span), ..a }
