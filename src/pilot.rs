@@ -31,8 +31,11 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
     match effect {
         Effect::Shadows => Some(counters.shadow),
         Effect::Reflection => Some(counters.reflection),
+        Effect::Transparency => Some(counters.transmission),
         Effect::Diffuse
         | Effect::Highlights
+        | Effect::Refraction
+        | Effect::ColoredShadows
         | Effect::Patterns
         | Effect::Sky
         | Effect::Antialiasing => None,

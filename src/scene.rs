@@ -29,7 +29,7 @@ macro_rules! ids {
     )*};
 }
 
-ids! { ObjectId TextureId PigmentId FinishId }
+ids! { ObjectId TextureId PigmentId FinishId InteriorId }
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
@@ -52,6 +52,7 @@ pub struct Scene {
     pub finish_origins: Vec<FinishOrigin>,
     /// Names of the main file that nothing used, where they were declared.
     pub unused: Vec<(String, Site)>,
+    pub interiors: Vec<Interior>,
     pub expansions: Expansions,
 }
 
@@ -113,6 +114,8 @@ pub enum ModifierKind {
     Pigment(PigmentId),
     /// Replaces the texture's finish only (a texture always precedes it).
     Finish(FinishId),
+    /// Replaces the interior.
+    Interior(InteriorId),
     NoShadow,
     Inverse,
 }
@@ -158,6 +161,8 @@ pub struct Pigment {
     /// What gave it its pattern, each as a piece that can be taken out of the text; also what that
     /// overrides, since it would show again.
     pub pattern: Vec<Site>,
+    /// Likewise, what gave it colours that let light through.
+    pub clear: Vec<Site>,
 }
 
 impl Pigment {
@@ -194,6 +199,8 @@ pub struct FinishOrigin {
     pub site: Option<Site>,
     pub highlights: Vec<Site>,
     pub reflection: Vec<Site>,
+    /// The old place of the index of refraction.
+    pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
 }
@@ -213,6 +220,11 @@ pub struct ClassicFinish {
     /// 0: highlights have the light's colour, 1: the surface's.
     pub metallic: f64,
     pub reflection: Option<Reflection>,
+    /// What is reflected is not let through as well.
+    pub conserve_energy: bool,
+    /// The old place of the interior's index of refraction, which it outdoes (measured on POV-Ray
+    /// 3.7).
+    pub ior: Option<f64>,
 }
 
 impl Default for ClassicFinish {
@@ -228,6 +240,8 @@ impl Default for ClassicFinish {
             roughness: 0.05,
             metallic: 0.0,
             reflection: None,
+            conserve_energy: false,
+            ior: None,
         }
     }
 }
@@ -239,8 +253,19 @@ pub struct Reflection {
     /// Seen head-on.
     pub minimum: Rgb,
     pub falloff: f64,
+    /// From minimum to maximum it goes as Fresnel's equations have it, not by `falloff`.
+    pub fresnel: bool,
     pub exponent: f64,
     pub metallic: f64,
+}
+
+/// What a solid is filled with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interior {
+    /// Index of refraction, > 0; 1 is that of the air around.
+    pub ior: f64,
+    /// All of it, as a piece that can be taken out of the text.
+    pub site: Site,
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -28,6 +28,8 @@ pub struct World {
     pub boxes: Vec<Box_>,
     pub ellipsoids: Vec<Ellipsoid>,
     pub materials: Vec<Material>,
+    /// What solids are filled with; `Object::interior` points here. Empty when nothing bends light.
+    pub interiors: Vec<Interior>,
     /// Where textures stand; `Object::texture_from_world` points here.
     pub texture_maps: Vec<Map>,
     /// Texture coordinates that are the same all over a flat face; see `Object::faces`.
@@ -41,6 +43,8 @@ pub struct Origins {
     /// All of each, as a piece that can be taken out of the text.
     pub lights: Vec<Site>,
     pub materials: Vec<MaterialOrigin>,
+    /// What called for each interior, likewise.
+    pub interiors: Vec<Vec<Site>>,
     pub camera: Option<Site>,
     pub sky: Option<SkyOrigin>,
     pub max_trace_level: Option<Site>,
@@ -62,6 +66,8 @@ pub struct MaterialOrigin {
     pub pattern: Vec<Site>,
     pub highlights: Vec<Site>,
     pub reflection: Vec<Site>,
+    /// Of colours that let light through.
+    pub clear: Vec<Site>,
 }
 
 /// Where the sky was written.
@@ -104,9 +110,18 @@ pub struct Object {
     /// For a patterned plane (1 entry) or box (6 entries, in the order of
     /// [`crate::shape::SurfacePoint::face`]): where its entries start in `World::faces`.
     pub faces: Option<u32>,
+    /// Index into `World::interiors`; `None` is filled with air.
+    pub interior: Option<u32>,
     pub casts_shadow: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
+}
+
+/// What a solid is filled with. It only matters where light goes into it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interior {
+    /// Index of refraction, > 0; that of the air is 1.
+    pub ior: f64,
 }
 
 /// For one flat face: each texture coordinate that is constant over it, computed in extended
@@ -132,11 +147,28 @@ pub enum Pigment {
     },
 }
 
+impl Pigment {
+    /// Its colours, without their places.
+    pub fn colors(&self) -> impl Iterator<Item = Color> {
+        let (one, map) = match self {
+            Self::Color(color) => (Some(*color), &[][..]),
+            Self::Patterned { map, .. } => (None, map.as_slice()),
+        };
+        one.into_iter().chain(map.iter().map(|(_, color)| *color))
+    }
+
+    /// Whether light goes through in any place.
+    pub fn is_clear(&self) -> bool {
+        self.colors().any(Color::is_clear)
+    }
+}
+
 /// How a surface answers light. Everything of weight zero is absent.
 ///
-/// The radiance toward the viewer is, with C the pigment's colour and the sum over the lights
-/// that are visible:
-/// `C·glow + Σ I·(C·diffuse·(N·L)^brilliance + Σ lobes) + reflection`.
+/// The radiance toward the viewer is, with C the pigment's colour, f and t its filter and
+/// transmit, and the sum over the lights that are visible:
+/// `(1 − f − t)·C·(glow + Σ I·diffuse·(N·L)^brilliance) + Σ I·Σ lobes + reflection +
+/// (f·C + t)·what is seen through it`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finish {
     /// Light without a light source: `ambient · ambient_light + emission`, or the seed's kd·Ia.
@@ -145,6 +177,8 @@ pub struct Finish {
     pub brilliance: f64,
     pub lobes: Vec<Lobe>,
     pub reflection: Option<Reflection>,
+    /// What is let through is less by what is reflected; only where both are.
+    pub conserve_energy: bool,
     /// The seed's rules: every radiance is clamped at 1 per component, and the surface is seen from
     /// outside only. Its one lobe is `Blinn` with the pigment's colour, unweighted by angle.
     pub seed: bool,
@@ -175,6 +209,9 @@ pub struct Reflection {
     /// Seen at a grazing angle.
     pub maximum: Rgb,
     pub falloff: f64,
+    /// From minimum to maximum as Fresnel's equations have it, by the indices of refraction on
+    /// both sides; `falloff` is then 1.
+    pub fresnel: bool,
     pub exponent: f64,
     pub metallic: f64,
 }

@@ -101,6 +101,7 @@ struct Rays {
     camera: u64,
     shadow: u64,
     reflection: u64,
+    transmission: u64,
 }
 
 #[derive(Serialize)]
@@ -144,12 +145,12 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
     });
     let rows = report.rows.iter().enumerate().map(|(place, row)| {
         let [rmse, p99, bad] = row.errors.map(Bounds::from);
-        let Counters { camera, shadow, reflection } = row.counters;
+        let Counters { camera, shadow, reflection, transmission } = row.counters;
         RowJson {
             name: &row.name,
             cpu_s: &row.times.cpu,
             wall_s: &row.times.wall,
-            rays: Rays { camera, shadow, reflection },
+            rays: Rays { camera, shadow, reflection, transmission },
             errors: Errors { rmse, p99, bad },
             resolved: report.is_resolved(place),
             verdict: row.verdict.into(),

@@ -61,7 +61,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "depth",
-        effects: &[Effect::Reflection],
+        effects: &[Effect::Reflection, Effect::Transparency],
         settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
         between: true,
         set: |options, depth| options.depth = Some(depth as u32),
@@ -73,7 +73,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "adc-bailout",
-        effects: &[Effect::Reflection],
+        effects: &[Effect::Reflection, Effect::Transparency],
         settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
         between: true,
         set: |options, weight| options.adc_bailout = Some(weight),
@@ -143,8 +143,8 @@ impl Knob {
 
 /// What rays cost, in rays of the camera: fitted to CPU seconds of the gallery's scenes.
 pub fn cost(counters: &Counters) -> f64 {
-    let Counters { camera, shadow, reflection } = *counters;
-    camera as f64 + 0.6 * shadow as f64 + reflection as f64
+    let Counters { camera, shadow, reflection, transmission } = *counters;
+    camera as f64 + 0.6 * shadow as f64 + reflection as f64 + transmission as f64
 }
 
 #[cfg(test)]

@@ -126,8 +126,8 @@ impl Report {
     }
 
     pub fn rays_a_pixel(&self, row: usize) -> f64 {
-        let Counters { camera, shadow, reflection } = self.rows[row].counters;
-        (camera + shadow + reflection) as f64 / self.pixels()
+        let Counters { camera, shadow, reflection, transmission } = self.rows[row].counters;
+        (camera + shadow + reflection + transmission) as f64 / self.pixels()
     }
 }
 

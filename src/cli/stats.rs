@@ -34,11 +34,13 @@ pub struct Rays {
     pub camera: u64,
     pub shadow: u64,
     pub reflection: u64,
+    pub transmission: u64,
 }
 
 impl From<&Counters> for Rays {
     fn from(counters: &Counters) -> Self {
-        Self { camera: counters.camera, shadow: counters.shadow, reflection: counters.reflection }
+        let Counters { camera, shadow, reflection, transmission } = *counters;
+        Self { camera, shadow, reflection, transmission }
     }
 }
 
@@ -74,6 +76,7 @@ impl Stats {
             count("camera rays", self.rays.camera),
             count("shadow rays", self.rays.shadow),
             count("mirrored", self.rays.reflection),
+            count("let through", self.rays.transmission),
         ]
         .concat()
     }

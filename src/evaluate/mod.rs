@@ -256,6 +256,7 @@ impl<'a> Evaluator<'a> {
                 kind: PigmentKind::Color(Color::BLACK),
                 transforms: Vec::new(),
                 site: nowhere,
+                clear: vec![],
                 pattern: Vec::new(),
             }],
             finishes: vec![Finish::Classic(ClassicFinish::default())],

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
-use crate::scene::{ColorMap, FinishId, ObjectId, PigmentId, TextureId, TransformId};
+use crate::scene::{ColorMap, FinishId, InteriorId, ObjectId, PigmentId, TextureId, TransformId};
 use crate::source::Site;
 use crate::syntax::ast::{BinaryOperator, UnaryOperator};
 use crate::vocabulary::Word;
@@ -70,6 +70,8 @@ pub enum Value {
     Texture(TextureId),
     Pigment(PigmentId),
     Finish(FinishId),
+    Interior(InteriorId),
+    Material(Material),
     ColorMap(Arc<ColorMap>),
     Object(ObjectId),
     Camera(Arc<crate::scene::Camera>),
@@ -78,6 +80,13 @@ pub enum Value {
     Poison(Poison),
     /// Its declaration was reported: whatever uses it says nothing more.
     Broken,
+}
+
+/// What `material` holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Material {
+    pub texture: Option<TextureId>,
+    pub interior: Option<InteriorId>,
 }
 
 /// Why a value is not there: the word that is not built yet, and where it stood.
@@ -120,6 +129,8 @@ impl Value {
             Self::Texture(_) => "a texture",
             Self::Pigment(_) => "a pigment",
             Self::Finish(_) => "a finish",
+            Self::Interior(_) => "an interior",
+            Self::Material(_) => "a material",
             Self::ColorMap(_) => "a color_map",
             Self::Object(_) => "an object",
             Self::Camera(_) => "a camera",

@@ -6,6 +6,7 @@
 
 mod build;
 mod single;
+mod through;
 mod tree;
 
 use std::ops::Range;
@@ -43,7 +44,12 @@ struct Entry {
     solid: Solid,
     object: u32,
     sides: Sides,
-    casts_shadow: bool,
+    /// It stops light.
+    blocks: bool,
+    /// It stops part of the light, or none: it casts a shadow and is clear.
+    filters: bool,
+    /// Light goes through, at least in places.
+    clear: bool,
 }
 
 /// What is small stands in the entry itself, so that a leaf is one run of memory; what is not, in
@@ -84,6 +90,8 @@ pub struct Hit {
     pub t: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
+    /// Error bounds could not tell it from a crossing of another object.
+    pub contested: bool,
 }
 
 impl Geometry {
@@ -135,14 +143,15 @@ impl Geometry {
         } else {
             Sides::Outside
         };
-        let casts_shadow = object.casts_shadow;
-        self.entries.push(Entry { solid, object: number, sides, casts_shadow });
+        let clear = world.materials[object.material as usize].pigment.is_clear();
+        let (blocks, filters) = (object.casts_shadow && !clear, object.casts_shadow && clear);
+        self.entries.push(Entry { solid, object: number, sides, blocks, filters, clear });
     }
 
     /// The first surface ahead of the ray's start. Of crossings that their error bounds cannot
-    /// tell apart, the first-declared object's: with U the least t + 2·error of all, the least
-    /// object among those with t ≤ U. So it does not depend on the order of search, and one of two
-    /// coinciding faces wins everywhere.
+    /// tell apart, that of the first-declared object, the opaque before the clear: with U the least
+    /// t + 2·error of all, the first of those with t ≤ U. So it does not depend on the order of
+    /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         if self.single {
@@ -153,10 +162,30 @@ impl Geometry {
         if race.contested() { self.first_declared(ray) } else { race.winner() }
     }
 
-    /// The same by definition, with the tightest error bounds: first U, then the least object.
+    /// The same by definition, with the tightest error bounds: first U, then the first object.
     #[cold]
     #[inline(never)]
     fn first_declared(&self, ray: &Ray) -> Option<Hit> {
+        let limit = self.end_of_first(ray);
+        let mut first: Option<((bool, u32), Hit)> = None;
+        self.search(ray, limit, &mut |place: usize| {
+            let entry = &self.entries[place];
+            let object = entry.object;
+            let rank = (entry.clear, object);
+            if first.is_none_or(|first| rank < first.0) {
+                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
+                let hit = |(Crossing { t, .. }, leaving)| {
+                    (rank, Hit { object, t, leaving, contested: true })
+                };
+                first = crossing.map(hit).or(first);
+            }
+            limit
+        });
+        first.map(|(_, hit)| hit)
+    }
+
+    /// U: the least t + 2·error of all crossings.
+    fn end_of_first(&self, ray: &Ray) -> f64 {
         let mut limit = f64::INFINITY;
         self.search(ray, limit, &mut |place: usize| {
             let crossing = self.first_crossing::<TIGHT>(&self.entries[place], ray, limit);
@@ -165,21 +194,10 @@ impl Geometry {
             }
             limit
         });
-        let mut first: Option<Hit> = None;
-        self.search(ray, limit, &mut |place: usize| {
-            let entry = &self.entries[place];
-            let object = entry.object;
-            if first.is_none_or(|first| object < first.object) {
-                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
-                let hit = |(Crossing { t, .. }, leaving)| Hit { object, t, leaving };
-                first = crossing.map(hit).or(first);
-            }
-            limit
-        });
-        first
+        limit
     }
 
-    /// Whether a surface that casts shadows is certainly nearer than `distance` (which may be ∞).
+    /// Whether an opaque surface that casts shadows is certainly nearer than `distance` (which may be ∞).
     /// Surfaces seen from one side shadow from that side.
     pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
         self.occluder(ray, distance, Occluder::NONE) != Occluder::NONE
@@ -202,7 +220,7 @@ impl Geometry {
 
     #[inline(always)]
     fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
-        if !entry.casts_shadow {
+        if !entry.blocks {
             return false;
         }
         let crossing = self.first_crossing::<EASY>(entry, ray, distance);
@@ -365,7 +383,7 @@ impl<'a> Race<'a> {
     #[inline(always)]
     fn winner(&self) -> Option<Hit> {
         let entry = self.geometry.entries.get(self.place)?;
-        Some(Hit { object: entry.object, t: self.t, leaving: self.leaving })
+        Some(Hit { object: entry.object, t: self.t, leaving: self.leaving, contested: false })
     }
 }
 
@@ -412,7 +430,7 @@ pub fn contains(world: &World, object: u32, point: Vector) -> bool {
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
 #[inline(always)]
 pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
-    let Hit { object, t, leaving } = *hit;
+    let Hit { object, t, leaving, .. } = *hit;
     match world.objects[object as usize].shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),

@@ -55,7 +55,7 @@ impl Geometry {
                 if t < best_t {
                     rival_t = best_t;
                     best_t = t;
-                    best = Some(Hit { object: entry.object, t, leaving });
+                    best = Some(entry.hit(t, leaving));
                 } else {
                     rival_t = rival_t.min(t);
                 }
@@ -65,17 +65,18 @@ impl Geometry {
         if rival_t > limit {
             return best;
         }
-        let mut first: Option<Hit> = None;
+        let mut first: Option<((bool, u32), Hit)> = None;
         self.search(ray, limit, &mut |place: usize| {
             let entry = &self.entries[place];
-            if first.is_none_or(|first| entry.object < first.object)
+            let rank = (entry.clear, entry.object);
+            if first.is_none_or(|first| rank < first.0)
                 && let Some((crossing, leaving)) = self.met(entry, &rounded, limit)
             {
-                first = Some(Hit { object: entry.object, t: crossing.t, leaving });
+                first = Some((rank, Hit { contested: true, ..entry.hit(crossing.t, leaving) }));
             }
             limit
         });
-        first
+        first.map(|(_, hit)| hit)
     }
 
     /// As [`Geometry::occluder`].
@@ -84,7 +85,7 @@ impl Geometry {
     pub(super) fn occluder_in_single(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
         let rounded = Rounded::new(ray);
         let shadows = |entry: &Entry| {
-            entry.casts_shadow
+            entry.blocks
                 && self
                     .met(entry, &rounded, distance)
                     .is_some_and(|(Crossing { t, error }, _)| t + error < distance)
@@ -155,6 +156,7 @@ mod tests {
     /// One shape of each kind, far from the origin.
     fn world(random: &mut Random, far: f64) -> World {
         let finish = Finish {
+            conserve_energy: false,
             glow: crate::color::Rgb::BLACK,
             diffuse: 1.0,
             brilliance: 1.0,
@@ -174,6 +176,7 @@ mod tests {
             half_widths: [0.5, 1.0, 0.3],
         });
         let object = |shape| Object {
+            interior: None,
             shape,
             material: 0,
             texture_from_world: None,

@@ -9,6 +9,7 @@ fn empty() -> World {
     let material = |seed| Material {
         pigment: Pigment::Color(Color::default()),
         finish: Finish {
+            conserve_energy: false,
             glow: Rgb::default(),
             diffuse: 0.6,
             brilliance: 1.0,
@@ -22,6 +23,7 @@ fn empty() -> World {
 
 fn add(world: &mut World, shape: Shape) {
     let object = Object {
+        interior: None,
         shape,
         material: 0,
         texture_from_world: None,

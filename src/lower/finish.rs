@@ -15,6 +15,7 @@ pub const BARE: Finish = Finish {
     brilliance: 1.0,
     lobes: Vec::new(),
     reflection: None,
+    conserve_energy: false,
     seed: false,
 };
 
@@ -29,6 +30,7 @@ pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish
                 minimum: Rgb::gray(ks),
                 maximum: Rgb::gray(ks),
                 falloff: 1.0,
+                fresnel: false,
                 exponent: 1.0,
                 metallic: 0.0,
             }),
@@ -59,10 +61,13 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
         reflection: reflection.map(|r| Reflection {
             minimum: r.minimum,
             maximum: r.maximum,
-            falloff: r.falloff,
+            // Where both ends are the same, the way between does not matter.
+            falloff: if r.fresnel { 1.0 } else { r.falloff },
+            fresnel: r.fresnel && r.minimum != r.maximum,
             exponent: r.exponent,
             metallic: r.metallic,
         }),
+        conserve_energy: finish.conserve_energy,
         seed: false,
     }
 }

@@ -5,10 +5,13 @@
 use super::Lowering;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Site;
 use crate::world::Pigment;
 
 /// What a white surface gives off by default: it tells shapes apart from black, and no more.
 const DEFAULT_AMBIENT: f64 = 0.1;
+/// What the sum of two decimals may be off by.
+const ROUNDING: f64 = 1e-9;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
@@ -36,6 +39,7 @@ impl Lowering<'_, '_> {
             let told = told.traced(last.site, self.reporter.expansions);
             self.reporter.diagnostics.push(told);
         }
+        self.lint_clear();
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();
         if world.objects.is_empty() && empty_sky {
@@ -51,6 +55,43 @@ impl Lowering<'_, '_> {
                 diagnostic = diagnostic.at(dropped.site.span, "this light is black");
             }
             self.reporter.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Colours that let through more than comes in, and fresnel without the number it lives by.
+    fn lint_clear(&mut self) {
+        let (world, origins) = (&self.world, &self.origins);
+        let origin = |i: usize| origins.materials.get(i).cloned().unwrap_or_default();
+        let mut lints: Vec<(Site, Diagnostic)> = Vec::new();
+        for (i, material) in world.materials.iter().enumerate() {
+            let Some(site) = origin(i).pigment else { continue };
+            let sums = material.pigment.colors().map(|color| color.filter + color.transmit);
+            let most = sums.fold(0.0, f64::max);
+            if most > 1.0 + ROUNDING {
+                let message = format!("`filter` and `transmit` of this pigment come to {most:.3}");
+                let diagnostic = Diagnostic::new(Code::TooClear, message)
+                    .at(site.span, "it would let more through than comes in")
+                    .help("let the two come to 1 at most");
+                lints.push((site, diagnostic));
+            }
+        }
+        for (object, site) in world.objects.iter().zip(&origins.objects) {
+            let index = object.material as usize;
+            let reflection = &world.materials[index].finish.reflection;
+            if object.interior.is_none() && reflection.as_ref().is_some_and(|r| r.fresnel) {
+                let site = origin(index).finish.unwrap_or(*site);
+                let message =
+                    "`fresnel` goes by the `ior` of an interior, and this object has none";
+                let diagnostic = Diagnostic::new(Code::FresnelWithoutIor, message)
+                    .at(site.span, "it reflects its `minimum` at every angle")
+                    .help("write `interior { ior 1.5 }` beside the texture, for glass");
+                lints.push((site, diagnostic));
+            }
+        }
+        lints.sort_by_key(|(site, diagnostic)| (diagnostic.code, site.span));
+        lints.dedup_by_key(|(site, diagnostic)| (diagnostic.code, site.span));
+        for (site, diagnostic) in lints {
+            self.reporter.diagnostics.push(diagnostic.traced(site, self.reporter.expansions));
         }
     }
 

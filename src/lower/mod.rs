@@ -6,6 +6,7 @@
 
 mod camera;
 mod finish;
+mod interior;
 mod light;
 mod lint;
 mod object;
@@ -46,6 +47,7 @@ pub fn lower(
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         dropped: HashSet::new(),
+        noted_interiors: HashSet::new(),
         scene: &scene,
         options: *options,
     };
@@ -56,6 +58,7 @@ pub fn lower(
     lowering.unused();
     lowering.near_singular();
     lowering.lint();
+    lowering.prune_interiors();
     let Lowering { world, mut origins, .. } = lowering;
     origins.expansions = scene.expansions;
     (world, origins)
@@ -72,6 +75,8 @@ struct Lowering<'s, 'd> {
     transforms: transform::Transforms<'s>,
     /// What was left out so far: a place says it once, however often it is gone through.
     dropped: HashSet<(&'static str, Span)>,
+    /// What called for each interior so far.
+    noted_interiors: HashSet<(usize, Span)>,
 }
 
 impl Lowering<'_, '_> {

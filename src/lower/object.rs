@@ -8,7 +8,7 @@ use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, shape};
 use crate::diagnostic::Code;
-use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, TextureId};
+use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, TextureId};
 use crate::shape::Shape;
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
@@ -19,6 +19,8 @@ struct Inherited {
     world_from_here: Affine,
     /// For whatever has no texture of its own. Its place is in the world.
     surface: Surface,
+    /// For whatever has no interior of its own.
+    interior: Option<InteriorId>,
     casts_shadow: bool,
     inverse: bool,
     /// The innermost of those above that could be taken out of the text.
@@ -33,6 +35,7 @@ struct Modified {
     map: Affine,
     /// Its place is in the parent's space.
     surface: Option<Surface>,
+    interior: Option<InteriorId>,
     casts_shadow: bool,
     inverse: bool,
     strained: bool,
@@ -56,6 +59,7 @@ impl<'s> Lowering<'s, '_> {
             let inherited = Inherited {
                 world_from_here: Affine::IDENTITY,
                 surface,
+                interior: None,
                 casts_shadow: true,
                 inverse: false,
                 item: None,
@@ -113,6 +117,7 @@ impl<'s> Lowering<'s, '_> {
         let here = Inherited {
             world_from_here,
             surface,
+            interior: modified.interior.or(inherited.interior),
             casts_shadow: inherited.casts_shadow && modified.casts_shadow,
             inverse: inherited.inverse != modified.inverse,
             item: own.or(inherited.item),
@@ -144,6 +149,7 @@ impl<'s> Lowering<'s, '_> {
         let mut modified = Modified {
             map: Affine::IDENTITY,
             surface: None,
+            interior: None,
             casts_shadow: true,
             inverse: false,
             strained: false,
@@ -172,6 +178,7 @@ impl<'s> Lowering<'s, '_> {
                     let surface = self.textured(modified.surface, default_texture, map)?;
                     modified.surface = Some(surface.polished(id));
                 }
+                ModifierKind::Interior(id) => modified.interior = Some(id),
                 ModifierKind::NoShadow => modified.casts_shadow = false,
                 ModifierKind::Inverse => modified.inverse = !modified.inverse,
             }
@@ -243,8 +250,10 @@ impl<'s> Lowering<'s, '_> {
             faces => self.faces(surface, material, faces)?,
         };
         self.note_near_singular(here, site);
+        let interior = self.interior(here.interior, surface.finish, site);
         let casts_shadow = here.casts_shadow;
-        let object = Object { shape, material, texture_from_world, faces, casts_shadow, inverse };
+        let object =
+            Object { shape, material, texture_from_world, faces, interior, casts_shadow, inverse };
         self.world.objects.push(object);
         self.origins.objects.push(site);
         Ok(())

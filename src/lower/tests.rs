@@ -5,6 +5,7 @@ mod camera;
 mod drift;
 mod fault;
 mod form;
+mod interior;
 mod seed_rules;
 mod spelling;
 mod texture;

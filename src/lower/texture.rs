@@ -12,7 +12,6 @@ use super::shape::LocalFace;
 use super::transform::{Affine, Transforms};
 use super::{Fault, Lowering};
 use crate::color::Color;
-use crate::diagnostic::Code;
 use crate::math::UnitVector;
 use crate::math::double::Double;
 use crate::math::placement::Map;
@@ -40,6 +39,7 @@ enum Part {
     Pattern,
     Highlights,
     Reflection,
+    Clear,
 }
 
 /// A surface on its way down the tree.
@@ -122,15 +122,18 @@ impl Lowering<'_, '_> {
         }
         let scene = self.scene;
         let written = &scene.pigments[pigment.index()];
-        let lowered = lower_pigment(&written.kind, Map::IDENTITY, false);
+        let lowered = lower_pigment(&written.kind, Map::IDENTITY);
         let paint = self.reporter.made(lowered, written.site);
         self.note_folded(written);
         let lowered = lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light);
         let finish_lowered = self.reporter.made(lowered, site);
-        let material = Material {
+        let mut material = Material {
             pigment: paint.unwrap_or(Pigment::Color(Color::BLACK)),
             finish: finish_lowered.unwrap_or(BARE),
         };
+        if !material.pigment.is_clear() || material.finish.reflection.is_none() {
+            material.finish.conserve_energy = false;
+        }
         let materials = &mut self.world.materials;
         let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
         let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
@@ -158,6 +161,7 @@ impl Lowering<'_, '_> {
             list.extend(sites.iter().filter(|site| noted.insert((index, part, site.span))));
         };
         note(Part::Pattern, &mut origin.pattern, &pigment.pattern);
+        note(Part::Clear, &mut origin.clear, &pigment.clear);
         let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
         note(Part::Highlights, &mut origin.highlights, &finish.highlights);
         note(Part::Reflection, &mut origin.reflection, &finish.reflection);
@@ -232,7 +236,7 @@ impl Lowering<'_, '_> {
             let map = transforms
                 .product(&written.transforms)
                 .and_then(|inner| inverse_map(&transforms.product(&sky.transforms)?.after(&inner)));
-            let pigment = map.and_then(|map| lower_pigment(&written.kind, map, true));
+            let pigment = map.and_then(|map| lower_pigment(&written.kind, map));
             self.reporter.made(pigment, written.site)
         });
         let pigments: Vec<_> = pigments.collect();
@@ -290,7 +294,7 @@ fn lone_color(map: &[(f64, Color)]) -> Option<Color> {
 }
 
 /// A pigment all of one colour has no pattern.
-fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pigment, Fault> {
+fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(*color),
         PigmentKind::Patterned { pattern, map: colors } => match lone_color(&colors.0) {
@@ -310,14 +314,6 @@ fn lower_pigment(kind: &PigmentKind, map: Map, may_be_clear: bool) -> Result<Pig
         let numbers = [*value, color.filter, color.transmit];
         if !color.rgb.is_finite() || numbers.iter().any(|n| !n.is_finite()) {
             return Err(Fault::not_finite("this pigment"));
-        }
-        if !may_be_clear && (color.filter != 0.0 || color.transmit != 0.0) {
-            return Err(Fault::new(
-                Code::NotSupportedYet,
-                "transparent surfaces are not supported yet",
-            )
-            .label("a colour of this pigment has `filter` or `transmit`")
-            .help("write `rgb` and three numbers for an opaque colour"));
         }
     }
     Ok(pigment)

@@ -41,7 +41,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     }
     plan.kernel = Kernel {
         shadows: plan.simulates(Effect::Shadows),
-        secondary: plan.simulates(Effect::Reflection),
+        secondary: plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency),
     };
     plan
 }
@@ -71,6 +71,9 @@ impl Census<'_> {
             Effect::Highlights => self.highlights(),
             Effect::Shadows => self.shadows(),
             Effect::Reflection => self.reflection(),
+            Effect::Transparency => self.transparency(),
+            Effect::Refraction => self.refraction(),
+            Effect::ColoredShadows => self.colored_shadows(),
             Effect::Patterns => self.patterns(),
             Effect::Sky => self.sky(),
             Effect::Antialiasing => antialiasing(self.options.antialias),
@@ -124,12 +127,51 @@ impl Census<'_> {
         if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        if self.max_trace_level <= 1 {
-            let site = self.origins.max_trace_level.filter(|_| self.options.depth.is_none());
-            return because("`max_trace_level` is 1: a ray ends at the first surface", site);
-        }
+        self.goes_on()?;
         let cost = format!("up to {} rays a camera ray", self.max_trace_level - 1);
         Ok((self.materials(reflects, |origin| &origin.reflection), cost))
+    }
+
+    fn transparency(&self) -> Decision {
+        if !self.world.materials.iter().any(is_clear) {
+            return because("no surface is clear", None);
+        }
+        self.goes_on()?;
+        let cost = "a ray behind each clear surface, and a path of its own where that mirrors, too";
+        Ok((self.materials(is_clear, |origin| &origin.clear), cost.to_owned()))
+    }
+
+    fn refraction(&self) -> Decision {
+        if self.world.interiors.is_empty() {
+            return because("every object is filled with air", None);
+        }
+        self.goes_on()?;
+        let by = self.origins.interiors.iter().flatten().copied().collect();
+        Ok((by, "one root a clear surface, and a list of what a ray is in".to_owned()))
+    }
+
+    fn colored_shadows(&self) -> Decision {
+        self.shadows()?;
+        let mut filters = vec![false; self.world.materials.len()];
+        for object in self.world.objects.iter().filter(|object| object.casts_shadow) {
+            let material = object.material as usize;
+            filters[material] = is_clear(&self.world.materials[material]);
+        }
+        let calling = self.origins.materials.iter().zip(&filters).filter(|(_, filters)| **filters);
+        let by: Vec<Site> = calling.flat_map(|(origin, _)| &origin.clear).copied().collect();
+        if !filters.contains(&true) {
+            return because("no clear object casts a shadow", None);
+        }
+        Ok((by, "one more search a ray toward a light that nothing opaque stops".to_owned()))
+    }
+
+    /// Whether any ray goes on from a surface.
+    fn goes_on(&self) -> Result<(), (String, Option<Site>)> {
+        if self.max_trace_level > 1 {
+            return Ok(());
+        }
+        let site = self.origins.max_trace_level.filter(|_| self.options.depth.is_none());
+        because("`max_trace_level` is 1: a ray ends at the first surface", site)
     }
 
     fn patterns(&self) -> Decision {
@@ -226,6 +268,10 @@ fn reflects(material: &Material) -> bool {
     material.finish.reflection.is_some()
 }
 
+fn is_clear(material: &Material) -> bool {
+    material.pigment.is_clear()
+}
+
 fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
@@ -249,11 +295,13 @@ mod tests {
         let part = Rgb::gray(0.5);
         let lobe = Lobe { kind: LobeKind::Phong, weight: 0.5, exponent: 9.0, metallic: 0.0 };
         let finish = Finish {
+            conserve_energy: false,
             glow: Rgb::BLACK,
             diffuse: 0.5,
             brilliance: 1.0,
             lobes: vec![lobe],
             reflection: Some(Reflection {
+                fresnel: false,
                 minimum: part,
                 maximum: part,
                 falloff: 1.0,
@@ -265,6 +313,7 @@ mod tests {
         let world = World {
             spheres: vec![Sphere { centre: Vector::ZERO, radius: 1.0 }],
             objects: vec![Object {
+                interior: None,
                 shape: Shape::Sphere(0),
                 material: 0,
                 texture_from_world: None,
@@ -284,6 +333,7 @@ mod tests {
             objects: vec![site(1)],
             lights: vec![site(20)],
             materials: vec![MaterialOrigin {
+                clear: vec![],
                 pigment: Some(site(9)),
                 finish: Some(site(10)),
                 pattern: vec![],

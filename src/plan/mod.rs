@@ -96,6 +96,12 @@ pub enum Effect {
     Highlights,
     Shadows,
     Reflection,
+    /// Rays that go on behind clear surfaces.
+    Transparency,
+    /// What indices of refraction do: bend rays, and say how much is reflected.
+    Refraction,
+    /// Light that comes through clear surfaces.
+    ColoredShadows,
     Patterns,
     Sky,
     Antialiasing,
@@ -103,11 +109,14 @@ pub enum Effect {
 
 impl Effect {
     /// In the order the plan lists them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
         Self::Reflection,
+        Self::Transparency,
+        Self::Refraction,
+        Self::ColoredShadows,
         Self::Patterns,
         Self::Sky,
         Self::Antialiasing,
@@ -120,6 +129,9 @@ impl Effect {
             Self::Highlights => "highlights",
             Self::Shadows => "shadows",
             Self::Reflection => "reflection",
+            Self::Transparency => "transparency",
+            Self::Refraction => "refraction",
+            Self::ColoredShadows => "coloured shadows",
             Self::Patterns => "patterns",
             Self::Sky => "sky",
             Self::Antialiasing => "antialiasing",

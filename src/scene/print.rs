@@ -157,6 +157,9 @@ impl Printer<'_> {
             }
             ModifierKind::Pigment(id) => self.pigment(out, id, indent),
             ModifierKind::Finish(id) => self.finish(out, &self.scene.finishes[id.index()], indent),
+            ModifierKind::Interior(id) => {
+                writeln!(out, "{indent}interior ior {}", self.scene.interiors[id.index()].ior)
+            }
             ModifierKind::NoShadow => writeln!(out, "{indent}no_shadow"),
             ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
         }
@@ -209,8 +212,18 @@ impl Printer<'_> {
                 write!(out, " metallic {}", f.metallic)?;
                 if let Some(r) = &f.reflection {
                     let (low, high) = (r.minimum, r.maximum);
-                    write!(out, " reflection {low} to {high} falloff {}", r.falloff)?;
+                    write!(out, " reflection {low} to {high}")?;
+                    match r.fresnel {
+                        true => write!(out, " fresnel")?,
+                        false => write!(out, " falloff {}", r.falloff)?,
+                    }
                     write!(out, " exponent {} metallic {}", r.exponent, r.metallic)?;
+                }
+                if f.conserve_energy {
+                    write!(out, " conserve_energy")?;
+                }
+                if let Some(ior) = f.ior {
+                    write!(out, " ior {ior}")?;
                 }
                 writeln!(out)
             }

@@ -56,6 +56,7 @@ mod tests {
 
     fn finish(kind: LobeKind, exponent: f64) -> Finish {
         Finish {
+            conserve_energy: false,
             glow: Rgb::BLACK,
             diffuse: 0.0,
             brilliance: 1.0,

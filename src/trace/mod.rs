@@ -7,12 +7,14 @@
 mod antialias;
 mod camera;
 mod highlight;
+mod media;
 mod metal;
 mod path;
 mod pigment;
 mod pixels;
 mod power;
 mod reflection;
+mod refraction;
 mod shade;
 mod shadow;
 mod sky;
@@ -21,13 +23,15 @@ mod tiles;
 use std::ops::AddAssign;
 
 use crate::film::Film;
-use crate::geometry::{Geometry, Occluder};
+use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
 use crate::world::World;
 
 use antialias::Shown;
 use camera::Lens;
-use path::{Link, Tracer};
+use media::Media;
+use path::{Fork, Link, Tracer};
+use shadow::Filters;
 use tiles::Crew;
 
 pub use pixels::{Pixels, Sampling, pixels};
@@ -68,6 +72,8 @@ pub struct Counters {
     pub shadow: u64,
     /// Mirrored rays.
     pub reflection: u64,
+    /// Rays that go on behind a clear surface.
+    pub transmission: u64,
 }
 
 impl AddAssign for Counters {
@@ -75,6 +81,7 @@ impl AddAssign for Counters {
         self.camera += other.camera;
         self.shadow += other.shadow;
         self.reflection += other.reflection;
+        self.transmission += other.transmission;
     }
 }
 
@@ -98,6 +105,12 @@ impl Traced {
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
     chain: Vec<Link>,
+    /// Rays that wait until a mirrored one has come back, the last to be traced next.
+    forks: Vec<Fork>,
+    media: Media,
+    /// Surfaces that coincide with the one at hand.
+    coinciding: Vec<Hit>,
+    filters: Filters,
     /// For each light what last stood before it, or nothing: a guess, worth no more than time.
     occluders: Vec<Occluder>,
     counters: Counters,

@@ -3,7 +3,7 @@
 //! **In:** a [`Pigment`], a point in its texture's space. **Out:** a colour between those of its
 //! map.
 
-use crate::color::{Color, Rgb};
+use crate::color::Color;
 use crate::math::Vector;
 use crate::shape::SurfacePoint;
 use crate::world::{Object, Pigment, World};
@@ -15,10 +15,10 @@ pub(super) fn on_surface(
     world: &World,
     object: &Object,
     surface: &SurfacePoint,
-) -> Rgb {
+) -> Color {
     match pigment {
-        Pigment::Color(color) => color.rgb,
-        Pigment::Patterned { .. } => at(pigment, texture_point(world, object, surface)).rgb,
+        Pigment::Color(color) => *color,
+        Pigment::Patterned { .. } => at(pigment, texture_point(world, object, surface)),
     }
 }
 
@@ -72,6 +72,7 @@ fn look_up(map: &[(f64, Color)], value: f64) -> Color {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::Rgb;
 
     fn gray(value: f64) -> Color {
         Color::opaque(Rgb::gray(value))

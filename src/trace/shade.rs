@@ -1,5 +1,5 @@
-//! The light a surface sends to the viewer by itself and by the lights it sees: everything but
-//! reflection.
+//! The light a surface sends to the viewer by itself and by the lights it sees: everything but what
+//! it mirrors and lets through.
 
 use super::Walk;
 use super::highlight::{self, Gloss};
@@ -11,10 +11,13 @@ use crate::math::Vector;
 use crate::world::{Finish, Light};
 
 /// A place on a surface, ready to be lit.
+#[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
     pub finish: &'a Finish,
     /// The pigment's.
     pub color: Rgb,
+    /// As much of it as is not clear.
+    pub body: Rgb,
     pub point: Vector,
     /// Where rays that leave the surface start: `point` moved along `normal` by its error.
     pub origin: Vector,
@@ -24,7 +27,8 @@ pub(super) struct Place<'a> {
     pub to_viewer: Vector,
 }
 
-/// `C·glow + Σ I·(C·diffuse·(N·L)^brilliance + Σ lobes)` over the lights that are visible.
+/// `B·glow + Σ I·(B·diffuse·(N·L)^brilliance + Σ lobes)` over the lights that are visible, where B is
+/// the body's colour. A surface shines however clear it is.
 ///
 /// A light behind the surface or on the point itself contributes nothing. One in the surface's
 /// very plane (N·L = 0) makes a highlight on a seed finish, as the seed's formula says, and none
@@ -34,8 +38,8 @@ pub(super) struct Place<'a> {
 /// or what they pass near the light would not be where the light is.
 #[inline(always)]
 pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place: &Place) -> Rgb {
-    let Place { finish, color, .. } = *place;
-    let mut sum = color * finish.glow;
+    let Place { finish, body, .. } = *place;
+    let mut sum = body * finish.glow;
     if finish.diffuse == 0.0 && finish.lobes.is_empty() {
         return sum;
     }
@@ -46,13 +50,19 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         }
         let Some(aim) = shadow::aim(&light.kind, place.origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        if SHADOWS
-            && light.casts_shadows
-            && shadow::shadowed(tracer, walk, number, place.origin, &aim)
-        {
-            continue;
+        let mut color = light.color;
+        if SHADOWS && light.casts_shadows {
+            if shadow::shadowed(tracer, walk, number, place.origin, &aim) {
+                continue;
+            }
+            if tracer.filters_shadows {
+                color = color * shadow::filtered(tracer, walk, place.origin, &aim);
+                if color.is_black() {
+                    continue;
+                }
+            }
         }
-        sum += light.color * answer(place, light, aim.to_light, cosine);
+        sum += color * answer(place, light, aim.to_light, cosine);
     }
     sum
 }
@@ -61,12 +71,12 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
 /// on a classic finish. **Source:** POV-Ray manual, section "Shadowless Lights".
 #[inline(always)]
 fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
-    let Place { finish, color, normal, to_viewer, .. } = *place;
+    let Place { finish, color, body, normal, to_viewer, .. } = *place;
     let mut sum = Rgb::BLACK;
     if finish.diffuse != 0.0 {
         let slant =
             if finish.brilliance == 1.0 { cosine } else { power(cosine, finish.brilliance) };
-        sum = color * (finish.diffuse * slant);
+        sum = body * (finish.diffuse * slant);
     }
     if !finish.lobes.is_empty() && (light.casts_shadows || finish.seed) {
         sum += highlight::lobes(finish, &Gloss { color, normal, to_viewer, to_light, cosine });

@@ -1,8 +1,11 @@
 //! Where a light stands as seen from a point, and whether anything is between.
 
+use std::cmp::Ordering;
+
 use super::Walk;
 use super::path::Tracer;
-use crate::geometry::Occluder;
+use crate::color::Rgb;
+use crate::geometry::{Hit, Occluder};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::LightKind;
@@ -55,7 +58,7 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
     }
 }
 
-/// Whether something stands between `origin` (just off a surface) and the light, the `light`th.
+/// Whether something opaque stands between `origin` (just off a surface) and the light, the `light`th.
 #[inline(always)]
 pub(super) fn shadowed(
     tracer: &Tracer,
@@ -72,6 +75,36 @@ pub(super) fn shadowed(
         walk.remember(light, occluder);
     }
     occluder != Occluder::NONE
+}
+
+/// The part of the light that comes through the clear surfaces between `origin` and the light: the
+/// product of what each lets through, in and out. Straight on, whatever they are filled with.
+///
+/// The factors are multiplied in the order of the surfaces, not of the search.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured: neither reflection nor `conserve_energy` nor `ior`
+/// takes part in it.
+#[inline(never)]
+pub(super) fn filtered(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &Aim) -> Rgb {
+    let ray = Ray { origin, direction: aim.to_light };
+    let Filters { hits, factors } = &mut walk.filters;
+    hits.clear();
+    tracer.geometry.filters(&ray, aim.reach, hits);
+    factors.clear();
+    factors.extend(hits.iter().map(|hit| (hit.t, tracer.transmittance(&ray, hit))));
+    factors.sort_by(|(a, x), (b, y)| {
+        let ties = x.components().into_iter().zip(y.components()).map(|(x, y)| x.total_cmp(&y));
+        ties.fold(a.total_cmp(b), Ordering::then)
+    });
+    factors.iter().fold(Rgb::WHITE, |light, (_, factor)| light * *factor)
+}
+
+/// Room for the surfaces between a point and a light.
+#[derive(Debug, Default)]
+pub(super) struct Filters {
+    hits: Vec<Hit>,
+    /// How far away each is, and what it lets through.
+    factors: Vec<(f64, Rgb)>,
 }
 
 #[cfg(test)]

@@ -127,7 +127,7 @@ vocabulary! {
         ClippedBy "clipped_by" statement later "a shape outside which the object is cut away";
         CutawayTextures "cutaway_textures" statement later "cut faces keep the textures of what they cut";
         DoubleIlluminate "double_illuminate" statement later "light shines on both sides";
-        Hollow "hollow" statement later "the inside is filled with the atmosphere or its own media";
+        Hollow "hollow" statement built "the atmosphere fills the object, too; without fog and media it changes nothing";
         Inverse "inverse" statement built "swaps inside and outside";
         NoImage "no_image" statement later "the camera does not see the object";
         NoRadiosity "no_radiosity" statement later "the object is left out of radiosity";
@@ -145,7 +145,7 @@ vocabulary! {
     Texture {
         Finish "finish" statement built "`finish { … }`: how a surface answers light";
         InteriorTexture "interior_texture" statement later "the texture seen from inside";
-        Material "material" statement later "a texture and an interior";
+        Material "material" statement built "`material { texture { … } interior { … } }`: what an object is made of";
         MaterialMap "material_map" statement later "textures chosen by the colours of a picture";
         Normal "normal" statement later "`normal { … }`: bumps without moving the surface";
         NormalMap "normal_map" statement later "bumps over a pattern's values";
@@ -257,11 +257,11 @@ vocabulary! {
         Albedo "albedo" statement later "measures brightness over the whole hemisphere";
         Ambient "ambient" statement built "light given off without any source, a number or a colour: 0.1";
         Brilliance "brilliance" statement built "how fast diffuse light falls off with the angle: 1";
-        ConserveEnergy "conserve_energy" statement later "what is reflected is not let through";
+        ConserveEnergy "conserve_energy" statement built "what is reflected is not let through as well";
         Crand "crand" statement later "old grain in the colour";
         Diffuse "diffuse" statement built "the part of light that is scattered, 0 to 1: 0.6";
         Emission "emission" statement built "light given off, a number or a colour: 0";
-        Fresnel "fresnel" statement later "reflection that follows the index of refraction";
+        Fresnel "fresnel" statement built "in `reflection { [minimum,] maximum fresnel }`: it grows with the angle as the interior's `ior` says";
         Irid "irid" statement later "colours of a thin film";
         IridWavelength "irid_wavelength" statement later "the wavelengths behind red, green and blue";
         Kd "kd" statement built in Finish "the seed's diffuse coefficient; with `ks` and `phong_exponent`";
@@ -357,9 +357,9 @@ vocabulary! {
         FadeColor "fade_color" | "fade_colour" statement later "the colour light takes inside";
         FadeDistance "fade_distance" statement later "the distance at which light is halved";
         FadePower "fade_power" statement later "how fast light fades";
-        Interior "interior" statement later "what is inside an object";
+        Interior "interior" statement built "`interior { ior n }`: what a clear object is filled with";
         Intervals "intervals" statement later "the pieces in which media are sampled";
-        Ior "ior" statement later "the index of refraction";
+        Ior "ior" statement built "how much slower light is inside, more than 0: water 1.33, glass 1.5, diamond 2.4; 1 bends nothing";
         Media "media" statement later "smoke, fog and light in the air";
         Method "method" statement later "how media are sampled";
         Ratio "ratio" statement later "how samples are shared between lit and unlit media";

@@ -56,6 +56,14 @@ impl Printer<'_> {
             pigment(out, &material.pigment, "    ")?;
             finish(out, &material.finish)?;
         }
+        if !self.world.interiors.is_empty() {
+            writeln!(out, "interiors {}", self.world.interiors.len())?;
+            for (i, interior) in self.world.interiors.iter().enumerate() {
+                let site =
+                    self.at(self.origins.interiors.get(i).and_then(|sites| sites.first().copied()));
+                writeln!(out, "  {i} ior {}{site}", interior.ior)?;
+            }
+        }
         if !self.world.texture_maps.is_empty() {
             writeln!(out, "texture_maps {}", self.world.texture_maps.len())?;
             for (i, map) in self.world.texture_maps.iter().enumerate() {
@@ -129,6 +137,9 @@ impl Printer<'_> {
         write!(out, " material {}", object.material)?;
         if let Some(map) = object.texture_from_world {
             write!(out, " texture_map {map}")?;
+        }
+        if let Some(interior) = object.interior {
+            write!(out, " interior {interior}")?;
         }
         if !object.casts_shadow {
             write!(out, " no_shadow")?;
@@ -234,9 +245,16 @@ fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
     }
     if let Some(r) = &finish.reflection {
         parts.push(format!(
-            "reflection {} to {} falloff {} exponent {} metallic {}",
-            r.minimum, r.maximum, r.falloff, r.exponent, r.metallic
+            "reflection {} to {}{} exponent {} metallic {}",
+            r.minimum,
+            r.maximum,
+            if r.fresnel { " fresnel".to_owned() } else { format!(" falloff {}", r.falloff) },
+            r.exponent,
+            r.metallic
         ));
+    }
+    if finish.conserve_energy {
+        parts.push("conserve_energy".to_owned());
     }
     match parts.is_empty() {
         true => writeln!(out, "    black"),

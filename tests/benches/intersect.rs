@@ -22,6 +22,7 @@ const LIGHTS: [Vector; 2] = [Vector::new(50.0, 80.0, 60.0), Vector::new(-60.0, 5
 
 fn empty() -> World {
     let finish = Finish {
+        conserve_energy: false,
         glow: Rgb::default(),
         diffuse: 0.6,
         brilliance: 1.0,
@@ -35,6 +36,7 @@ fn empty() -> World {
 
 fn object(shape: Shape) -> Object {
     Object {
+        interior: None,
         shape,
         material: 0,
         texture_from_world: None,

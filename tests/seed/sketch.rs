@@ -50,6 +50,7 @@ impl Sketch {
         let scene = &mut self.scene;
         let kind = PigmentKind::Color(Color::opaque(color));
         scene.pigments.push(Pigment {
+            clear: vec![],
             kind,
             transforms: Vec::new(),
             site: SITE,

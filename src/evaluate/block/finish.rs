@@ -31,6 +31,7 @@ impl Written {
         let Self { origin, .. } = self;
         origin.zeros.retain(|(other, _)| *other != word);
         match word {
+            Word::Ior => list_once(&mut origin.ior, item),
             _ if weightless => origin.zeros.push((word, item)),
             Word::Reflection => list_once(&mut origin.reflection, item),
             _ => list_once(&mut origin.highlights, item),
@@ -203,6 +204,7 @@ impl Evaluator<'_> {
                     .reflection
                     .as_ref()
                     .map(|r| r.minimum.is_black() && r.maximum.is_black()),
+                Word::Ior => Some(false),
                 _ => None,
             };
             if let Some(weightless) = weightless {
@@ -236,6 +238,12 @@ impl Evaluator<'_> {
                 let before = finish.reflection.take();
                 finish.reflection = Some(self.reflection(token, before)?);
             }
+            Word::ConserveEnergy => finish.conserve_energy = true,
+            Word::Ior => {
+                finish.ior = Some(self.more_than_zero(token, word)?);
+                let help = "write `interior { ior … }` beside the texture";
+                self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
+            }
             _ => {
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::FINISH);
@@ -267,7 +275,8 @@ impl Evaluator<'_> {
         let plain = |color: Rgb| {
             let (falloff, exponent, metallic) =
                 before.as_ref().map_or((1.0, 1.0, 0.0), |r| (r.falloff, r.exponent, r.metallic));
-            Reflection { minimum: color, maximum: color, falloff, exponent, metallic }
+            let fresnel = before.as_ref().is_some_and(|r| r.fresnel);
+            Reflection { minimum: color, maximum: color, falloff, fresnel, exponent, metallic }
         };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
             return Ok(plain(self.intensity_after(token)?));
@@ -276,7 +285,8 @@ impl Evaluator<'_> {
         self.block(token, Word::Reflection, |evaluator| {
             let mut reflection = plain(evaluator.intensity_after(&opener)?);
             evaluator.skip_commas();
-            if evaluator.at_color() {
+            let both = evaluator.at_color();
+            if both {
                 reflection.maximum = evaluator.intensity_after(&opener)?;
             }
             while let Some(token) = evaluator.next() {
@@ -290,8 +300,15 @@ impl Evaluator<'_> {
                     TokenKind::Word(Word::Metallic) => {
                         reflection.metallic = evaluator.optional_number(&token, 1.0)?;
                     }
+                    TokenKind::Word(Word::Fresnel) => {
+                        reflection.fresnel = evaluator.optional_flag(&token)?;
+                    }
                     _ => evaluator.unexpected(&token, Place::REFLECTION),
                 }
+            }
+            // With one colour only, nothing is the least (measured on POV-Ray 3.7).
+            if reflection.fresnel && !both {
+                reflection.minimum = Rgb::BLACK;
             }
             Ok(reflection)
         })

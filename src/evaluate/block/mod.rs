@@ -6,6 +6,7 @@
 mod camera;
 mod color;
 mod finish;
+mod interior;
 mod light;
 mod object;
 mod part;
@@ -124,6 +125,8 @@ impl Evaluator<'_> {
             Word::Texture => self.texture(token).map(Value::Texture),
             Word::Pigment => self.pigment(token).map(Value::Pigment),
             Word::Finish => self.finish(token).map(Value::Finish),
+            Word::Interior => self.interior(token).map(Value::Interior),
+            Word::Material => self.material(token).map(Value::Material),
             Word::ColorMap => self.color_map(token),
             Word::TransformWord => self.transform_block(token).map(Value::Transform),
             Word::Camera => self.camera(token),

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, TextureId};
+use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -336,9 +336,21 @@ impl Evaluator<'_> {
                 }
             };
         let kind = match word {
-            Word::Texture => self.texture(token).map(|texture: TextureId| {
+            Word::Texture => self.texture(token).map(|texture| {
                 *textured = true;
                 Some(ModifierKind::Texture(texture))
+            }),
+            Word::Interior => {
+                self.interior(token).map(|interior| Some(ModifierKind::Interior(interior)))
+            }
+            Word::Material => self.material(token).map(|material| {
+                *textured |= material.texture.is_some();
+                let parts = [
+                    material.texture.map(ModifierKind::Texture),
+                    material.interior.map(ModifierKind::Interior),
+                ];
+                modifiers.extend(parts.into_iter().flatten().map(|kind| Modifier { kind, site }));
+                None
             }),
             Word::Pigment => {
                 start_texture(self, modifiers, textured);
@@ -351,6 +363,8 @@ impl Evaluator<'_> {
             Word::NoShadow => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))
             }
+            // It tells where fog and media are, and there are none yet.
+            Word::Hollow => self.optional_flag(token).map(|_| None),
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
             }

@@ -58,6 +58,12 @@ impl Evaluator<'_> {
             if let Some(item) = written.pattern {
                 list_once(&mut pigment.pattern, item);
             }
+            if let PigmentKind::Patterned { map, .. } = &pigment.kind
+                && map.0.iter().any(|(_, color)| color.is_clear())
+            {
+                let Pigment { pattern, clear, .. } = &mut pigment;
+                pattern.iter().for_each(|&item| list_once(clear, item));
+            }
             if failed { Err(Reported) } else { Ok(pigment) }
         })?;
         Ok(self.add_pigment(pigment))
@@ -81,6 +87,14 @@ impl Evaluator<'_> {
                 .help("name one: `gradient y color_map { … }`");
                 Err(self.report(&token.here, diagnostic))
             }
+        }
+    }
+
+    /// The item that `token` began gives the pigment one colour.
+    fn color_of(&self, pigment: &mut Pigment, color: Color, token: &Token) {
+        pigment.kind = PigmentKind::Color(color);
+        if color.is_clear() {
+            list_once(&mut pigment.clear, self.whole(token));
         }
     }
 
@@ -127,7 +141,8 @@ impl Evaluator<'_> {
                 written.map = Some((given.as_ref().clone(), token.clone(), self.whole(token)));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
-                pigment.kind = PigmentKind::Color(self.color_from(token)?);
+                let color = self.color_from(token)?;
+                self.color_of(pigment, color, token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -152,7 +167,8 @@ impl Evaluator<'_> {
                     }
                     Value::Color(_) | Value::Vector(_) => {
                         let color = value.as_color().unwrap_or_default();
-                        pigment.kind = PigmentKind::Color(self.color_components(color)?);
+                        let color = self.color_components(color)?;
+                        self.color_of(pigment, color, token);
                     }
                     _ => {
                         self.unexpected(token, Place::PIGMENT);

@@ -56,6 +56,13 @@ impl Place {
         families: &[Family::Texture, Family::Setting, Family::Camera],
         others: &[],
     };
+    pub const INTERIOR: Self =
+        Self { word: Some(Word::Interior), families: &[Family::Interior], others: &[] };
+    pub const MATERIAL: Self = Self {
+        word: Some(Word::Material),
+        families: &[Family::Transform],
+        others: &[Word::Texture, Word::Interior, Word::InteriorTexture],
+    };
     pub const TRANSFORM: Self =
         Self { word: Some(Word::TransformWord), families: &[Family::Transform], others: &[] };
     pub const CAMERA: Self = Self {

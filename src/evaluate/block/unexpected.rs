@@ -123,6 +123,8 @@ impl Evaluator<'_> {
             Value::Texture(_) if of_object => Some("texture"),
             Value::Pigment(_) if of_texture => Some("pigment"),
             Value::Finish(_) if of_texture => Some("finish"),
+            Value::Interior(_) if of_object => Some("interior"),
+            Value::Material(_) if of_object => Some("material"),
             Value::Transform(_) if place.families.contains(&Family::Transform) => Some("transform"),
             Value::Object(_) if place.families.contains(&Family::Shape) => Some("object"),
             Value::Camera(_) if place.word.is_none() => Some("camera"),

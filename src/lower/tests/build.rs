@@ -47,7 +47,13 @@ impl Build {
 
     pub fn pigment(&mut self, kind: PigmentKind, steps: Vec<Step>) -> PigmentId {
         let transforms = if steps.is_empty() { vec![] } else { vec![self.transform(steps)] };
-        self.0.pigments.push(Pigment { kind, transforms, site: site(900), pattern: vec![] });
+        self.0.pigments.push(Pigment {
+            clear: vec![],
+            kind,
+            transforms,
+            site: site(900),
+            pattern: vec![],
+        });
         PigmentId(self.0.pigments.len() as u32 - 1)
     }
 

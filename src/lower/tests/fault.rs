@@ -1,7 +1,7 @@
 //! What cannot be built is reported where it stands, and the rest is built.
 
 use super::build::*;
-use crate::color::{Color, Rgb};
+use crate::color::Rgb;
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::math::transform::Step;
@@ -79,18 +79,6 @@ fn things_without_size_are_reported() {
 fn a_box_without_thickness_is_a_sheet() {
     let world = spend(box_(v(0.0, 2.0, 0.0), v(1.0, 2.0, 1.0)), vec![]);
     assert_eq!(world.boxes[0].half_widths, [0.5, 0.0, 0.5]);
-}
-
-#[test]
-fn a_transparent_pigment_waits_for_its_day() {
-    let mut build = Build::new();
-    let glass = Color { filter: 0.5, ..Color::WHITE };
-    let pigment = build.pigment(PigmentKind::Color(glass), vec![]);
-    let texture = ModifierKind::Texture(build.texture(pigment, vec![]));
-    let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![texture]);
-    build.root(object);
-    build.root(object);
-    assert_eq!(build.codes(), [Code::NotSupportedYet]);
 }
 
 fn light(color: Rgb) -> ObjectKind {

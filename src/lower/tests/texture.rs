@@ -344,6 +344,7 @@ fn what_a_finish_gives_no_weight_is_absent() {
         build.world().materials[0].finish.clone()
     };
     let black = Reflection {
+        fresnel: false,
         maximum: Rgb::BLACK,
         minimum: Rgb::BLACK,
         falloff: 1.0,

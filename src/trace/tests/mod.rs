@@ -1,6 +1,7 @@
 //! Small worlds to trace, built by hand.
 
 mod film;
+mod glass;
 mod light;
 mod single;
 
@@ -17,6 +18,7 @@ use crate::world::{
 };
 
 const NO_FINISH: Finish = Finish {
+    conserve_energy: false,
     glow: Rgb::BLACK,
     diffuse: 0.0,
     brilliance: 1.0,
@@ -32,8 +34,14 @@ fn glowing(glow: f64) -> Material {
 
 fn mirror(albedo: f64, glow: f64) -> Material {
     let all = Rgb::gray(albedo);
-    let reflection =
-        Reflection { minimum: all, maximum: all, falloff: 1.0, exponent: 1.0, metallic: 0.0 };
+    let reflection = Reflection {
+        fresnel: false,
+        minimum: all,
+        maximum: all,
+        falloff: 1.0,
+        exponent: 1.0,
+        metallic: 0.0,
+    };
     let finish = Finish { glow: Rgb::gray(glow), reflection: Some(reflection), ..NO_FINISH };
     Material { pigment: Pigment::Color(Color::WHITE), finish }
 }
@@ -58,6 +66,7 @@ struct Built(World);
 impl Built {
     fn object(mut self, shape: Shape, material: Material) -> Self {
         self.0.objects.push(Object {
+            interior: None,
             shape,
             material: self.0.materials.len() as u32,
             texture_from_world: None,

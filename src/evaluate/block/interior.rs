@@ -1,0 +1,89 @@
+//! `interior` and `material`: what a solid is filled with, and what it is made of.
+
+use crate::scene::{Interior, InteriorId};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Material, Value};
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// `interior { [Name] ior … }`.
+    pub(super) fn interior(&mut self, token: &Token) -> Outcome<InteriorId> {
+        let mut interior = Interior { ior: 1.0, site: token.here.site(token.span) };
+        let interior = self.block(token, Word::Interior, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                failed |= evaluator.interior_item(&token, &mut interior) == Err(Reported);
+            }
+            if failed { Err(Reported) } else { Ok(interior) }
+        })?;
+        let interior = Interior { site: self.whole(token), ..interior };
+        self.scene.interiors.push(interior);
+        Ok(InteriorId(self.scene.interiors.len() as u32 - 1))
+    }
+
+    fn interior_item(&mut self, token: &Token, interior: &mut Interior) -> Outcome<()> {
+        match token.kind {
+            TokenKind::Word(Word::Ior) => interior.ior = self.more_than_zero(token, Word::Ior)?,
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::Interior(id)) => interior.ior = self.scene.interiors[id.index()].ior,
+                Some(Value::Poison(poison)) => self.set_poison(poison),
+                _ => {
+                    self.unexpected(token, Place::INTERIOR);
+                    return Err(Reported);
+                }
+            },
+            _ => return self.unfit(token, Place::INTERIOR),
+        }
+        Ok(())
+    }
+
+    /// `material { [Name] texture { … } interior { … } }`; transforms move its texture.
+    pub(super) fn material(&mut self, token: &Token) -> Outcome<Material> {
+        let mut material = Material::default();
+        self.block(token, Word::Material, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                failed |= evaluator.material_item(&token, &mut material) == Err(Reported);
+            }
+            if failed { Err(Reported) } else { Ok(material) }
+        })
+    }
+
+    fn material_item(&mut self, token: &Token, material: &mut Material) -> Outcome<()> {
+        if let Some(transform) = self.transform_from(token) {
+            let transform = transform?;
+            if let Some(texture) = material.texture {
+                let mut moved = self.scene.textures[texture.index()].clone();
+                moved.transforms.push(transform);
+                material.texture = Some(self.add_texture(moved));
+            }
+            return Ok(());
+        }
+        match token.kind {
+            TokenKind::Word(Word::Texture) => material.texture = Some(self.texture(token)?),
+            TokenKind::Word(Word::Interior) => material.interior = Some(self.interior(token)?),
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::Material(named)) => *material = named,
+                Some(Value::Poison(poison)) => self.set_poison(poison),
+                _ => {
+                    self.unexpected(token, Place::MATERIAL);
+                    return Err(Reported);
+                }
+            },
+            _ => return self.unfit(token, Place::MATERIAL),
+        }
+        Ok(())
+    }
+
+    /// An item that the block has no use for: a mistake, unless it is harmless or belongs to what is
+    /// not built.
+    fn unfit(&mut self, token: &Token, place: Place) -> Outcome<()> {
+        let poisoned = self.poison.is_some();
+        self.unexpected(token, place);
+        let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+        if harmless || poisoned || self.poison.is_some() { Ok(()) } else { Err(Reported) }
+    }
+}

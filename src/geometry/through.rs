@@ -1,0 +1,78 @@
+//! What a ray meets on its way through: every clear surface before a light, and surfaces that
+//! coincide with one it has gone through.
+//!
+//! **In:** a ray. **Out:** crossings, in a list of the caller's. **Invariant:** no allocation per
+//! ray once the list has grown; what is reported does not depend on the order of the search.
+
+use super::{Entry, Geometry, Hit, Solid};
+use crate::shape::{Chord, Crossing, Ray};
+
+impl Geometry {
+    /// Adds to `hits` every crossing with a clear surface that casts shadows and is certainly nearer
+    /// than `distance` (which may be ∞), in no order.
+    pub fn filters(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>) {
+        self.search(ray, distance, &mut |place: usize| {
+            let entry = &self.entries[place];
+            let chord = if entry.filters { self.chord(entry, ray) } else { None };
+            for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
+                if crossing.is_ahead() && crossing.t + crossing.error < distance {
+                    hits.push(entry.hit(crossing.t, leaving));
+                }
+            }
+            distance
+        });
+    }
+
+    /// A ray went through the surface at `hit`, and others may coincide with that. Adds to `hits`
+    /// those of other objects that a ray from `start`, which goes straight on from behind the
+    /// surface, will not meet any more, in the order of the objects; one that it has gone through
+    /// in and out is there twice.
+    #[cold]
+    #[inline(never)]
+    pub fn coinciding(&self, ray: &Ray, hit: &Hit, start: &Ray, hits: &mut Vec<Hit>) {
+        let limit = self.end_of_first(ray);
+        let first = hits.len();
+        self.search(ray, limit, &mut |place: usize| {
+            let entry = &self.entries[place];
+            let other = entry.object != hit.object;
+            let chord = if other { self.chord(entry, ray) } else { None };
+            for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
+                // Its own bound may be wider than that of the surface that was hit.
+                if crossing.is_ahead() && crossing.t <= limit + 2.0 * crossing.error {
+                    let still_ahead = self.chord(entry, start).is_some_and(|chord| {
+                        if leaving { chord.leave.is_ahead() } else { chord.enter.is_ahead() }
+                    });
+                    if !still_ahead {
+                        hits.push(entry.hit(crossing.t, leaving));
+                    }
+                }
+            }
+            limit
+        });
+        hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
+    }
+
+    fn chord(&self, entry: &Entry, ray: &Ray) -> Option<Chord> {
+        match &entry.solid {
+            Solid::Sphere(sphere) => sphere.chord(ray),
+            Solid::Plane(plane) => plane.chord(ray),
+            Solid::Box(i) => self.boxes[*i as usize].0.chord(ray),
+            Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
+        }
+    }
+}
+
+impl Entry {
+    pub(super) fn hit(&self, t: f64, leaving: bool) -> Hit {
+        Hit { object: self.object, t, leaving, contested: false }
+    }
+}
+
+impl super::Sides {
+    /// The crossings that are seen, each with whether the ray leaves there.
+    fn seen(self, chord: &Chord) -> impl Iterator<Item = (Crossing, bool)> {
+        let enter = (self != Self::Inside).then_some((chord.enter, false));
+        let leave = (self != Self::Outside).then_some((chord.leave, true));
+        enter.into_iter().chain(leave)
+    }
+}
