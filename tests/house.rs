@@ -151,6 +151,8 @@ const ELEMENTARY: &[&str] = &[
 /// Numbers that look like an epsilon or a far limit, by file and by what stands on their line, and
 /// why each is neither: none is compared with a length of a scene.
 const NUMBERS: &[(&str, &str, &str)] = &[
+    ("accuracy/knob.rs", "1e-6", "a weight at which reflections are no longer followed"),
+    ("accuracy/table.rs", "0.000_1", "how a number is written"),
     ("evaluate/block/settings.rs", "1_000_000.0", "levels of reflection"),
     ("evaluate/builtin/float.rs", "BORDER", "roundings of a sine or cosine, which is at most 1"),
     ("evaluate/builtin/mod.rs", "1e-5..1e16", "how a number is written in a message"),
@@ -174,6 +176,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
     ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
+    ("math/random.rs", "(1u64 << 53)", "the numbers of 53 bits between 0 and 1"),
     ("math/singular.rs", "cosine.abs()", "a cosine: columns that are at right angles"),
     ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),
     ("math/vector.rs", "UNIT_ROUNDOFF", "the roundoff itself"),

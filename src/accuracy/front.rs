@@ -54,8 +54,12 @@ impl Point {
 
 /// A verdict for each point.
 pub fn verdicts(points: &[Point]) -> Vec<Verdict> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&a, &b| points[a].time.total_cmp(&points[b].time).then(a.cmp(&b)));
+    // By time; those that cannot be told apart by it stay as they came, from cheap to dear.
+    let mut order: Vec<usize> = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        let slower = order.iter().position(|&other| point.is_faster(&points[other]));
+        order.insert(slower.unwrap_or(order.len()), i);
+    }
     let mut verdicts = vec![Verdict::Front; points.len()];
     for (place, &i) in order.iter().enumerate() {
         let point = &points[i];

@@ -101,9 +101,9 @@ pub const KNOBS: &[Knob] = &[
 ];
 
 const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
-/// What a ray costs in single precision, of what it costs in double: kernels that make up for what
-/// rounding the ray to them costs are few.
-const SINGLE: f64 = 1.05;
+/// What a ray costs in single precision, of what it costs in double: rounding it as seen from each
+/// shape costs more than the kernels save.
+const SINGLE: f64 = 1.3;
 
 fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }

@@ -33,8 +33,8 @@ pub fn of(report: &Report, tried: &Tried) -> String {
         };
         let most_change = settings.iter().map(change).fold(0.0, f64::max);
         return format!(
-            "{name} has no proven effect: {most} of {audited} audited pixels change, and the error by less than {}.",
-            table::amount(report.metric, most_change.max(report.resolution()))
+            "{name} has no proven effect: {most} of {audited} audited pixels change, and the error by at most {}.",
+            table::amount(report.metric, most_change)
         );
     }
     let enough = settings.iter().find(|setting| changed(report, setting, dear) == 0);

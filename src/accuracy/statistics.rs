@@ -110,7 +110,7 @@ impl Metric {
         let draw = |resample| {
             let mut random = Random::of(SEED, resample as u64);
             // The upper half of a product is as even as a remainder, and much sooner had.
-            let mut place = || ((random.bits() >> 32) * parts.len() as u64 >> 32) as usize;
+            let mut place = || (((random.bits() >> 32) * parts.len() as u64) >> 32) as usize;
             drawn.iter_mut().for_each(|part| *part = parts[place()]);
             self.whole(&mut drawn)
         };

@@ -33,14 +33,13 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
     )?;
     writeln!(
         out,
-        "  {:22} {:>15} {:>8} {:>9}  {:>9} {:21} {}",
+        "  {:22} {:>15} {:>8} {:>9}  {:>9} {:21} worth it?",
         "setting",
         "CPU min..median",
         "wall",
         "rays/px",
         heading(report.metric),
-        "95 % interval",
-        "worth it?"
+        "95 % interval"
     )?;
     for knob in &report.knobs {
         writeln!(out, "{}", knob.name)?;

@@ -13,7 +13,7 @@ use super::stats::Stopwatch;
 /// The pixels and samples of an audit are drawn from this.
 const SEED: u64 = 1;
 /// Seconds to encode and write a pixel in, with room to spare.
-const TO_WRITE: f64 = 2e-7;
+const TO_WRITE: f64 = 5e-7;
 /// Seconds to find an interval in.
 const TO_REPORT: f64 = 0.02;
 
