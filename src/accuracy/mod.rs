@@ -330,7 +330,8 @@ fn dearest_that_fit(knobs: &[&Knob], own: &PlanOptions, takes: (f64, f64), budge
     let mut left = FOR_A_ROUND * budget;
     let fits = |least: &f64| {
         left -= if *least > 1.0 { takes.0 * least } else { takes.1 };
-        *least <= 1.0 || left > 0.0
+        // What takes no longer than the scene's own picture is always tried.
+        takes.0 * *least <= takes.1 || *least <= 1.0 || left > 0.0
     };
     all.into_iter().take_while(fits).last().unwrap_or(1.0)
 }
