@@ -1,5 +1,7 @@
 //! Hard cases: what other tracers get wrong by a last digit, held against exact arithmetic.
 
+#[path = "hard/clear.rs"]
+mod clear;
 #[path = "hard/dice.rs"]
 mod dice;
 #[path = "hard/exact.rs"]

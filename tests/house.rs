@@ -173,6 +173,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
     ("geometry/tree.rs", "least", "relative: of the tree's size"),
     ("lower/camera.rs", "PARALLEL", "relative: between directions"),
+    ("lower/lint.rs", "ROUNDING", "relative: what a warning overlooks in a sum near 1"),
     ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
     ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
@@ -189,6 +190,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/box_.rs", "LEVEL", "a slope"),
     ("shape/mod.rs", "const U", "the roundoff itself"),
     ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
+    ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
 ];
 
 const EMPTY_NAMES: &[&str] = &[
