@@ -163,6 +163,8 @@ impl Tree {
         }
     }
 
+    // However many kernels call it, it is the same code.
+    #[inline(never)]
     fn visit_with<const STACK: usize>(
         &self,
         ray: &Ray,

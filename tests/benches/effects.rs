@@ -16,7 +16,7 @@ const SCENES: [(&str, &[&str]); 4] = [
     ("bare", &["seed/ambient", "atmosphere/background"]),
     ("shadows", &["directives/for", "transforms/rotate"]),
     ("secondary", &["seed/mirror"]),
-    ("shadows+secondary", &["gallery/first", "seed/mirror"]),
+    ("shadows+secondary", &["gallery/first", "finishes/reflection", "seed/mirror"]),
 ];
 
 /// The function whose instructions are counted, with all that it calls.
