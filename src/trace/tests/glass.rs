@@ -344,7 +344,7 @@ fn an_orthographic_camera_and_a_tree_of_objects_see_the_same_glass() {
 #[test]
 fn filters_before_a_light_multiply_in_one_order_however_they_are_declared() {
     let panes: Vec<(f64, f64)> = (0..9)
-        .map(|i| f64::from(i))
+        .map(f64::from)
         .map(|i| (1.0 + 0.5 * (1.0 + sin(3.7 * i)), 0.3 + 0.6 * cos(1.3 * i).abs()))
         .collect();
     let picture = |order: &[(f64, f64)]| {
