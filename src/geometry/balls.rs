@@ -65,9 +65,8 @@ impl Balls {
             let [x, y, z] = [0, 1, 2].map(|axis: usize| origin[axis] - self.centres[axis][lane]);
             let along = x * direction[0] + y * direction[1] + z * direction[2];
             let toward = if along < 0.0 { along } else { 0.0 };
-            *excess = (x * x + y * y + z * z)
-                - toward * toward * SLACK
-                - self.reaches_squared[lane];
+            *excess =
+                (x * x + y * y + z * z) - toward * toward * SLACK - self.reaches_squared[lane];
         }
         // What is no number is met.
         (0..LANES).fold(0, |met, lane| met | u32::from(!(excess[lane] > 0.0)) << lane)

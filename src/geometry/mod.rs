@@ -258,20 +258,42 @@ impl Geometry {
     /// Shows `seeker` every entry that the ray may meet at `limit` or before.
     #[inline(always)]
     fn search(&self, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
-        let mut limit = run(0..self.unbounded, limit, seeker);
-        let Some(tree) = &self.tree else {
-            for (group, balls) in self.balls.iter().enumerate() {
-                let first = self.unbounded + group * balls::LANES;
-                let met = Lanes(balls.met(ray)).map(|lane| first + lane);
-                limit = run(met, limit, seeker);
+        let mut limit = limit;
+        for place in 0..self.unbounded {
+            if self.entries[place].is_ahead(ray) {
+                limit = look(seeker, place);
+                if limit == f64::NEG_INFINITY {
+                    return;
+                }
+            }
+        }
+        if let Some(tree) = &self.tree {
+            self.search_tree(tree, ray, limit, seeker);
+            return;
+        }
+        for (group, balls) in self.balls.iter().enumerate() {
+            let first = self.unbounded + group * balls::LANES;
+            let mut met = balls.met(ray);
+            while met != 0 {
+                if look(seeker, first + met.trailing_zeros() as usize) == f64::NEG_INFINITY {
+                    return;
+                }
+                met &= met - 1;
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
+        tree.visit(ray, limit, |leaf, limit| {
+            let mut limit = limit;
+            for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
+                limit = seeker.look(place);
                 if limit == f64::NEG_INFINITY {
                     break;
                 }
             }
-            return;
-        };
-        tree.visit(ray, limit, |leaf, limit| {
-            run(leaf.start + self.unbounded..leaf.end + self.unbounded, limit, seeker)
+            limit
         });
     }
 
@@ -301,7 +323,7 @@ impl Geometry {
                 roots.chord()
             }
             Solid::Plane(plane) => {
-                let (speed, t) = plane.pass_ahead(ray)?;
+                let (speed, t) = plane.pass(ray)?;
                 let leaving = speed > 0.0;
                 if t > limit || !entry.sides.shows(leaving) {
                     return None;
@@ -324,6 +346,17 @@ impl Geometry {
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;
         (crossing.t <= limit).then_some((crossing, leaving))
+    }
+}
+
+impl Entry {
+    /// `false` when the ray certainly meets nothing of it.
+    #[inline(always)]
+    fn is_ahead(&self, ray: &Ray) -> bool {
+        match &self.solid {
+            Solid::Plane(plane) => plane.is_ahead(ray),
+            Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => true,
+        }
     }
 }
 
@@ -369,29 +402,10 @@ impl<F: FnMut(usize) -> f64> Seeker for F {
     }
 }
 
-#[inline(always)]
-fn run(places: impl Iterator<Item = usize>, limit: f64, seeker: &mut impl Seeker) -> f64 {
-    let mut limit = limit;
-    for place in places {
-        limit = seeker.look(place);
-        if limit == f64::NEG_INFINITY {
-            break;
-        }
-    }
-    limit
-}
-
-/// The numbers of the bits that are set.
-struct Lanes(u32);
-
-impl Iterator for Lanes {
-    type Item = usize;
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        let lane = self.0.trailing_zeros();
-        self.0 &= self.0.wrapping_sub(1);
-        (lane < 32).then_some(lane as usize)
-    }
+/// As `seeker.look(place)`, not inlined: where little is looked at, the search itself is short.
+#[inline(never)]
+fn look(seeker: &mut impl Seeker, place: usize) -> f64 {
+    seeker.look(place)
 }
 
 /// Looks for anything that shadows the ray.

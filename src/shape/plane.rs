@@ -16,13 +16,17 @@ impl Plane {
         chord(self.normal.get(), self.distance, ray)
     }
 
-    /// N·D and t of the crossing; `None` when it is behind the start.
+    /// Whether the ray moves toward the plane.
     #[inline(always)]
-    pub fn pass_ahead(&self, ray: &Ray) -> Option<(f64, f64)> {
-        let normal = self.normal.get();
-        let inside = self.distance - normal.dot(ray.origin);
-        let speed = normal.dot(ray.direction);
-        (inside * speed > 0.0).then(|| (speed, inside / speed))
+    pub fn is_ahead(&self, ray: &Ray) -> bool {
+        self.signed_distance(ray.origin) * self.normal.get().dot(ray.direction) > 0.0
+    }
+
+    /// N·D and t of the crossing of a ray that moves toward the plane.
+    #[inline(always)]
+    pub fn pass(&self, ray: &Ray) -> Option<(f64, f64)> {
+        let speed = self.normal.get().dot(ray.direction);
+        self.is_ahead(ray).then(|| (speed, self.signed_distance(ray.origin) / speed))
     }
 
     /// With an error bound that is easily computed and larger than that of [`Plane::chord`]; `None`
@@ -51,6 +55,7 @@ impl Plane {
     }
 
     /// Positive inside: d − N·P.
+    #[inline]
     pub fn signed_distance(&self, point: Vector) -> f64 {
         self.distance - self.normal.get().dot(point)
     }
