@@ -18,7 +18,7 @@ use crate::world::World;
 use balls::{Ball, Balls};
 use tree::Tree;
 
-/// Fewer bounded objects than this are tried one after the other: faster, as measured by
+/// Fewer bounded objects than this need no tree, only [`Balls`]: faster, as measured by
 /// `cargo bench --bench intersect`.
 const TREE_FROM: usize = 8;
 
@@ -283,6 +283,7 @@ impl Geometry {
         }
     }
 
+    /// Not inlined: a search without a tree stays short, and its numbers in registers.
     #[inline(never)]
     fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
         tree.visit(ray, limit, |leaf, limit| {
