@@ -399,7 +399,7 @@ fn the_boxes_of_a_tree_hold_the_boxes_they_stand_for() {
 fn balls_around_a_few_change_nothing() {
     let mut random = Random(77);
     for world in 0..400 {
-        let reach = random.size(-140.0, 140.0);
+        let reach = random.size(-90.0, 90.0);
         let world = random_world(&mut random, world % (TREE_FROM + 2), reach);
         assert_tree_agrees(&world, &mut random, reach, 100);
     }
