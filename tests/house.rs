@@ -168,6 +168,9 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "1e-10 * a.abs().max(b.abs())",
         "relative: two numbers alike, for a hint",
     ),
+    ("geometry/balls.rs", "f64::MAX / 1e20", "squares that may overflow: every object is tried"),
+    ("geometry/balls.rs", "radius_squared * (", "relative, and what underflows"),
+    ("geometry/balls.rs", "SLACK", "roundings of a square, relative"),
     ("geometry/tree.rs", "FAR", "beyond so many tree sizes every object is tried"),
     ("geometry/tree.rs", "STEEPEST", "stands for 1/0 among slopes"),
     ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
@@ -189,6 +192,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/box_.rs", "STEEP", "a slope"),
     ("shape/box_.rs", "LEVEL", "a slope"),
     ("shape/mod.rs", "const U", "the roundoff itself"),
+    ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),
+    ("shape/plane.rs", "error: t / 67_108_864.0", "relative: of the distance"),
     ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
     ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
 ];

@@ -4,21 +4,21 @@
 //! **Invariant:** the answer is that of trying every object in any order: the tree finds, the
 //! kernels in `shape/` decide. No allocation per ray, no recursion.
 
+mod balls;
 mod build;
 mod single;
 mod through;
 mod tree;
-
-use std::ops::Range;
 
 use crate::math::Vector;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
 use crate::world::World;
+use balls::{Ball, Balls};
 use tree::Tree;
 
-/// Fewer bounded objects than this are tried one after the other: faster, as measured by
+/// Fewer bounded objects than this need no tree, only [`Balls`]: faster, as measured by
 /// `cargo bench --bench intersect`.
 const TREE_FROM: usize = 8;
 
@@ -31,6 +31,8 @@ pub struct Geometry {
     /// How many are unbounded.
     unbounded: usize,
     tree: Option<Tree>,
+    /// Without a tree: around the bounded, four by four.
+    balls: Vec<Balls>,
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
@@ -109,12 +111,18 @@ impl Geometry {
             entries: Vec::with_capacity(world.objects.len()),
             unbounded: unbounded.len(),
             tree,
+            balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             single: false,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
+        }
+        if geometry.tree.is_none() {
+            let bounded = geometry.entries[geometry.unbounded..].iter();
+            let balls: Vec<Ball> = bounded.map(|entry| geometry.ball(&entry.solid)).collect();
+            geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
         }
         geometry
     }
@@ -146,6 +154,17 @@ impl Geometry {
         let clear = world.materials[object.material as usize].pigment.is_clear();
         let (blocks, filters) = (object.casts_shadow && !clear, object.casts_shadow && clear);
         self.entries.push(Entry { solid, object: number, sides, blocks, filters, clear });
+    }
+
+    fn ball(&self, solid: &Solid) -> Ball {
+        match *solid {
+            Solid::Sphere(Sphere { centre, radius }) => Ball::new(centre, radius * radius),
+            Solid::Box(i) => {
+                let (box_, reach_squared) = self.boxes[i as usize];
+                Ball::new(box_.centre, reach_squared)
+            }
+            Solid::Plane(_) | Solid::Ellipsoid(_) => Ball::EVERYWHERE,
+        }
     }
 
     /// The first surface ahead of the ray's start. Of crossings that their error bounds cannot
@@ -239,13 +258,43 @@ impl Geometry {
     /// Shows `seeker` every entry that the ray may meet at `limit` or before.
     #[inline(always)]
     fn search(&self, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
-        let Some(tree) = &self.tree else {
-            run(0..self.entries.len(), limit, seeker);
+        let mut limit = limit;
+        for place in 0..self.unbounded {
+            if self.entries[place].is_ahead(ray) {
+                limit = look(seeker, place);
+                if limit == f64::NEG_INFINITY {
+                    return;
+                }
+            }
+        }
+        if let Some(tree) = &self.tree {
+            self.search_tree(tree, ray, limit, seeker);
             return;
-        };
-        let limit = run(0..self.unbounded, limit, seeker);
+        }
+        for (group, balls) in self.balls.iter().enumerate() {
+            let first = self.unbounded + group * balls::LANES;
+            let mut met = balls.met(ray);
+            while met != 0 {
+                if look(seeker, first + met.trailing_zeros() as usize) == f64::NEG_INFINITY {
+                    return;
+                }
+                met &= met - 1;
+            }
+        }
+    }
+
+    /// Not inlined: a search without a tree stays short, and its numbers in registers.
+    #[inline(never)]
+    fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
         tree.visit(ray, limit, |leaf, limit| {
-            run(leaf.start + self.unbounded..leaf.end + self.unbounded, limit, seeker)
+            let mut limit = limit;
+            for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
+                limit = seeker.look(place);
+                if limit == f64::NEG_INFINITY {
+                    break;
+                }
+            }
+            limit
         });
     }
 
@@ -274,7 +323,19 @@ impl Geometry {
                 }
                 roots.chord()
             }
-            Solid::Plane(plane) => plane.chord_ahead(ray)?,
+            Solid::Plane(plane) => {
+                let (speed, t) = plane.pass(ray)?;
+                let leaving = speed > 0.0;
+                if t > limit || !entry.sides.shows(leaving) {
+                    return None;
+                }
+                if BOUND == EASY
+                    && let Some(crossing) = plane.roughly(ray, speed, t)
+                {
+                    return Some((crossing, leaving));
+                }
+                plane.chord(ray)?
+            }
             Solid::Box(i) => {
                 let (box_, reach_squared) = &self.boxes[*i as usize];
                 if box_.is_out_of_reach(*reach_squared, ray) {
@@ -289,7 +350,28 @@ impl Geometry {
     }
 }
 
+impl Entry {
+    /// `false` when the ray certainly meets nothing of it.
+    #[inline(always)]
+    fn is_ahead(&self, ray: &Ray) -> bool {
+        match &self.solid {
+            Solid::Plane(plane) => plane.is_ahead(ray),
+            Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => true,
+        }
+    }
+}
+
 impl Sides {
+    /// Whether a surface is seen where a ray leaves the solid, or enters it.
+    #[inline(always)]
+    fn shows(self, leaving: bool) -> bool {
+        match self {
+            Self::Both => true,
+            Self::Outside => !leaving,
+            Self::Inside => leaving,
+        }
+    }
+
     #[inline(always)]
     fn first_seen(self, chord: &Chord) -> Option<(Crossing, bool)> {
         let enters = || chord.enter.is_ahead().then_some((chord.enter, false));
@@ -321,16 +403,10 @@ impl<F: FnMut(usize) -> f64> Seeker for F {
     }
 }
 
-#[inline(always)]
-fn run(places: Range<usize>, limit: f64, seeker: &mut impl Seeker) -> f64 {
-    let mut limit = limit;
-    for place in places {
-        limit = seeker.look(place);
-        if limit == f64::NEG_INFINITY {
-            break;
-        }
-    }
-    limit
+/// As `seeker.look(place)`, not inlined: where little is looked at, the search itself is short.
+#[inline(never)]
+fn look(seeker: &mut impl Seeker, place: usize) -> f64 {
+    seeker.look(place)
 }
 
 /// Looks for anything that shadows the ray.
@@ -398,7 +474,7 @@ impl Seeker for Race<'_> {
                 self.limit = t + 2.0 * error;
                 (self.place, self.t, self.leaving) = (place, t, leaving);
             } else {
-                self.rival_t = self.rival_t.min(t);
+                self.rival_t = if t < self.rival_t { t } else { self.rival_t };
             }
         }
         self.limit

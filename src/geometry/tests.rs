@@ -97,7 +97,10 @@ fn random_world(random: &mut Random, count: usize, reach: f64) -> World {
 
 /// The same entries, tried one after the other.
 fn without_tree(geometry: &Geometry) -> Geometry {
-    Geometry { tree: None, ..geometry.clone() }
+    let bounded = geometry.entries.len() - geometry.unbounded;
+    let balls = vec![Ball::EVERYWHERE; bounded];
+    let balls = balls.chunks(balls::LANES).map(Balls::new).collect();
+    Geometry { tree: None, balls, ..geometry.clone() }
 }
 
 /// Rays from anywhere, from surfaces, along axes, at centres.
@@ -389,5 +392,26 @@ fn the_boxes_of_a_tree_hold_the_boxes_they_stand_for() {
             assert!(above(low[axis], bounds.low[axis]) <= 0.0, "{bounds:?} {origin} {scale:e}");
             assert!(above(high[axis], bounds.high[axis]) >= 0.0, "{bounds:?} {origin} {scale:e}");
         }
+    }
+}
+
+#[test]
+fn balls_around_a_few_change_nothing() {
+    let mut random = Random(77);
+    for world in 0..400 {
+        let reach = random.size(-90.0, 90.0);
+        let world = random_world(&mut random, world % (TREE_FROM + 2), reach);
+        assert_tree_agrees(&world, &mut random, reach, 100);
+    }
+}
+
+#[test]
+fn a_ray_so_far_off_that_squares_overflow_meets_nothing_that_is_absent() {
+    let mut world = empty();
+    add_sphere(&mut world, Vector::ZERO, 1.0);
+    let geometry = Geometry::build(&world);
+    for far in [1e150, 1e160, 1e300] {
+        let ray = Ray { origin: Vector::Z * far, direction: -Vector::Z };
+        assert!(geometry.nearest(&ray).is_none_or(|hit| hit.object == 0));
     }
 }

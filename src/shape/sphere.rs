@@ -104,9 +104,9 @@ pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Optio
 /// of r would blur what is there.
 #[inline(always)]
 fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
-    let far = (0..3).fold(R::ZERO, |far, axis| far.max(place.component(axis).abs()));
+    let is_larger = |axis| radius > R::from_f64(1024.0) * place.component(axis).abs();
     let square = radius * radius;
-    radius > R::from_f64(1024.0) * far && square > R::SAFE_SQUARES.0 && square < R::SAFE_SQUARES.1
+    (0..3).all(is_larger) && square > R::SAFE_SQUARES.0 && square < R::SAFE_SQUARES.1
 }
 
 /// |S − C|² − r² in twice the digits, rounded once: within u of itself and 32u²·r² of the truth,
@@ -221,7 +221,8 @@ impl<R: Real> Roots<R> {
         let power = start_squared - radius_squared;
         let squares = number(6.0) * start_squared + number(2.0) * radius_squared;
         let far = along.abs() + half;
-        let near = (power / far).min(far);
+        let near = power / far;
+        let near = if near < far { near } else { far };
         let (enter, leave) = if along > R::ZERO { (-far, -near) } else { (near, far) };
         Some(Self { enter, leave, half, miss, along, power, squares, unit })
     }

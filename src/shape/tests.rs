@@ -569,3 +569,23 @@ fn single_precision_kernels_keep_their_own_bounds() {
     }
     assert!(hits > 5_000, "{hits}");
 }
+
+#[test]
+fn a_planes_easy_bound_is_no_less_than_its_bound() {
+    let mut random = Random(78);
+    let mut count = 0;
+    for _ in 0..20_000 {
+        let size = random.size(-100.0, 100.0);
+        let plane = Plane { normal: random.direction(), distance: size * random.number(-1.0, 1.0) };
+        let far = random.size(-3.0, 6.0);
+        let ray = ray_at(&mut random, Vector::ZERO, size, far);
+        let Some((speed, t)) = plane.pass(&ray) else { continue };
+        let Some(easy) = plane.roughly(&ray, speed, t) else { continue };
+        let Some(chord) = plane.chord(&ray) else { panic!("{plane:?} {ray:?}") };
+        let tight = if speed > 0.0 { chord.leave } else { chord.enter };
+        assert_eq!(easy.t, tight.t);
+        assert!(easy.error >= tight.error && tight.is_ahead(), "{plane:?} {ray:?}");
+        count += 1;
+    }
+    assert!(count > 5_000, "{count}");
+}
