@@ -74,8 +74,8 @@ impl Balls {
             *excess =
                 (x * x + y * y + z * z) - toward * toward * SLACK - self.reaches_squared[lane];
         }
-        // What is no number is met.
-        let met = (0..LANES).fold(0, |met, lane| met | u32::from(!(excess[lane] > 0.0)) << lane);
-        met & self.present
+        // What is no number is no miss.
+        let missed = (0..LANES).fold(0, |all, lane| all | u32::from(excess[lane] > 0.0) << lane);
+        self.present & !missed
     }
 }
