@@ -386,7 +386,22 @@ fn a_limit_is_four() {
     let place = Place::new();
     place.write("loop.scene", &format!("{SCENE}#while (1) #end\n"));
     place.run("check loop.scene --limit loop-turns=1000").ends(4, &["loop-limit"]);
+    // Whatever else was wrong: it was the limit that stopped it.
+    place.write("both.scene", "#include \"nowhere.inc\"\n#while (1) #end\n");
+    let both = ["missing-include", "loop-limit"];
+    place.run("check both.scene --limit loop-turns=1000").ends(4, &both);
     place.run("a.scene --size 99999x99999").ends(4, &["pixels", "--limit"]);
+}
+
+#[test]
+fn the_first_assumed_gamma_counts_as_in_pov_ray() {
+    let place = Place::new();
+    place.write(
+        "twice.scene",
+        &format!("global_settings {{ assumed_gamma 1.8 assumed_gamma 2.5 }}\n{SCENE}"),
+    );
+    let world = place.run("show twice.scene --stage world").ends(0, &[]).stdout();
+    assert!(world.contains("assumed_gamma 1.8"), "{world}");
 }
 
 // ── check ──

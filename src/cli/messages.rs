@@ -101,11 +101,12 @@ impl Messages {
         }
     }
 
-    /// What the messages so far mean: errors, a limit, or nothing.
+    /// What the messages so far mean: a limit, whatever else there was before it stopped; errors; or
+    /// nothing.
     pub fn exit(&self) -> Exit {
         match self {
-            Self { errors: 1.., .. } => Exit::Scene,
             Self { limits: 1.., .. } => Exit::Limit,
+            Self { errors: 1.., .. } => Exit::Scene,
             Self { warnings: 1.., deny_warnings: true, .. } => Exit::Scene,
             _ => Exit::Done,
         }

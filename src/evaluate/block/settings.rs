@@ -26,12 +26,15 @@ impl Evaluator<'_> {
                     self.color_after(token, "a number or a colour")?.value.rgb;
             }
             TokenKind::Word(Word::AssumedGamma) => {
-                self.says_gamma = true;
                 // `srgb` stands for the curve of a usual display, whose mean exponent is 2.2.
-                self.scene.settings.assumed_gamma = match self.take_word(Word::Srgb) {
+                let gamma = match self.take_word(Word::Srgb) {
                     Some(_) => 2.2,
                     None => self.more_than_zero(token, Word::AssumedGamma)?,
                 };
+                // Said twice, the first counts, as in POV-Ray.
+                if !std::mem::replace(&mut self.says_gamma, true) {
+                    self.scene.settings.assumed_gamma = gamma;
+                }
             }
             TokenKind::Word(Word::MaxTraceLevel) => {
                 let given = self.number_after(token, "a whole number")?;
