@@ -232,6 +232,9 @@ impl Evaluator<'_> {
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
             .filter(|word| words().any(|other| other == *word))
+            .or_else(|| {
+                Some("translate").filter(|word| name == "position" && words().any(|w| w == *word))
+            })
             .or_else(|| suggest::closest(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol {
