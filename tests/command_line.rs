@@ -486,6 +486,15 @@ fn fixes_are_applied_and_the_rest_is_told() {
 }
 
 #[test]
+fn a_misspelt_block_is_mended_with_what_it_hid_and_what_is_left_is_counted() {
+    let place = Place::new();
+    place.write("hid.scene", "Sphere { 0, 1 pigmet { rgb 1 } }\n");
+    place.run("check --fix hid.scene").ends(0, &["hid.scene: 2 fixes applied"]);
+    let mended = String::from_utf8(place.read("hid.scene"));
+    assert_eq!(mended.as_deref(), Ok("sphere { 0, 1 pigment { rgb 1 } }\n"));
+}
+
+#[test]
 fn includes_are_found_in_the_folders_given() {
     let place = Place::new();
     for folder in ["one", "two"] {

@@ -318,6 +318,10 @@ fn bad_fixes(case: &Case) -> String {
         // So may a name in other quotes: whether there is such a file.
         let hides = one.code.shifts_what_follows()
             || after.iter().any(|other| other.code == Code::MissingInclude);
+        // And the block of a misspelt word.
+        let end = one.fixes.iter().map(|fix| fix.span.end as usize).max().unwrap_or(0);
+        let opens = text[end..].trim_start().starts_with('{');
+        let hides = hides || (opens && matches!(one.code, Code::UnknownWord | Code::ForeignWord));
         let fewer = weight(&after) < weight(&before);
         if !hides && (!fewer || !new.is_empty()) {
             let message = &one.message;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use lucarne::diagnostic::mend::mend;
+use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::road::Road;
 
 use super::arguments::CheckArguments;
@@ -69,11 +69,23 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
         let bytes = text.as_bytes().to_vec();
         compiled(file, bytes, arguments, |road| road.diagnostics.iter().cloned().collect())
     };
-    if let Some((text, fixed)) = mend(text, messages) {
+    let mended = mend(text, messages);
+    let fixed = mended.as_ref().map_or(0, |(_, fixed)| *fixed);
+    let text = mended.as_ref().map_or(text, |(text, _)| text);
+    if fixed > 0 {
         replace(file, &[mark, text.as_bytes()].concat())?;
-        let es = if fixed == 1 { "" } else { "es" };
-        messages::eprint(&format!("{}: {fixed} fix{es} applied\n", file.display()));
     }
+    let all = fixed + apply(text, messages(text).iter()).1.len();
+    let es = if all == 1 { "" } else { "es" };
+    let name = file.display();
+    let told = match all {
+        0 => return Ok(()),
+        _ if all == fixed => format!("{name}: {fixed} fix{es} applied\n"),
+        _ => format!(
+            "{name}: {fixed} of {all} fix{es} applied: the rest would leave as many errors\n"
+        ),
+    };
+    messages::eprint(&told);
     Ok(())
 }
 

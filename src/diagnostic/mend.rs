@@ -2,9 +2,10 @@
 //!
 //! **In:** a text, and what says its messages. **Out:** the text mended, and how many messages it took.
 //! **Invariant:** no fix is kept that leaves as many errors as there were: one mistake is not turned
-//! into another. Doing it again changes nothing, unless a limit of rounds was met.
+//! into another. What a closer or a misspelt word hid may come out, behind it. Doing it again changes
+//! nothing, unless a limit of rounds was met.
 
-use super::{Diagnostic, Fix, Severity};
+use super::{Code, Diagnostic, Fix, Severity};
 use crate::source::FileId;
 
 /// One fix may bring out another; more rounds than this are not made.
@@ -64,6 +65,16 @@ fn is_better(before: &[Diagnostic], after: &[Diagnostic], fixed: &Diagnostic) ->
     // What a missing closer hid comes to light: that is no new mistake.
     let uncovers = fixed.code.shifts_what_follows()
         && !after.iter().any(|other| other.code == fixed.code && other.message == fixed.message);
+    // So does a misspelt word what its block hid, if all that is new stands behind it.
+    let end = fixed.fixes.iter().map(|fix| fix.span.end).max();
+    let behind = |other: &Diagnostic| {
+        before.iter().any(|old| old.message == other.message)
+            || other.primary().map(|label| label.span.start) >= end
+    };
+    let uncovers = uncovers
+        || (matches!(fixed.code, Code::UnknownWord | Code::ForeignWord)
+            && new == old
+            && after.iter().all(|other| other.message != fixed.message && behind(other)));
     new < old || (new == old && weight(after) < weight(before)) || uncovers
 }
 
@@ -114,7 +125,6 @@ pub fn apply<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnostic::Code;
     use crate::source::Span;
 
     fn wrong(fixes: &[(usize, usize, &str)]) -> Diagnostic {

@@ -5,6 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::{
     DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target, Test,
 };
+use crate::vocabulary::Word;
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -102,10 +103,10 @@ impl Evaluator<'_> {
                 self.halted = true;
                 said
             }
-            DirectiveKind::Fopen { mode, .. } => {
-                Err(self
-                    .not_supported(Poison { word: *mode, site: here.site(directive.head) }, None))
-            }
+            DirectiveKind::Fopen { .. } => Err(self.not_supported(
+                Poison { word: Word::Fopen, site: here.site(directive.head) },
+                None,
+            )),
             DirectiveKind::Read { targets, .. } => {
                 // `#fopen` has said that files are not read yet; what they would set says nothing more.
                 for target in targets {

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -75,10 +75,14 @@ impl Evaluator<'_> {
     pub(super) fn not_supported(&mut self, poison: Poison, used: Option<Span>) -> Reported {
         let mut diagnostic = Diagnostic::new(
             Code::NotSupportedYet,
-            format!("`{}` is not supported yet", poison.word.name()),
+            format!("{} not supported yet", what_is_not_built(poison.word)),
         )
         .at(poison.site.span, "the language has it, this version does not build it");
-        diagnostic = match built_beside(poison.word).as_slice() {
+        let beside = match poison.word.is_built() || poison.word.family() == Family::Directive {
+            true => Vec::new(),
+            false => built_beside(poison.word),
+        };
+        diagnostic = match beside.as_slice() {
             [] => diagnostic.help("leave it out for now"),
             built => diagnostic.help(format!("built so far beside it: {}", built.join(", "))),
         };
@@ -284,6 +288,21 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
         (low, high) if low == high => format!("{low} {what}s"),
         (low, high) if low + 1 == high => format!("{low} or {high} {what}s"),
         (low, high) => format!("{low} to {high} {what}s"),
+    }
+}
+
+/// What a word that leads to nothing stands for, and its verb. A word that is built elsewhere is told
+/// by its use that is not.
+fn what_is_not_built(word: Word) -> String {
+    let name = word.name();
+    match word {
+        Word::Texture => "layered textures are".to_owned(),
+        Word::Pigment => "patterns in a pattern are".to_owned(),
+        Word::Fopen => format!("`#{name}` is"),
+        _ if word.family() == Family::Pattern && word.is_built() => {
+            format!("a `{name}` of textures is")
+        }
+        _ => format!("`{name}` is"),
     }
 }
 

@@ -6,9 +6,12 @@ use super::ast::{
 };
 use super::directive::Body;
 use super::nest::{FrameKind, Nest, State};
-use super::token::Head;
+use super::token::{Bracket, Head, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+
+/// How many tokens after an `=` the end of its value is looked for.
+const LONGEST_VALUE: usize = 40;
 
 impl<'a> Nest<'a> {
     /// `#if (…)` and its like, with their one expression.
@@ -161,6 +164,9 @@ impl<'a> Nest<'a> {
         if !list || self.top().state != (State::Holding { indexable: true }) {
             return false;
         }
+        if self.inside_a_value() {
+            return false;
+        }
         self.finish_expression();
         let Some(&Item { kind: ItemKind::Expression(id), span }) = self.items.last() else {
             return true;
@@ -182,6 +188,38 @@ impl<'a> Nest<'a> {
         );
         self.add_directive(DirectiveKind::Declare { local: false, target }, span, equals);
         true
+    }
+}
+
+impl Nest<'_> {
+    /// Whether what stands before an `=` belongs to a value: `sphere { 0, Q = 2 }`, `#declare A = Q = 2;`.
+    fn inside_a_value(&mut self) -> bool {
+        let in_block = matches!(self.top().kind, FrameKind::Block);
+        // An element's indices have marks of their own: a name alone is told from what it stands in.
+        let Some(before) = self.at.checked_sub(2).and_then(|at| self.tokens.get(at)).copied()
+        else {
+            return false;
+        };
+        match before.kind {
+            TokenKind::Mark(Mark::Open(Bracket::Brace)) if in_block => {
+                let ahead = self.tokens[self.at..].iter().take(LONGEST_VALUE);
+                let end = ahead.map(|token| token.kind).find(|kind| {
+                    matches!(
+                        kind,
+                        TokenKind::Mark(
+                            Mark::Semicolon | Mark::Comma | Mark::Close(Bracket::Brace)
+                        )
+                    )
+                });
+                end != Some(TokenKind::Mark(Mark::Semicolon))
+            }
+            TokenKind::Mark(Mark::Comma | Mark::Equal) => true,
+            TokenKind::Numbers | TokenKind::Vectors => {
+                let span = self.span(before);
+                self.slice(span).trim_end().ends_with(',')
+            }
+            _ => false,
+        }
     }
 }
 

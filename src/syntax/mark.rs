@@ -6,6 +6,10 @@ use super::nest::{FrameKind, Nest, State};
 use super::token::{Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::vocabulary::Role;
+
+/// How many tokens after a `;` the end of its vector is looked for.
+const LONGEST_VECTOR: usize = 40;
 
 impl<'a> Nest<'a> {
     pub(super) fn mark(&mut self, mark: Mark, token: Token) {
@@ -20,6 +24,7 @@ impl<'a> Nest<'a> {
                 self.close_bracket(bracket, span);
             }
             Mark::Comma => self.comma(span),
+            Mark::Semicolon if self.in_vector() && self.semicolon_in_vector(span) => {}
             Mark::Semicolon => {
                 self.leave_vectors(span);
                 self.item(ItemKind::Semicolon, span);
@@ -40,7 +45,8 @@ impl<'a> Nest<'a> {
                     .at(span, "no `<` is open here")
                     .help("comparisons stand in parentheses: `(a > b)`"),
             ),
-            Mark::Equal if holding && !full && self.declares(span) => {}
+            Mark::Equal
+                if holding && !full && span.end - span.start == 1 && self.declares(span) => {}
             Mark::Question | Mark::Colon => self.conditional(mark, span),
             Mark::Plus
             | Mark::Minus
@@ -56,6 +62,8 @@ impl<'a> Nest<'a> {
             | Mark::Or => {
                 let Some((operator, in_sums)) = expression::binary(mark) else { return };
                 self.before_operator(span);
+                // `==` has been told.
+                self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
                 if !in_sums && !full {
                     self.only_in_parentheses(span);
                 }
@@ -197,6 +205,58 @@ impl<'a> Nest<'a> {
             | FrameKind::Default(_)
             | FrameKind::Body(_) => self.item(ItemKind::Comma, span),
         }
+    }
+
+    /// `<1; 0; 0>`: semicolons where commas belong. False where the vector was not closed at all.
+    fn semicolon_in_vector(&mut self, span: Span) -> bool {
+        let open = self.top().open;
+        let ahead = self.tokens[self.at..].iter().take(LONGEST_VECTOR);
+        let mut ahead = ahead.skip_while(|token| match token.kind {
+            TokenKind::Number | TokenKind::Numbers | TokenKind::Name => true,
+            TokenKind::Word(word) => word.role() == Role::Value,
+            TokenKind::Mark(mark) => matches!(
+                mark,
+                Mark::Comma
+                    | Mark::Semicolon
+                    | Mark::Dot
+                    | Mark::Plus
+                    | Mark::Minus
+                    | Mark::Star
+                    | Mark::Slash
+            ),
+            _ => false,
+        });
+        let close = match ahead.next() {
+            Some(&token) if token.kind == TokenKind::Mark(Mark::Greater) => self.span(token),
+            _ => return false,
+        };
+        let before = self.slice(Span { start: open.end, end: span.start, ..span });
+        if !before.contains(';') {
+            let whole = open.to(close);
+            let text = self.slice(whole);
+            let diagnostic = Diagnostic::new(
+                Code::UnexpectedCharacter,
+                "the components of a vector are told apart by commas",
+            )
+            .at(span, "expected `,` instead of `;`");
+            if text.contains(',') {
+                // Which of them is a decimal comma only the author knows.
+                self.report(diagnostic.help("decimals have a point: `1.5`"));
+                let base = self.top().arguments;
+                self.finish_expression();
+                self.arguments.truncate(base);
+                self.operand(ExpressionKind::Missing, span, false);
+                while self.tokens.get(self.at + 1).is_some_and(|next| next.start < close.start) {
+                    self.at += 1;
+                }
+                return true;
+            }
+            let parts: Vec<&str> = text.split(';').map(str::trim).collect();
+            let meant = parts.join(", ");
+            self.report(diagnostic.help(format!("write `{meant}`")).fix(whole, meant));
+        }
+        self.comma(span);
+        true
     }
 
     /// Among the parameters of a `#macro`.

@@ -291,8 +291,12 @@ impl<'a> Nest<'a> {
             }
         }
         let top = self.top();
-        (top.state, top.level_told) = (State::Idle, false);
-        let Some(id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
+        let told = std::mem::take(&mut top.level_told);
+        top.state = State::Idle;
+        let Some(mut id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
+        if told {
+            id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);
+        }
         if self.in_vector() {
             self.arguments.push(Argument::Expression(id));
         } else {

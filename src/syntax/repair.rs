@@ -282,6 +282,22 @@ impl Repair<'_> {
         }
         self.surplus[index] += 1;
         let closer = bracket.closer();
+        let brace = Opener::Bracket(Bracket::Brace);
+        let swapped = self.surplus[index] <= 0 && self.surplus[Bracket::Brace as usize] > 0;
+        if bracket != Bracket::Brace
+            && swapped
+            && let Some(top) = self.open.pop_if(|top| top.opener == brace)
+        {
+            self.surplus[Bracket::Brace as usize] -= 1;
+            self.insert_closer(&Open { outside: None, ..top }, at);
+            let message = format!("{} is closed by `{closer}`", self.shown(top.token));
+            let diagnostic = Diagnostic::new(Code::StrayCloser, message)
+                .at(self.span(at), "expected `}` here")
+                .also(self.span(top.token), "opened here")
+                .help("replace it with `}`")
+                .fix(self.span(at), "}");
+            return self.tell(diagnostic);
+        }
         let mut diagnostic =
             Diagnostic::new(Code::StrayCloser, format!("this `{closer}` closes nothing"))
                 .at(self.span(at), format!("no `{}` is open here", bracket.opener()));

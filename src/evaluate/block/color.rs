@@ -130,6 +130,14 @@ impl Evaluator<'_> {
     }
 
     fn color_component(&mut self, token: &Token, word: Word, color: &mut Color) -> Outcome<()> {
+        if matches!(word, Word::Red | Word::Green | Word::Blue) && self.peek().is_none() {
+            let name = word.name();
+            let diagnostic =
+                Diagnostic::new(Code::MissingPart, format!("`{name}` is a part of a colour"))
+                    .at(token.span, "its number is missing")
+                    .help(format!("write `{name} 1`, or all three as in `rgb <1, 0, 0>`"));
+            return Err(self.report(&token.here, diagnostic));
+        }
         let number = self.number_after(token, "a number")?.value;
         match word {
             Word::Red => color.rgb.red = number,

@@ -205,6 +205,7 @@ impl Evaluator<'_> {
             {
                 let word = *word;
                 let Some(next) = self.next() else { break };
+                let mut not_built = word;
                 if word == Word::Pigment {
                     let id = self.pigment(&next)?;
                     if let PigmentKind::Color(plain) = self.scene.pigments[id.index()].kind {
@@ -213,9 +214,10 @@ impl Evaluator<'_> {
                     }
                 } else {
                     self.skip_arguments(word);
+                    not_built = Word::Checker;
                 }
                 self.set_poison(super::super::value::Poison {
-                    word,
+                    word: not_built,
                     site: next.here.site(next.span),
                 });
             }

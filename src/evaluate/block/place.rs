@@ -117,7 +117,7 @@ impl Place {
     pub(super) fn name(self) -> String {
         match self.word {
             Some(word) => format!("in `{}`", word.name()),
-            None => "in the scene itself".to_owned(),
+            None => "at the top level".to_owned(),
         }
     }
 
@@ -133,7 +133,7 @@ impl Place {
         let fits = move |word: &&Word| {
             self.holds(**word)
                 && (dialect == Dialect::Scene || word.block().is_none())
-                // Of the families that have one opener, only that stands in the scene itself.
+                // Of the families that have one opener, only that stands at the top level.
                 && (self.word.is_some() || !is_part(**word))
         };
         Word::ALL.iter().filter(fits).map(|word| word.name())

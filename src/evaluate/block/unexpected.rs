@@ -181,7 +181,7 @@ impl Evaluator<'_> {
                 .fix(token.span, near)
         } else if has_block
             && place.holds(word)
-            && matches!(word.family(), Family::Shape | Family::Csg)
+            && (matches!(word.family(), Family::Shape | Family::Csg) || word == Word::LightSource)
         {
             let of = place.word.map_or("", Word::name);
             Diagnostic::new(
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }
-                _ if Place::SCENE.holds(word) => "it belongs to the scene itself".to_owned(),
+                _ if Place::SCENE.holds(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
                 None if place.word.is_none() => "it belongs in an object".to_owned(),
                 None => "it belongs elsewhere".to_owned(),
@@ -232,6 +232,9 @@ impl Evaluator<'_> {
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
             .filter(|word| words().any(|other| other == *word))
+            .or_else(|| {
+                Some("translate").filter(|word| name == "position" && words().any(|w| w == *word))
+            })
             .or_else(|| suggest::closest(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol {

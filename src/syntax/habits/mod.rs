@@ -354,12 +354,54 @@ impl Reader<'_> {
         let mut diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(span, "an operator of another language")
             .help(help);
-        if let Some(fix) = fix {
+        let in_round = self.inside.last().is_some_and(|inside| inside.is(Bracket::Round));
+        if let Some(fix) = fix.filter(|_| mark != Mark::Equal || in_round || self.declares()) {
             diagnostic = diagnostic.fix(span, fix);
+        } else if mark == Mark::Equal {
+            diagnostic = diagnostic.help("a comparison stands in parentheses: `(a = b)`");
+            if self.between_single_values() {
+                let (before, after) = (self.tokens[self.at - 1], self.tokens[self.at + 2]);
+                let at = |place: u32| Span::new(self.file, place as usize, place as usize);
+                diagnostic =
+                    diagnostic.fix(at(before.start), "(").fix(span, "=").fix(at(after.end), ")");
+            }
         }
         self.diagnostics.push(diagnostic);
-        meant.push(self.tokens[self.at]);
+        // As long as it is written: where it stands alone it is told no second time.
+        meant.push(Token { end: span.end, ..self.tokens[self.at] });
         self.at += 2;
         true
+    }
+
+    /// `#declare A == 1`.
+    fn declares(&self) -> bool {
+        let head = self.at.checked_sub(2).map(|at| self.tokens[at].kind);
+        matches!(head, Some(TokenKind::Directive(Head::Declare | Head::Local)))
+    }
+
+    /// `== ` with one name or number on each side, and nothing else.
+    fn between_single_values(&self) -> bool {
+        let kind = |at: Option<usize>| at.and_then(|at| self.tokens.get(at)).map(|t| t.kind);
+        let value = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Number));
+        let parted = |kind| {
+            matches!(
+                kind,
+                Some(
+                    TokenKind::Mark(
+                        Mark::Comma
+                            | Mark::Semicolon
+                            | Mark::Equal
+                            | Mark::Open(_)
+                            | Mark::Close(_)
+                    ) | TokenKind::Numbers
+                        | TokenKind::Vectors
+                        | TokenKind::Word(_)
+                )
+            )
+        };
+        value(kind(self.at.checked_sub(1)))
+            && parted(kind(self.at.checked_sub(2)))
+            && value(kind(Some(self.at + 2)))
+            && parted(kind(Some(self.at + 3)))
     }
 }
