@@ -76,14 +76,14 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         false => messages::print(&table::text(&report, &name, threads))?,
     }
     if let Some(path) = svg_path {
-        write_whole(path, svg::text(&report, &short(&arguments.file), &host).as_bytes())?;
+        write_whole(path, svg::text(&report, &short(&name), &host).as_bytes())?;
         messages::eprint(&format!("{}: the work-precision diagram\n", path.display()));
     }
     Ok(Exit::Done)
 }
 
-fn short(file: &Path) -> String {
-    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+fn short(file: &str) -> String {
+    Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// The machine, as far as a reader of seconds wants to know it.

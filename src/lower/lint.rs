@@ -73,7 +73,9 @@ impl Lowering<'_, '_> {
         let seen = self.world.camera.right.length() / self.world.camera.up.length();
         // A whole number of pixels is off by half of one at most.
         let off = (width - seen * height).abs();
-        if !(off > NEARLY_SQUARE * width && off > seen.max(1.0)) {
+        // Sides too long for a number are no proportion to speak of: NaN is not off.
+        let is_off = off > NEARLY_SQUARE * width && off > seen.max(1.0);
+        if !is_off {
             return;
         }
         let (picture, seen) = (proportion(width / height), proportion(seen));

@@ -246,7 +246,7 @@ const fn hash(name: &[u8]) -> usize {
 
 /// The includes that come with POV-Ray, without their `.inc`.
 ///
-/// **Source:** POV-Ray 3.7 manual, section 3.7 "Include Files".
+/// **Source:** POV-Ray 3.7 manual, section 3.4.9 "Include Files".
 const STANDARD_INCLUDES: &[&str] = &[
     "arrays",
     "chars",
