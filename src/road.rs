@@ -17,6 +17,8 @@ use crate::world::{Origins, World};
 pub struct Options {
     /// Keep lints.
     pub lints: bool,
+    /// Width and height in pixels of the picture that will be made, where it is known.
+    pub picture: Option<(u32, u32)>,
     pub evaluate: EvaluateOptions,
 }
 
@@ -24,7 +26,7 @@ impl Options {
     /// The defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
         let evaluate = EvaluateOptions { dialect, ..EvaluateOptions::default() };
-        Self { lints: dialect == Dialect::Scene, evaluate }
+        Self { lints: dialect == Dialect::Scene, picture: None, evaluate }
     }
 }
 
@@ -133,7 +135,8 @@ impl<'a> Road<'a> {
         if self.diagnostics.iter().any(|message| message.code == Code::ObjectLimit) {
             return (World::default(), Origins::default());
         }
-        let options = LowerOptions { objects: self.options.evaluate.limits.objects };
+        let Options { picture, ref evaluate, .. } = self.options;
+        let options = LowerOptions { objects: evaluate.limits.objects, picture };
         lower(scene, &options, &mut self.diagnostics)
     }
 

@@ -153,7 +153,10 @@ fn a_number_from_the_command_line_reaches_the_scene() {
     let place = Place::new();
     place.write("d.scene", &SCENE.replace("0, 1 pig", "0, Radius pig"));
     place.run("d.scene --size 8x8").ends(1, &["undeclared-name"]);
-    place.run("d.scene --size 8x8 -D Radius=0.5").ends(0, &[]);
+    let run = place.run("d.scene --size 8x6 -D Radius=0.5").ends(0, &["d.png"]);
+    assert!(!run.stderr().contains("warning"), "{}", run.stderr());
+    let said = ["`-D Radios` declares a name that the scene never uses", "`-D Radius=…`"];
+    place.run("d.scene --size 8x6 -D Radius=0.5 -D Radios=1 -D clock=1").ends(0, &said);
 }
 
 #[test]
@@ -171,7 +174,7 @@ fn stats_are_one_object_of_json_or_a_table() {
     assert_eq!(stats["rays"]["camera"].as_u64(), Some(16 * 8));
     assert!(stats["rays"]["shadow"].is_u64() && stats["rays"]["reflection"].is_u64());
     let table = place.run("--stats a.scene --size 16x8").ends(0, &[]).stdout();
-    assert!(table.contains("trace") && table.contains("peak memory"), "{table}");
+    assert!(table.contains(" CPU s\n") && table.contains("peak memory"), "{table}");
 }
 
 #[test]
@@ -231,7 +234,7 @@ fn a_full_disk_is_an_error() {
 #[test]
 fn an_interrupted_render_leaves_what_is_done() {
     let place = Place::new();
-    // Whoever is interrupted before the tracing begins dies of it and says nothing: then wait longer.
+    // Whoever is interrupted before the tracing begins has written nothing: then wait longer.
     let interrupted = |delay: &u32| {
         let mut command =
             place.command("a.scene -o big.png --size 4000x4000 --antialias 16 --threads 1");
@@ -240,7 +243,8 @@ fn an_interrupted_render_leaves_what_is_done() {
         let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         assert!(interrupt.expect("kill").success());
         let run = Run(child.wait_with_output().expect("ends"));
-        run.0.status.code().is_some().then_some(run)
+        run.0.status.code()?;
+        (!run.stderr().contains("nothing was written")).then_some(run)
     };
     let run = [200, 1000, 5000, 20_000].iter().find_map(interrupted).expect("a trace begins");
     run.ends(130, &["interrupted", "big.partial.png"]);
@@ -248,7 +252,45 @@ fn an_interrupted_render_leaves_what_is_done() {
     assert!(!place.names().contains(&"big.png".to_owned()));
 }
 
+#[cfg(unix)]
+#[test]
+fn an_interrupt_before_the_trace_says_that_nothing_was_written() {
+    let place = Place::new();
+    place.write("loop.scene", "#for (I, 1, 1e9) #end\n");
+    let interrupted = |delay: &u32| {
+        let mut command = place.command("loop.scene --limit loop-turns=1000000000000");
+        let child = command.stderr(Stdio::piped()).spawn().expect("runs");
+        std::thread::sleep(std::time::Duration::from_millis(u64::from(*delay)));
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.expect("kill").success());
+        let run = Run(child.wait_with_output().expect("ends"));
+        run.0.status.code().is_some().then_some(run)
+    };
+    let run = [200, 1000, 5000].iter().find_map(interrupted).expect("it hears");
+    run.ends(130, &["interrupted: nothing was written"]);
+}
+
 // ── what is known before ──
+
+#[test]
+fn a_picture_of_another_shape_than_the_cameras_is_told() {
+    let place = Place::new();
+    let shape = "the picture is 4:1, the camera 4:3: pixels are not square";
+    let help = "`right image_width/image_height*x`";
+    place.run("a.scene --size 80x20").ends(0, &["picture-shape", shape, help]);
+    place.run("check a.scene --size 80x20").ends(0, &["picture-shape"]);
+    let follows = SCENE.replace("look_at", "right image_width/image_height*x look_at");
+    place.write("follows.scene", &follows);
+    place.write("a.pov", &format!("#version 3.7;\nglobal_settings {{ assumed_gamma 1 }}\n{SCENE}"));
+    for words in ["a.scene --size 81x60", "a.scene --size 3x2", "check a.scene"]
+        .iter()
+        .chain(&["follows.scene --size 80x20", "a.pov --size 80x20"])
+    {
+        let run = place.run(words).ends(0, &[]);
+        assert!(!run.stderr().contains("picture-shape"), "{words}: {}", run.stderr());
+    }
+    place.run("a.pov --size 80x20 --lint").ends(0, &[shape]);
+}
 
 #[test]
 fn a_picture_beyond_all_memory_is_a_limit() {
@@ -293,7 +335,19 @@ fn many_warnings_hide_no_error() {
     let place = Place::new();
     let warnings = "#warning \"careful\"\n".repeat(150);
     place.write("warnings.scene", &format!("{warnings}{BROKEN}"));
-    place.run("check warnings.scene").ends(1, &["`pigmnt`", "… and 50 more"]);
+    place.run("check warnings.scene").ends(1, &["`pigmnt`", "… and 130 more"]);
+}
+
+#[test]
+fn errors_that_are_alike_are_shown_twenty_times_and_json_has_them_all() {
+    let place = Place::new();
+    let spheres = "sphere { 0, 1 pigmnt { } }\n".repeat(60);
+    place.write("alike.scene", &format!("{spheres}sphere {{ 0, Radius }}\n"));
+    let words = ["… and 40 more", "undeclared-name", "61 errors"];
+    let run = place.run("check alike.scene").ends(1, &words);
+    assert_eq!(run.stderr().matches("unknown-word\n").count(), 20);
+    let json = place.run("check alike.scene --message-format json").ends(1, &[]).stdout();
+    assert_eq!(json.lines().count(), 61);
 }
 
 #[test]
@@ -336,6 +390,7 @@ fn wrong_usage_is_two() {
         "a.scene -o a",
         "a.scene -o a.jpg --bits 16",
         "a.scene -o a.exr --bits 8",
+        "a.scene -I no_such_folder",
         "check",
         "show a.scene",
         "explain no-such-code",
@@ -346,6 +401,9 @@ fn wrong_usage_is_two() {
         assert!(!run.stderr().is_empty(), "{words}");
     }
     place.run("a.scene -o a.gif").ends(2, &[".gif", ".png"]);
+    place.run("a.scene --size -1x5").ends(2, &["-1x5", "each from 1 to 1000000"]);
+    place.run("a.scene --threads -1").ends(2, &["-1", "1..=1024"]);
+    place.run("check a.scene -I no_such").ends(2, &["`-I no_such`: there is no such folder"]);
     place.run("a.scene -D x=2").ends(2, &["`x` is a word of the language"]);
     place.run("a.scene --stats xml").ends(2, &["xml", "possible values: json"]);
     place.run("a.scene -o a.jpg --size 70000x1").ends(2, &["at most 65535 pixels"]);
@@ -365,6 +423,7 @@ fn help_and_version_are_asked_for() {
         "accuracy",
         "explain",
         "Exit codes",
+        "those of `lucarne render --help`",
     ] {
         assert!(help.contains(word), "{word}");
     }
@@ -376,9 +435,38 @@ fn help_and_version_are_asked_for() {
 fn a_scene_that_cannot_be_read_is_three() {
     let place = Place::new();
     place.run("b.scene").ends(3, &["cannot read `b.scene`", "there is no such file"]);
+    place.run("a").ends(3, &["did you mean `a.scene`?"]);
+    place.write("plain.scene", SCENE);
+    place.run("plain").ends(3, &["did you mean `plain.scene`?"]);
     place.run("a.scen").ends(3, &["did you mean `a.scene`?"]);
     fs::create_dir(place.path("dir.scene")).expect("a folder");
     place.run("dir.scene").ends(3, &["it is a folder"]);
+}
+
+#[test]
+fn a_dash_is_standard_input() {
+    let place = Place::new();
+    let from = |words: &str, file: &str| {
+        let input = fs::File::open(place.path(file)).expect("there");
+        Run(place.command(words).stdin(input).output().expect("runs"))
+    };
+    from("- --size 8x6", "a.scene").ends(0, &["picture.png: 8×6, 1 object"]);
+    assert!(place.path("picture.png").exists());
+    from("check -", "broken.scene").ends(1, &["standard input:3:15", "`pigmnt`"]);
+    from("check --fix -", "broken.scene").ends(2, &["standard input cannot be fixed"]);
+    assert!(from("- -o - --size 8x6", "a.scene").0.stdout.starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn utf_16_is_one_error() {
+    let place = Place::new();
+    let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    fs::write(place.path("wide.scene"), wide(&format!("\u{feff}{SCENE}"))).expect("written");
+    fs::write(place.path("wide.inc"), wide(SCENE)).expect("written");
+    place.write("i.scene", "#include \"wide.inc\"\n");
+    let run = place.run("check wide.scene").ends(3, &["it is UTF-16", "save it as UTF-8"]);
+    assert_eq!(run.stderr().lines().count(), 2);
+    place.run("check i.scene").ends(1, &["unreadable-file", "UTF-16", "1 error"]);
 }
 
 #[test]
@@ -451,7 +539,9 @@ fn warnings_can_be_denied() {
     let place = Place::new();
     place.write("w.scene", &format!("{SCENE}#declare Unused = 1;\n"));
     place.run("check w.scene").ends(0, &["unused-declaration", "1 warning"]);
-    place.run("check w.scene --deny-warnings").ends(1, &["unused-declaration"]);
+    place
+        .run("check w.scene --deny-warnings")
+        .ends(1, &["unused-declaration", "errors here (--deny"]);
     place.run("w.scene --deny-warnings").ends(1, &[]);
     assert!(!place.names().contains(&"w.png".to_owned()));
 }

@@ -12,7 +12,7 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, read_main};
+use super::files::{DiskFiles, name_of, read_main};
 use super::messages;
 use super::output::write_whole;
 use super::progress::Progress;
@@ -39,7 +39,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     let bytes = read_main(&arguments.file)?;
     let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
-    let name = arguments.file.to_string_lossy();
+    let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
     let mut messages = arguments.scene.messages();
     // The report takes standard output.
@@ -76,14 +76,14 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         false => messages::print(&table::text(&report, &name, threads))?,
     }
     if let Some(path) = svg_path {
-        write_whole(path, svg::text(&report, &short(&arguments.file), &host).as_bytes())?;
+        write_whole(path, svg::text(&report, &short(&name), &host).as_bytes())?;
         messages::eprint(&format!("{}: the work-precision diagram\n", path.display()));
     }
     Ok(Exit::Done)
 }
 
-fn short(file: &Path) -> String {
-    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+fn short(file: &str) -> String {
+    Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// The machine, as far as a reader of seconds wants to know it.

@@ -21,7 +21,7 @@ const MOST_PIXELS: u64 = 1 << 27;
 ///
 /// `lucarne FILE` renders FILE, as `lucarne render FILE` does.
 #[derive(Debug, Parser)]
-#[command(name = "lucarne", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+#[command(name = "lucarne", version, arg_required_else_help = true, after_help = HINTS)]
 #[command(override_usage = USAGE)]
 pub struct Arguments {
     #[command(subcommand)]
@@ -32,7 +32,9 @@ const USAGE: &str = "\
 lucarne [OPTIONS] <FILE>
        lucarne <COMMAND> [OPTIONS] …";
 
-const EXIT_CODES: &str = "\
+const HINTS: &str = "\
+The options of `lucarne FILE` are those of `lucarne render --help`. FILE may be `-`: standard input.
+
 Exit codes: 0 done; 1 the scene has errors; 2 wrong usage; 3 a file cannot be read or written;
 4 a limit stopped it; 5 a promise about accuracy or time was missed; 70 a bug; 130 interrupted.";
 
@@ -54,7 +56,7 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// The scene: `.scene`, or POV-Ray's `.pov`
+    /// The scene: `.scene`, or POV-Ray's `.pov`; `-` reads a `.scene` from standard input
     pub file: PathBuf,
     /// Where to write; the extension chooses the format: png jpg ppm qoi hdr exr; `-` writes a PNG
     /// to standard output [default: the scene's name with .png, in the current folder]
@@ -69,12 +71,12 @@ pub struct RenderArguments {
     pub bits: Option<u8>,
     /// Choose the settings so that the error is at most E, prove it on pixels that had no part in
     /// the choice, and exit with 5 if it cannot be
-    #[arg(long, value_name = "E", value_parser = error)]
+    #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "time_budget"])]
     pub max_error: Option<f64>,
     /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
     /// one ray a pixel fits
-    #[arg(long, value_name = "T", value_parser = seconds)]
+    #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision"])]
     pub time_budget: Option<f64>,
     /// What `--max-error` and `--time-budget` call an error
@@ -82,6 +84,7 @@ pub struct RenderArguments {
     pub metric: MetricArgument,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Print times, memory and rays, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
@@ -108,6 +111,9 @@ pub struct CheckArguments {
     /// Apply the fixes that messages offer to these files, then check again
     #[arg(long)]
     pub fix: bool,
+    /// The picture's width and height in pixels, for what depends on them
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
+    size: Option<(u32, u32)>,
     #[command(flatten)]
     pub scene: SceneArguments,
 }
@@ -173,6 +179,7 @@ pub struct AccuracyArguments {
     pub seed: u64,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(allow_negative_numbers = true)]
     pub threads: Option<u16>,
     #[command(flatten)]
     pub frame: FrameArguments,
@@ -212,10 +219,11 @@ pub struct ExplainArguments {
 #[derive(Debug, Args)]
 pub struct FrameArguments {
     /// The picture's width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x480")]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
+    #[arg(default_value = "640x480")]
     size: (u32, u32),
     /// Trace only this part: left, top, width, height in pixels
-    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region, allow_hyphen_values = true)]
     region: Option<Region>,
 }
 
@@ -230,9 +238,10 @@ pub struct PictureArguments {
     antialias: Antialias,
     /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(allow_negative_numbers = true)]
     depth: Option<u32>,
     /// Follow no reflection of less weight than this, instead of the scene's adc_bailout
-    #[arg(long, value_name = "W", value_parser = weight)]
+    #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
     adc_bailout: Option<f64>,
     /// The arithmetic that rays and shapes meet in
     #[arg(long, value_enum, default_value_t, value_name = "single|double")]
@@ -283,6 +292,27 @@ enum Limit {
     Pixels,
 }
 
+impl CheckArguments {
+    /// The picture the scene is checked for, where one was named.
+    pub fn frame(&self) -> Option<Frame> {
+        self.size.map(|(width, height)| Frame::whole(width, height))
+    }
+}
+
+impl Command {
+    /// What the scene is compiled with, where the command takes one.
+    pub fn scene(&self) -> Option<&SceneArguments> {
+        match self {
+            Self::Render(arguments) => Some(&arguments.scene),
+            Self::Check(arguments) => Some(&arguments.scene),
+            Self::Show(arguments) => Some(&arguments.scene),
+            Self::Plan(arguments) => Some(&arguments.scene),
+            Self::Accuracy(arguments) => Some(&arguments.scene),
+            Self::Explain(_) => None,
+        }
+    }
+}
+
 impl SceneArguments {
     pub fn messages(&self) -> Messages {
         Messages::new(self.message_format, self.deny_warnings)
@@ -300,6 +330,7 @@ impl SceneArguments {
         }
         if let Some(frame) = frame {
             (options.evaluate.width, options.evaluate.height) = (frame.width, frame.height);
+            options.picture = Some((frame.width, frame.height));
         }
         for &(limit, n) in &self.limits {
             let small = u32::try_from(n).unwrap_or(u32::MAX);

@@ -9,7 +9,7 @@ use lucarne::road::Road;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome, reason};
-use super::files::{DiskFiles, read_main};
+use super::files::{DiskFiles, is_stdin, name_of, read_main};
 use super::messages::{self, Messages};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
@@ -47,8 +47,8 @@ fn compiled<T>(
     then: impl FnOnce(&Road) -> T,
 ) -> T {
     let files = DiskFiles::new(file, &arguments.scene.include);
-    let mut road = Road::new(&files, arguments.scene.options(file, None));
-    let id = road.read(&file.to_string_lossy(), bytes);
+    let mut road = Road::new(&files, arguments.scene.options(file, arguments.frame()));
+    let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
     if !arguments.syntax_only {
         let scene = road.evaluate(&ast);
@@ -59,6 +59,9 @@ fn compiled<T>(
 
 /// Applies the fixes that messages offer for this file, where that makes it better.
 fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
+    if is_stdin(file) {
+        return Err(Failure::usage("standard input cannot be fixed: only a file can"));
+    }
     let bytes = read_main(file)?;
     let mark: &[u8] = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { b"" };
     let Ok(text) = std::str::from_utf8(&bytes[mark.len()..]) else {

@@ -4,6 +4,7 @@
 //! folders is read, whatever a name says and wherever a link leads; the same file always has the
 //! same name.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{ErrorKind, Read};
@@ -12,6 +13,7 @@ use std::sync::Mutex;
 
 use lucarne::diagnostic::suggest::closest;
 use lucarne::source::{FileError, Files, Found};
+use lucarne::vocabulary::is_standard_include;
 
 use super::exit::{Failure, reason};
 
@@ -129,7 +131,13 @@ impl Files for DiskFiles {
             return Err(FileError::Forbidden);
         }
         let searched = tried.iter().filter_map(|path| path.parent());
-        let searched = searched.map(|folder| or_here(folder).display().to_string()).collect();
+        let mut searched: Vec<String> =
+            searched.map(|folder| or_here(folder).display().to_string()).collect();
+        if is_standard_include(name) {
+            // Where it would have been found, had it been installed.
+            let absent = WELL_KNOWN.iter().filter(|folder| !Path::new(folder).is_dir());
+            searched.extend(absent.map(|folder| format!("{folder} (not there)")));
+        }
         Err(FileError::NotFound { searched, similar: self.similar(&tried) })
     }
 }
@@ -168,12 +176,40 @@ fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     if about.len() > LARGEST {
         return Err("it is larger than 1 GiB".to_owned());
     }
-    fs::read(path).map_err(|error| reason(&error))
+    let bytes = fs::read(path).map_err(|error| reason(&error))?;
+    match is_utf_16(&bytes) {
+        true => Err(format!("{UTF_16}; save it as UTF-8")),
+        false => Ok(bytes),
+    }
+}
+
+/// `-`: the scene comes from standard input.
+pub fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// How messages call the main file.
+pub fn name_of(path: &Path) -> Cow<'_, str> {
+    if is_stdin(path) { "standard input".into() } else { path.to_string_lossy() }
+}
+
+/// Fails when one of the folders that were named is none.
+pub fn exist(folders: &[PathBuf]) -> Result<(), Failure> {
+    match folders.iter().find(|folder| !folder.is_dir()) {
+        None => Ok(()),
+        Some(folder) => {
+            let sentence = format!("`-I {}`: there is no such folder", folder.display());
+            Err(Failure::usage(sentence))
+        }
+    }
 }
 
 /// The main file, or the sentence that says why it cannot be had. It may be a pipe.
 pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
-    let wrong = |why: &str| Failure::file(format!("cannot read `{}`: {why}", path.display()));
+    let wrong = |why: &str| Failure::file(format!("cannot read `{}`: {why}", name_of(path)));
+    if is_stdin(path) {
+        return whole(std::io::stdin().lock(), wrong);
+    }
     let file = fs::File::open(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => match near(path) {
             Some(near) => wrong("there is no such file").help(format!("did you mean `{near}`?")),
@@ -184,10 +220,18 @@ pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     if file.metadata().is_ok_and(|about| about.is_dir()) {
         return Err(wrong("it is a folder"));
     }
+    whole(file, wrong)
+}
+
+/// All of a scene, if it can be one.
+fn whole(from: impl Read, wrong: impl Fn(&str) -> Failure) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
+    from.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
     if bytes.len() as u64 > LARGEST {
         return Err(wrong("it is larger than 1 GiB"));
+    }
+    if is_utf_16(&bytes) {
+        return Err(wrong(UTF_16).help("save it as UTF-8"));
     }
     if is_binary(&bytes) {
         return Err(wrong("it is not a text").help("a scene is a text file: `.scene`, or `.pov`"));
@@ -195,16 +239,29 @@ pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Whether this is a picture, a program or the like: no text has several zero bytes near its start, but
-/// for UTF-16, which is told where it is read.
+/// Whether this is a picture, a program or the like: no text has several zero bytes near its start.
 fn is_binary(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(4096)];
-    let wide = matches!(start, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
-    !wide && start.iter().filter(|byte| **byte == 0).count() > 2
+    start.iter().filter(|byte| **byte == 0).count() > 2
 }
 
-/// A name like this one in the same folder.
+const UTF_16: &str = "it is UTF-16";
+
+/// A byte order mark says so; without one, every other byte of such a text is zero, nearly.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
+    let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
+    let most = pairs.len() - pairs.len() / 8;
+    let [high, low] = [zeros(0), zeros(1)];
+    matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
+        || pairs.len() > 8 && (high >= most && low == 0 || low >= most && high == 0)
+}
+
+/// A name like this one in the same folder, or this one with the extension of a scene.
 fn near(path: &Path) -> Option<String> {
+    if let Some(scene) = as_scene(path) {
+        return Some(scene.display().to_string());
+    }
     let folder = path.parent()?;
     let names: Vec<String> = fs::read_dir(or_here(folder))
         .ok()?
@@ -213,6 +270,12 @@ fn near(path: &Path) -> Option<String> {
         .collect();
     let near = closest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
     Some(folder.join(near).display().to_string())
+}
+
+/// The scene of this name without its extension, if there is one.
+pub fn as_scene(path: &Path) -> Option<PathBuf> {
+    let with = |extension: &str| PathBuf::from(format!("{}.{extension}", path.display()));
+    ["scene", "pov"].map(with).into_iter().find(|path| path.is_file())
 }
 
 #[cfg(test)]
@@ -313,6 +376,41 @@ mod tests {
         };
         assert!(searched.len() >= 2);
         assert_eq!(similar[0], "colours.inc");
+    }
+
+    #[test]
+    fn a_standard_include_names_the_folders_that_are_not_there_too() {
+        let place = Place::new(&["scene/main.scene"]);
+        let main = place.path("scene/main.scene");
+        let mut files = place.files(&[]);
+        files.folders.truncate(1);
+        let main = main.display().to_string();
+        let searched = |name: &str| match files.read(name, &main) {
+            Err(FileError::NotFound { searched, .. }) => searched.join(", "),
+            other => panic!("{other:?}"),
+        };
+        let absent = WELL_KNOWN.iter().filter(|folder| !Path::new(folder).is_dir()).count();
+        assert_eq!(searched("colors.inc").matches("(not there)").count(), absent);
+        assert!(!searched("mine.inc").contains("(not there)"));
+    }
+
+    #[test]
+    fn the_page_of_the_language_names_the_well_known_folders() {
+        let page = include_str!("../../docs/language.md");
+        for folder in WELL_KNOWN {
+            assert!(page.contains(&format!("`{folder}`")), "{folder}");
+        }
+    }
+
+    #[test]
+    fn utf_16_is_known_by_its_mark_or_its_zeros() {
+        let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+        let text = "sphere { 0, 1 } // caf\u{e9} \u{2014}";
+        assert!(is_utf_16(&wide(&format!("\u{feff}{text}"))));
+        assert!(is_utf_16(&wide(text)));
+        let swapped: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        assert!(is_utf_16(&swapped));
+        assert!(!is_utf_16(text.as_bytes()) && !is_utf_16(&[0; 64]) && !is_utf_16(b""));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! **Invariant:** people's messages go to standard error, a program's (`json`) to standard output;
 //! a reader that has gone away is no error.
 
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use clap::ValueEnum;
@@ -13,6 +14,8 @@ use super::exit::{Exit, Failure, reason};
 
 /// In human form, more errors than this, and more warnings, are counted, not shown.
 const MOST_SHOWN: usize = 100;
+/// So are more messages of one code: who has read these has seen what is wrong.
+const MOST_OF_A_CODE: usize = 20;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Format {
@@ -51,6 +54,7 @@ impl Messages {
         sources: &Sources,
     ) -> Result<(), Failure> {
         let (mut out, mut errors, mut warnings, mut more) = (String::new(), 0, 0, 0);
+        let mut of_code: BTreeMap<Code, usize> = BTreeMap::new();
         for diagnostic in list {
             match diagnostic.severity {
                 Severity::Error if is_limit(diagnostic.code) => self.limits += 1,
@@ -69,11 +73,13 @@ impl Messages {
                             continue;
                         }
                     };
-                    *shown += 1;
-                    if *shown > MOST_SHOWN {
+                    let alike = of_code.entry(diagnostic.code).or_default();
+                    if *shown == MOST_SHOWN || *alike == MOST_OF_A_CODE {
                         more += 1;
                         continue;
                     }
+                    *shown += 1;
+                    *alike += 1;
                     out.push_str(&render::human(diagnostic, sources, self.style));
                     out.push('\n');
                 }
@@ -98,6 +104,10 @@ impl Messages {
         let summary = render::summary(self.errors + self.limits, self.warnings);
         if let (Format::Human, Some(summary)) = (self.format, summary) {
             eprint(&format!("{summary}\n"));
+        }
+        let warnings_alone = self.errors + self.limits == 0 && self.exit() != Exit::Done;
+        if warnings_alone && self.format != Format::Json {
+            eprint("error: warnings are errors here (--deny-warnings)\n");
         }
     }
 

@@ -41,6 +41,13 @@ pub fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Outcome {
+    progress::hear_interrupts(match arguments.command {
+        Command::Render(_) => "interrupted: nothing was written\n",
+        _ => "interrupted\n",
+    });
+    if let Some(scene) = arguments.command.scene() {
+        files::exist(&scene.include)?;
+    }
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -78,8 +85,10 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let render = first.is_some_and(|first| {
         let names = command.get_subcommands().map(|command| command.get_name());
         // A misspelt subcommand, unless there is such a file.
-        let misspelt =
-            !first.contains('.') && closest(&first, names).is_some() && !Path::new(&first).exists();
+        let misspelt = !first.contains('.')
+            && closest(&first, names).is_some()
+            && !Path::new(&first).exists()
+            && files::as_scene(Path::new(&first)).is_none();
         let ours = ["-h", "--help", "-V", "--version"].contains(&first.as_str());
         !ours && !is_command(&first) && !misspelt
     });

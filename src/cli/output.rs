@@ -14,6 +14,7 @@ use lucarne::plan::Region;
 use lucarne::source::Sources;
 
 use super::exit::{Failure, reason};
+use super::files::is_stdin;
 use super::messages;
 
 /// A place for one picture.
@@ -27,7 +28,8 @@ impl Output {
     /// `OUT` as typed, or the scene's name with `.png` in the current folder.
     pub fn from_arguments(scene: &Path, out: Option<&Path>) -> Result<Self, Failure> {
         let Some(out) = out else {
-            let mut path = scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
+            let stem = scene.file_stem().filter(|_| !is_stdin(scene));
+            let mut path = stem.unwrap_or("picture".as_ref()).to_owned();
             path.push(".png");
             let path = PathBuf::from(path);
             return Ok(Self::File { path, format: Format::Png });

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::arguments::PlanArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, read_main};
+use super::files::{DiskFiles, name_of, read_main};
 use super::messages;
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
@@ -16,7 +16,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let bytes = read_main(&arguments.file)?;
     let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
-    let (world, origins) = road.compile(&arguments.file.to_string_lossy(), bytes);
+    let (world, origins) = road.compile(&name_of(&arguments.file), bytes);
     let mut plan = plan(&world, &origins, &arguments.picture.options(frame));
     pilot(&world, &mut plan);
     let text = match arguments.json {

@@ -4,8 +4,8 @@
 
 use std::io::IsTerminal;
 use std::process;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lucarne::trace::Watch;
@@ -14,16 +14,33 @@ use super::exit::Exit;
 use super::messages;
 use super::stats::cpu_seconds;
 
+/// A trace is under way, or was.
+static TRACING: AtomicBool = AtomicBool::new(false);
+/// Ctrl-C was heard.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// From here on the first Ctrl-C stops the trace, and the second ends the program; where nothing is
+/// traced yet, the first ends it with this sentence.
+pub fn hear_interrupts(before_tracing: &'static str) {
+    // Without a handler Ctrl-C ends the program at once, which is no error.
+    let _ = ctrlc::set_handler(move || {
+        let again = STOP.swap(true, Ordering::SeqCst);
+        if again || !TRACING.load(Ordering::SeqCst) {
+            messages::eprint(if again { "\n" } else { before_tracing });
+            process::exit(Exit::Interrupted as i32);
+        }
+    });
+}
+
 /// Watches one trace.
 pub struct Progress {
     bar: ProgressBar,
-    stop: Arc<AtomicBool>,
     started: f64,
     built: OnceLock<f64>,
 }
 
 impl Progress {
-    /// From here on the first Ctrl-C stops the trace, and the second ends the program.
+    /// From here on Ctrl-C stops the trace.
     pub fn start() -> Self {
         let bar = match std::io::stderr().is_terminal() {
             true => ProgressBar::new(0),
@@ -35,16 +52,8 @@ impl Progress {
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .progress_chars("━━ "),
         );
-        let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
-        // Without a handler Ctrl-C ends the program at once, which is no error.
-        let _ = ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::SeqCst) {
-                messages::eprint("\n");
-                process::exit(Exit::Interrupted as i32);
-            }
-        });
-        Self { bar, stop, started: cpu_seconds(), built: OnceLock::new() }
+        TRACING.store(true, Ordering::SeqCst);
+        Self { bar, started: cpu_seconds(), built: OnceLock::new() }
     }
 
     /// CPU seconds from the start until the tree of boxes stood.
@@ -54,7 +63,7 @@ impl Progress {
 
     /// Ctrl-C was heard.
     pub fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        STOP.load(Ordering::Relaxed)
     }
 
     pub fn end(&self) {
@@ -73,6 +82,6 @@ impl Watch for Progress {
     }
 
     fn should_stop(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        STOP.load(Ordering::Relaxed)
     }
 }

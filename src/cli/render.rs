@@ -11,7 +11,7 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, read_main};
+use super::files::{DiskFiles, name_of, read_main};
 use super::messages;
 use super::output::Output;
 use super::progress::Progress;
@@ -38,7 +38,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let options = arguments.scene.options(&arguments.file, Some(frame));
     let mut road = Road::new(&files, options);
     watch.lap();
-    let file = road.read(&arguments.file.to_string_lossy(), bytes);
+    let file = road.read(&name_of(&arguments.file), bytes);
     let ast = road.parse(file);
     stats.parse_cpu_s = watch.lap();
     let scene = road.evaluate(&ast);

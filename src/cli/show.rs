@@ -6,7 +6,7 @@ use lucarne::{scene, syntax, world};
 
 use super::arguments::{PictureArguments, SceneArguments, ShowArguments, Stage};
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, read_main};
+use super::files::{DiskFiles, name_of, read_main};
 use super::messages;
 
 pub fn run(arguments: &ShowArguments) -> Outcome {
@@ -24,7 +24,7 @@ pub fn show(
     let bytes = read_main(path)?;
     let files = DiskFiles::new(path, &arguments.include);
     let mut road = Road::new(&files, arguments.options(path, Some(frame)));
-    let file = road.read(&path.to_string_lossy(), bytes);
+    let file = road.read(&name_of(path), bytes);
     let ast = road.parse(file);
     let text = if stage == Stage::Ast {
         syntax::dump(&ast, road.sources.get(file))

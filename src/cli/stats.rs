@@ -45,7 +45,7 @@ impl From<&Counters> for Rays {
 }
 
 impl Stats {
-    /// As one line of JSON, or as a table; on standard error where a picture takes the other.
+    /// As one line of JSON, or as a table (`CPU s`: of all threads together); on standard error where a picture takes the other.
     pub fn print(&self, format: Option<StatsFormat>, to_stderr: bool) -> Result<(), Failure> {
         let text = match format {
             // Numbers only: nothing here can fail to serialise.
@@ -60,7 +60,8 @@ impl Stats {
     }
 
     fn table(&self) -> String {
-        let seconds = |name: &str, s: f64| format!("{name:12}{s:14.3} s\n");
+        let wall = |name: &str, s: f64| format!("{name:12}{s:14.3} s\n");
+        let seconds = |name: &str, s: f64| format!("{name:12}{s:14.3} CPU s\n");
         let count = |name: &str, n: u64| format!("{name:12}{n:14}\n");
         [
             seconds("parse", self.parse_cpu_s),
@@ -69,7 +70,7 @@ impl Stats {
             seconds("build", self.build_cpu_s),
             seconds("trace", self.trace_cpu_s),
             seconds("encode", self.encode_cpu_s),
-            seconds("wall clock", self.wall_s),
+            wall("wall clock", self.wall_s),
             format!("{:12}{:14.1} MiB\n", "peak memory", self.peak_rss_bytes as f64 / 1_048_576.0),
             count("objects", self.objects as u64),
             count("lights", self.lights as u64),

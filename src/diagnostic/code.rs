@@ -88,6 +88,7 @@ codes! {
     NotCallable "not-callable" error "something is called that is neither a macro nor a function";
     // scene as a whole
     NoCamera "no-camera" lint "the scene has no camera";
+    PictureShape "picture-shape" lint "the picture and the camera have different shapes, so pixels are not square";
     DuplicateCamera "duplicate-camera" lint "the scene has two cameras; the last one is used";
     MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
     DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";

@@ -9,6 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionKind, FileError, Source, Span, decode};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
+use crate::vocabulary::is_standard_include;
 
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
@@ -146,7 +147,13 @@ fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
             if !searched.is_empty() {
                 diagnostic = diagnostic.help(format!("searched in {}", searched.join(", ")));
             }
-            diagnostic.help("`-I FOLDER` adds a folder to search")
+            diagnostic.help(match is_standard_include(name) {
+                true => {
+                    "it comes with POV-Ray: install its includes (Debian: povray-includes), or give \
+                     their folder with `-I FOLDER`"
+                }
+                false => "`-I FOLDER` adds a folder to search",
+            })
         }
         FileError::Forbidden => Diagnostic::new(
             Code::ForbiddenFile,

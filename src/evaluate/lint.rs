@@ -1,13 +1,14 @@
 //! Lints: what a right scene might contain, and probably does not.
 
 use crate::color::Rgb;
+use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{FileId, Site, Span};
-use crate::vocabulary::Word;
+use crate::vocabulary::{PREDECLARED, Word};
 
 use super::value::Value;
-use super::{Evaluator, Here};
+use super::{Evaluator, Here, Unit};
 
 /// Angles that people write in radians: fractions of π with at least two digits after the point.
 const RADIANS: [f64; 8] = [
@@ -54,6 +55,29 @@ impl Evaluator<'_> {
         unused.sort_by_key(|(_, site, _)| site.span);
         for (name, site, diagnostic) in unused {
             self.scene.unused.push((name, site));
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Names given from outside that no file of the scene has.
+    pub(super) fn lint_options(&mut self, main: &Unit) {
+        let options = self.options;
+        for (name, _) in &options.declares {
+            // `clock` and the like have a value without being declared.
+            if Word::from_name(name).is_some() || PREDECLARED.iter().any(|(known, _)| known == name)
+            {
+                continue;
+            }
+            let has = |unit: &Unit| unit.ast.names.iter().any(|known| known == name);
+            if has(main) || self.parsed.values().any(|unit| has(unit)) {
+                continue;
+            }
+            let message = format!("`-D {name}` declares a name that the scene never uses");
+            let mut diagnostic = Diagnostic::new(Code::UnusedDeclaration, message);
+            let used = main.ast.names.iter().map(String::as_str);
+            if let Some(near) = closest(name, used) {
+                diagnostic = diagnostic.help(format!("did you mean `-D {near}=…`?"));
+            }
             self.diagnostics.push(diagnostic);
         }
     }

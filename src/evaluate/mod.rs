@@ -341,6 +341,7 @@ impl<'a> Evaluator<'a> {
         // What a mistake kept from being run may be the use that is missing.
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations();
+            self.lint_options(&here.unit);
             self.warn_of_old_version(main.file);
         }
     }

@@ -5,6 +5,7 @@
 use super::Lowering;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::CameraItemKind;
 use crate::source::Site;
 use crate::world::Pigment;
 
@@ -12,6 +13,8 @@ use crate::world::Pigment;
 const DEFAULT_AMBIENT: f64 = 0.1;
 /// What the sum of two decimals may be off by.
 const ROUNDING: f64 = 1e-9;
+/// How far from square a pixel may be, relative: POV-Ray's own `right 1.33*x` stands for 4:3.
+const NEARLY_SQUARE: f64 = 0.01;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
@@ -39,6 +42,7 @@ impl Lowering<'_, '_> {
             let told = told.traced(last.site, self.reporter.expansions);
             self.reporter.diagnostics.push(told);
         }
+        self.lint_picture_shape();
         self.lint_clear();
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();
@@ -56,6 +60,33 @@ impl Lowering<'_, '_> {
             }
             self.reporter.diagnostics.push(diagnostic);
         }
+    }
+
+    /// A picture of another shape than the camera sees is squashed.
+    fn lint_picture_shape(&mut self) {
+        let (Some((width, height)), Some(camera)) =
+            (self.options.picture, self.scene.cameras.last())
+        else {
+            return;
+        };
+        let (width, height) = (f64::from(width), f64::from(height));
+        let seen = self.world.camera.right.length() / self.world.camera.up.length();
+        // A whole number of pixels is off by half of one at most.
+        let off = (width - seen * height).abs();
+        // Sides too long for a number are no proportion to speak of: NaN is not off.
+        let is_off = off > NEARLY_SQUARE * width && off > seen.max(1.0);
+        if !is_off {
+            return;
+        }
+        let (picture, seen) = (proportion(width / height), proportion(seen));
+        let message = format!("the picture is {picture}, the camera {seen}: pixels are not square");
+        let right = camera.items.iter().rev().find(|i| matches!(i.kind, CameraItemKind::Right(_)));
+        let site = right.map_or(camera.site, |right| right.site);
+        let diagnostic = Diagnostic::new(Code::PictureShape, message)
+            .at(site.span, format!("this camera sees {seen}"))
+            .help("write `right image_width/image_height*x` in `camera`")
+            .traced(site, self.reporter.expansions);
+        self.reporter.diagnostics.push(diagnostic);
     }
 
     /// Colours that let through more than comes in, and fresnel without the number it lives by.
@@ -104,5 +135,36 @@ impl Lowering<'_, '_> {
                 Pigment::Patterned { map, .. } => map.iter().any(|(_, color)| bright(color.rgb)),
             }
         })
+    }
+}
+
+/// Width to height as people write it: `4:3`, `16:9`, `2.39:1`.
+fn proportion(ratio: f64) -> String {
+    let (long, wide) = if ratio >= 1.0 { (ratio, true) } else { (1.0 / ratio, false) };
+    let near = |short: &f64| (long * short - (long * short).round()).abs() <= 0.003 * long * short;
+    let (long, short) = match (1..=10).map(f64::from).find(near) {
+        Some(short) => (format!("{}", (long * short).round()), format!("{short}")),
+        None => (format!("{long:.2}"), "1".to_owned()),
+    };
+    if wide { format!("{long}:{short}") } else { format!("{short}:{long}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proportion;
+
+    #[test]
+    fn proportions_are_small_whole_numbers_where_they_can_be() {
+        for (ratio, text) in [
+            (4.0, "4:1"),
+            (4.0 / 3.0, "4:3"),
+            (1.33, "4:3"),
+            (0.5625, "9:16"),
+            (1366.0 / 768.0, "16:9"),
+            (1.0, "1:1"),
+            (1.0 / 2.39, "1:2.39"),
+        ] {
+            assert_eq!(proportion(ratio), text);
+        }
     }
 }

@@ -26,11 +26,13 @@ use crate::world::{Dropped, NearSingular, Origins, Settings, World};
 pub struct LowerOptions {
     /// The most objects, uses of one another counted each: shared unions can hold 2ⁿ in n lines.
     pub objects: u64,
+    /// Width and height in pixels of the picture that will be made, where it is known.
+    pub picture: Option<(u32, u32)>,
 }
 
 impl Default for LowerOptions {
     fn default() -> Self {
-        Self { objects: 5_000_000 }
+        Self { objects: 5_000_000, picture: None }
     }
 }
 
