@@ -23,7 +23,7 @@ pub enum Metric {
     Rmse,
     /// Of a hundred pixels one has a component that is off by more.
     P99,
-    /// The share of pixels that are off by more than [`BAD`].
+    /// The share of pixels that are off by more than 2/255.
     Bad,
 }
 
