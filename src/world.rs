@@ -36,6 +36,19 @@ pub struct World {
     pub faces: Vec<FaceCoordinates>,
 }
 
+impl World {
+    /// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
+    pub fn contains(&self, object: &Object, point: Vector) -> bool {
+        let inside = match object.shape {
+            Shape::Sphere(i) => self.spheres[i as usize].contains(point),
+            Shape::Plane(i) => self.planes[i as usize].contains(point),
+            Shape::Box(i) => self.boxes[i as usize].contains(point),
+            Shape::Ellipsoid(i) => self.ellipsoids[i as usize].contains(point),
+        };
+        inside != object.inverse
+    }
+}
+
 /// Where the World's parts came from, a list for each of its lists. Never compared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {

@@ -2,7 +2,6 @@
 
 #[path = "hard/clear.rs"]
 mod clear;
-#[path = "hard/dice.rs"]
 mod dice;
 #[path = "hard/exact.rs"]
 mod exact;

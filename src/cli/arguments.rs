@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lucarne::accuracy::{KNOBS, Metric};
+use lucarne::accuracy::Metric;
 use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::{Options, dialect};
 use lucarne::scene::Dialect;
-use lucarne::vocabulary::Word;
 
 use super::exit::Failure;
 use super::messages::{self, Messages};
+use super::values::{Limit, antialias, declare, error, knob, limit, region, seconds, size, weight};
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
 ///
@@ -281,17 +281,6 @@ pub struct SceneArguments {
     pub message_format: messages::Format,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Limit {
-    LoopTurns,
-    MacroDepth,
-    IncludeDepth,
-    Nesting,
-    Objects,
-    Memory,
-    Pixels,
-}
-
 impl CheckArguments {
     /// The picture the scene is checked for, where one was named.
     pub fn frame(&self) -> Option<Frame> {
@@ -398,110 +387,6 @@ impl FrameArguments {
     }
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let wrong =
-        || "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 1000000".to_owned();
-    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
-    let side = |text: &str| match text.trim().parse::<u32>() {
-        Ok(side @ 1..=1_000_000) => Ok(side),
-        _ => Err(wrong()),
-    };
-    Ok((side(width)?, side(height)?))
-}
-
-fn region(text: &str) -> Result<Region, String> {
-    let wrong = || "expected LEFT,TOP,WIDTH,HEIGHT in pixels, such as 0,0,320,240".to_owned();
-    let numbers: Vec<u32> = text
-        .split(',')
-        .map(|part| part.trim().parse().map_err(|_| wrong()))
-        .collect::<Result<_, _>>()?;
-    match numbers[..] {
-        [x, y, width @ (1..), height @ (1..)] => Ok(Region { x, y, width, height }),
-        _ => Err(wrong()),
-    }
-}
-
-fn antialias(text: &str) -> Result<Antialias, String> {
-    match (text, text.parse::<u32>()) {
-        ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
-        ("adaptive", _) => Ok(Antialias::default()),
-        (_, Ok(n @ 2..=64)) => Ok(Antialias::Grid(n)),
-        _ => adaptive(text).ok_or_else(|| {
-            "expected `off`, `adaptive`, `adaptive:0.02:6`, or a number from 1 to 64".to_owned()
-        }),
-    }
-}
-
-/// `adaptive:THRESHOLD:N`.
-fn adaptive(text: &str) -> Option<Antialias> {
-    let (threshold, grid) = text.strip_prefix("adaptive:")?.split_once(':')?;
-    let threshold = threshold.parse().ok().filter(|t: &f64| (0.0..=1.0).contains(t))?;
-    let grid = grid.parse().ok().filter(|n| (2..=64).contains(n))?;
-    Some(Antialias::Adaptive { threshold, grid })
-}
-
-fn weight(text: &str) -> Result<f64, String> {
-    let weight = text.parse().ok().filter(|weight: &f64| (0.0..=1.0).contains(weight));
-    weight.ok_or_else(|| "expected a number from 0 to 1".to_owned())
-}
-
-fn error(text: &str) -> Result<f64, String> {
-    let error = text.parse().ok().filter(|error: &f64| *error > 0.0 && *error <= 1.0);
-    error.ok_or_else(|| "expected an error above 0 and at most 1, such as 0.01".to_owned())
-}
-
-/// `90`, `90s`, `1.5m`, `2h` or `500ms`.
-fn seconds(text: &str) -> Result<f64, String> {
-    let units = [("ms", 0.001), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
-    let (number, unit) = units
-        .iter()
-        .find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)))
-        .unwrap_or((text, 1.0));
-    let seconds = number.parse().ok().map(|n: f64| n * unit);
-    let seconds = seconds.filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e9);
-    seconds.ok_or_else(|| "expected a time, such as 500ms, 60s or 5m".to_owned())
-}
-
-fn knob(text: &str) -> Result<&'static str, String> {
-    let mut names = KNOBS.iter().map(|knob| knob.name);
-    names.find(|&name| name == text).ok_or_else(|| {
-        let names: Vec<_> = KNOBS.iter().map(|knob| knob.name).collect();
-        format!("the knobs are {}", names.join(", "))
-    })
-}
-
-fn declare(text: &str) -> Result<(String, f64), String> {
-    let (name, value) =
-        text.split_once('=').ok_or("expected NAME=VALUE, such as Radius=1.5".to_owned())?;
-    let (name, value) = (name.trim(), value.trim());
-    let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
-    if !name.starts_with(letter) || !name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
-        return Err(format!("`{name}` is not a name: letters, digits and `_`, no digit first"));
-    }
-    // `#declare` takes these no more; only `clock` is set from outside.
-    if name != "clock" && Word::from_name(name).is_some() {
-        return Err(format!("`{name}` is a word of the language, and cannot be declared"));
-    }
-    let number = match value {
-        "true" | "yes" | "on" => Some(1.0),
-        "false" | "no" | "off" => Some(0.0),
-        // Rust also reads `inf` and `nan`.
-        _ => value.parse().ok().filter(|number: &f64| number.is_finite()),
-    };
-    Ok((name.to_owned(), number.ok_or_else(|| format!("`{value}` is not a number"))?))
-}
-
-fn limit(text: &str) -> Result<(Limit, u64), String> {
-    let (name, value) =
-        text.split_once('=').ok_or("expected NAME=N, such as objects=10000000".to_owned())?;
-    let limit = Limit::from_str(name, true).map_err(|_| {
-        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, memory, pixels"
-            .to_owned()
-    })?;
-    let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;
-    Ok((limit, number))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -510,61 +395,5 @@ mod tests {
     fn the_description_of_the_arguments_is_consistent() {
         use clap::CommandFactory;
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes_and_regions_are_read() {
-        assert_eq!(size("64x48"), Ok((64, 48)));
-        for wrong in ["0x1", "64", "64x", "x", "-1x4", "1e3x3", "2000000x1"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(region("1, 2,3,4"), Ok(Region { x: 1, y: 2, width: 3, height: 4 }));
-        for wrong in ["1,2,3", "1,2,0,4", "1,2,3,4,5", "a,b,c,d"] {
-            assert!(region(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn antialias_is_off_a_number_or_adaptive() {
-        assert_eq!(antialias("off"), Ok(Antialias::Off));
-        assert_eq!(antialias("1"), Ok(Antialias::Off));
-        assert_eq!(antialias("3"), Ok(Antialias::Grid(3)));
-        assert_eq!(antialias("adaptive"), Ok(Antialias::default()));
-        let fine = Antialias::Adaptive { threshold: 0.02, grid: 6 };
-        assert_eq!(antialias("adaptive:0.02:6"), Ok(fine));
-        for wrong in
-            ["adaptive:", "adaptive:0.02", "adaptive:2:6", "adaptive:0.1:1", "adaptive:x:3"]
-        {
-            assert!(antialias(wrong).is_err(), "{wrong}");
-        }
-        assert!(antialias("0").is_err() && antialias("on").is_err() && antialias("65").is_err());
-    }
-
-    #[test]
-    fn times_have_units_and_errors_are_parts_of_white() {
-        let times = [("90", 90.0), ("90s", 90.0), ("1.5m", 90.0), ("2h", 7200.0), ("500ms", 0.5)];
-        for (text, expected) in times {
-            assert_eq!(seconds(text), Ok(expected));
-        }
-        for wrong in ["", "s", "-1s", "0", "inf", "nan", "1e99", "3d"] {
-            assert!(seconds(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(error("0.01"), Ok(0.01));
-        assert!(error("0").is_err() && error("2").is_err() && error("x").is_err());
-        assert_eq!(weight("0"), Ok(0.0));
-        assert!(weight("-1").is_err() && weight("nan").is_err());
-        assert_eq!(knob("depth"), Ok("depth"));
-        assert!(knob("depht").is_err_and(|sentence| sentence.contains("antialias, depth")));
-    }
-
-    #[test]
-    fn a_declaration_is_a_name_and_a_finite_number() {
-        assert_eq!(declare("A_1=-2.5e3"), Ok(("A_1".to_owned(), -2500.0)));
-        assert_eq!(declare("clock=0.5"), Ok(("clock".to_owned(), 0.5)));
-        assert_eq!(declare("On=yes"), Ok(("On".to_owned(), 1.0)));
-        for wrong in ["A", "1A=2", "=2", "A=", "A=inf", "A=nan", "A=b", "A b=2", "sphere=1", "x=2"]
-        {
-            assert!(declare(wrong).is_err(), "{wrong}");
-        }
     }
 }

@@ -16,6 +16,7 @@ mod promise;
 mod render;
 mod show;
 mod stats;
+mod values;
 
 use std::ffi::OsString;
 use std::panic;

@@ -154,8 +154,7 @@ impl Probe {
     }
 
     fn contains(&self, point: Vector) -> bool {
-        (0..self.world.objects.len() as u32)
-            .any(|object| geometry::contains(&self.world, object, point))
+        self.world.objects.iter().any(|object| self.world.contains(object, point))
     }
 
     /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward.

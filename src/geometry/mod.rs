@@ -6,11 +6,16 @@
 
 mod balls;
 mod build;
+mod nearest;
+mod occluder;
+mod search;
 mod single;
 mod through;
 mod tree;
 
-use crate::math::Vector;
+pub use nearest::Hit;
+pub use occluder::Occluder;
+
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
@@ -72,28 +77,6 @@ enum Sides {
     Outside,
     /// The same, inside and outside exchanged.
     Inside,
-}
-
-/// What shadows a ray: an entry of a [`Geometry`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Occluder(usize);
-
-impl Occluder {
-    /// Nothing does.
-    pub const NONE: Self = Self(usize::MAX);
-}
-
-/// The first surface a ray meets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hit {
-    /// Index into `World::objects`.
-    pub object: u32,
-    /// Distance along the ray.
-    pub t: f64,
-    /// The ray leaves the solid here; where it enters, normal and direction are opposed.
-    pub leaving: bool,
-    /// Error bounds could not tell it from a crossing of another object.
-    pub contested: bool,
 }
 
 impl Geometry {
@@ -167,137 +150,6 @@ impl Geometry {
         }
     }
 
-    /// The first surface ahead of the ray's start. Of crossings that their error bounds cannot
-    /// tell apart, that of the first-declared object, the opaque before the clear: with U the least
-    /// t + 2·error of all, the first of those with t ≤ U. So it does not depend on the order of
-    /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
-    #[inline(always)]
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        if self.single {
-            return self.nearest_in_single(ray);
-        }
-        let mut race = Race::new(self, ray);
-        self.search(ray, f64::INFINITY, &mut race);
-        if race.contested() { self.first_declared(ray) } else { race.winner() }
-    }
-
-    /// The same by definition, with the tightest error bounds: first U, then the first object.
-    #[cold]
-    #[inline(never)]
-    fn first_declared(&self, ray: &Ray) -> Option<Hit> {
-        let limit = self.end_of_first(ray);
-        let mut first: Option<((bool, u32), Hit)> = None;
-        self.search(ray, limit, &mut |place: usize| {
-            let entry = &self.entries[place];
-            let object = entry.object;
-            let rank = (entry.clear, object);
-            if first.is_none_or(|first| rank < first.0) {
-                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
-                let hit = |(Crossing { t, .. }, leaving)| {
-                    (rank, Hit { object, t, leaving, contested: true })
-                };
-                first = crossing.map(hit).or(first);
-            }
-            limit
-        });
-        first.map(|(_, hit)| hit)
-    }
-
-    /// U: the least t + 2·error of all crossings.
-    fn end_of_first(&self, ray: &Ray) -> f64 {
-        let mut limit = f64::INFINITY;
-        self.search(ray, limit, &mut |place: usize| {
-            let crossing = self.first_crossing::<TIGHT>(&self.entries[place], ray, limit);
-            if let Some((Crossing { t, error }, _)) = crossing {
-                limit = limit.min(t + 2.0 * error);
-            }
-            limit
-        });
-        limit
-    }
-
-    /// Whether an opaque surface that casts shadows is certainly nearer than `distance` (which may be ∞).
-    /// Surfaces seen from one side shadow from that side.
-    pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
-        self.occluder(ray, distance, Occluder::NONE) != Occluder::NONE
-    }
-
-    /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
-    /// is likely to shadow the next, and any answer but `NONE` is as good as another.
-    #[inline(never)]
-    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
-        if self.single {
-            return self.occluder_in_single(ray, distance, guess);
-        }
-        if self.entries.get(guess.0).is_some_and(|entry| self.shadows(entry, ray, distance)) {
-            return guess;
-        }
-        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE };
-        self.search(ray, distance, &mut shade);
-        shade.found
-    }
-
-    #[inline(always)]
-    fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
-        if !entry.blocks {
-            return false;
-        }
-        let crossing = self.first_crossing::<EASY>(entry, ray, distance);
-        crossing.is_some_and(|(Crossing { t, error }, _)| {
-            t + error < distance || self.barely_shadows(entry, ray, distance)
-        })
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
-        let crossing = self.first_crossing::<TIGHT>(entry, ray, distance);
-        crossing.is_some_and(|(Crossing { t, error }, _)| t + error < distance)
-    }
-
-    /// Shows `seeker` every entry that the ray may meet at `limit` or before.
-    #[inline(always)]
-    fn search(&self, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
-        let mut limit = limit;
-        for place in 0..self.unbounded {
-            if self.entries[place].is_ahead(ray) {
-                limit = look(seeker, place);
-                if limit == f64::NEG_INFINITY {
-                    return;
-                }
-            }
-        }
-        if let Some(tree) = &self.tree {
-            self.search_tree(tree, ray, limit, seeker);
-            return;
-        }
-        for (group, balls) in self.balls.iter().enumerate() {
-            let first = self.unbounded + group * balls::LANES;
-            let mut met = balls.met(ray);
-            while met != 0 {
-                if look(seeker, first + met.trailing_zeros() as usize) == f64::NEG_INFINITY {
-                    return;
-                }
-                met &= met - 1;
-            }
-        }
-    }
-
-    /// Not inlined: a search without a tree stays short, and its numbers in registers.
-    #[inline(never)]
-    fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
-        tree.visit(ray, limit, |leaf, limit| {
-            let mut limit = limit;
-            for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
-                limit = seeker.look(place);
-                if limit == f64::NEG_INFINITY {
-                    break;
-                }
-            }
-            limit
-        });
-    }
-
     /// Where the ray first meets a side of the object that is seen, at `limit` or before, and whether
     /// it leaves the solid there. The error bound is the tightest or, at less cost, an easy one.
     #[inline(always)]
@@ -350,17 +202,6 @@ impl Geometry {
     }
 }
 
-impl Entry {
-    /// `false` when the ray certainly meets nothing of it.
-    #[inline(always)]
-    fn is_ahead(&self, ray: &Ray) -> bool {
-        match &self.solid {
-            Solid::Plane(plane) => plane.is_ahead(ray),
-            Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => true,
-        }
-    }
-}
-
 impl Sides {
     /// Whether a surface is seen where a ray leaves the solid, or enters it.
     #[inline(always)]
@@ -388,99 +229,6 @@ impl Sides {
 const EASY: bool = false;
 const TIGHT: bool = true;
 
-/// Who looks for something among the entries.
-///
-/// A trait and not a closure: its one method is inlined into each of the search's loops.
-trait Seeker {
-    /// Looks at the entry of that place; returns the limit from then on (−∞ ends the search).
-    fn look(&mut self, place: usize) -> f64;
-}
-
-impl<F: FnMut(usize) -> f64> Seeker for F {
-    #[inline(always)]
-    fn look(&mut self, place: usize) -> f64 {
-        self(place)
-    }
-}
-
-/// As `seeker.look(place)`, not inlined: where little is looked at, the search itself is short.
-#[inline(never)]
-fn look(seeker: &mut impl Seeker, place: usize) -> f64 {
-    seeker.look(place)
-}
-
-/// Looks for anything that shadows the ray.
-struct Shade<'a> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
-    distance: f64,
-    found: Occluder,
-}
-
-impl Seeker for Shade<'_> {
-    #[inline(always)]
-    fn look(&mut self, place: usize) -> f64 {
-        if self.geometry.shadows(&self.geometry.entries[place], self.ray, self.distance) {
-            self.found = Occluder(place);
-            return f64::NEG_INFINITY;
-        }
-        self.distance
-    }
-}
-
-/// Looks for the nearest crossing, and for another that may be as near.
-struct Race<'a> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
-    /// The entry whose crossing is nearest so far; none has this place before the first.
-    place: usize,
-    t: f64,
-    leaving: bool,
-    /// Its t + 2·error: what is farther is certainly not first. Whether another crossing is at this
-    /// or before is the same as with the least t + 2·error of all: that other's is not before its t.
-    limit: f64,
-    /// The least t among the others.
-    rival_t: f64,
-}
-
-impl<'a> Race<'a> {
-    #[inline(always)]
-    fn new(geometry: &'a Geometry, ray: &'a Ray) -> Self {
-        let beyond = f64::INFINITY;
-        let place = usize::MAX;
-        Self { geometry, ray, place, t: beyond, leaving: false, limit: beyond, rival_t: beyond }
-    }
-
-    #[inline(always)]
-    fn contested(&self) -> bool {
-        self.rival_t <= self.limit && self.place != usize::MAX
-    }
-
-    #[inline(always)]
-    fn winner(&self) -> Option<Hit> {
-        let entry = self.geometry.entries.get(self.place)?;
-        Some(Hit { object: entry.object, t: self.t, leaving: self.leaving, contested: false })
-    }
-}
-
-impl Seeker for Race<'_> {
-    #[inline(always)]
-    fn look(&mut self, place: usize) -> f64 {
-        let entry = &self.geometry.entries[place];
-        let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
-        if let Some((Crossing { t, error }, leaving)) = crossing {
-            if t < self.t {
-                self.rival_t = self.t;
-                self.limit = t + 2.0 * error;
-                (self.place, self.t, self.leaving) = (place, t, leaving);
-            } else {
-                self.rival_t = if t < self.rival_t { t } else { self.rival_t };
-            }
-        }
-        self.limit
-    }
-}
-
 /// A box around an object; `None` when it is unbounded.
 pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
     match world.objects[object as usize].shape {
@@ -489,18 +237,6 @@ pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
         Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
         Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
     }
-}
-
-/// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
-pub fn contains(world: &World, object: u32, point: Vector) -> bool {
-    let object = &world.objects[object as usize];
-    let inside = match object.shape {
-        Shape::Sphere(i) => world.spheres[i as usize].contains(point),
-        Shape::Plane(i) => world.planes[i as usize].contains(point),
-        Shape::Box(i) => world.boxes[i as usize].contains(point),
-        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].contains(point),
-    };
-    inside != object.inverse
 }
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.

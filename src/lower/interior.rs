@@ -4,9 +4,7 @@
 //! of the scene is filled alike.
 
 use super::{Fault, Lowering};
-use crate::math::Vector;
 use crate::scene::{Finish, FinishId, InteriorId};
-use crate::shape::Shape;
 use crate::source::Site;
 use crate::world::{CameraKind, Interior, Object, World};
 
@@ -95,15 +93,5 @@ fn asks(world: &World, object: &Object) -> bool {
 fn is_entered(world: &World, object: &Object) -> bool {
     asks(world, object)
         || world.camera.kind == CameraKind::Orthographic
-        || contains(world, object, world.camera.location)
-}
-
-fn contains(world: &World, object: &Object, point: Vector) -> bool {
-    let inside = match object.shape {
-        Shape::Sphere(i) => world.spheres[i as usize].contains(point),
-        Shape::Plane(i) => world.planes[i as usize].contains(point),
-        Shape::Box(i) => world.boxes[i as usize].contains(point),
-        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].contains(point),
-    };
-    inside != object.inverse
+        || world.contains(object, world.camera.location)
 }

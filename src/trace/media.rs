@@ -7,7 +7,7 @@
 //! **Source:** POV-Ray 3.7's behaviour, measured with nested, overlapping and touching slabs and with
 //! the camera inside.
 
-use crate::geometry::{self, Hit};
+use crate::geometry::Hit;
 use crate::math::Vector;
 use crate::world::World;
 
@@ -60,7 +60,8 @@ impl Media {
             self.last_start = Some(start);
             let objects = 0..world.objects.len() as u32;
             self.at_last_start.clear();
-            self.at_last_start.extend(objects.filter(|&i| geometry::contains(world, i, start)));
+            self.at_last_start
+                .extend(objects.filter(|&i| world.contains(&world.objects[i as usize], start)));
         }
         self.inside.clone_from(&self.at_last_start);
     }

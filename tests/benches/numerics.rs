@@ -4,7 +4,7 @@
 //! `cargo bench --bench numerics` prints the table of `docs/numerics.md`. The naive kernels live
 //! here only: the quadratic formula with the origin where it is, planes and slabs without bounds.
 
-#[path = "../hard/dice.rs"]
+#[path = "../dice/mod.rs"]
 #[allow(dead_code, reason = "more is drawn by the tests")]
 mod dice;
 #[path = "numerics/naive.rs"]

@@ -5,28 +5,10 @@ use lucarne::math::Vector;
 use lucarne::math::transform::Step;
 use lucarne::scene::{LightKind, ObjectKind, Scene};
 
+use crate::dice::Dice;
 use crate::sketch::{Sketch, seed};
 
-/// Steele, Lea and Flood's SplitMix64.
-pub struct Dice(pub u64);
-
 impl Dice {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
     fn vector(&mut self, low: f64, high: f64) -> Vector {
         Vector::new(self.between(low, high), self.between(low, high), self.between(low, high))
     }
@@ -49,7 +31,7 @@ impl Dice {
         }
     }
 
-    fn steps(&mut self, most: u64) -> Vec<Step> {
+    fn steps(&mut self, most: usize) -> Vec<Step> {
         (0..self.below(most + 1)).map(|_| self.step()).collect()
     }
 

@@ -1,0 +1,84 @@
+//! Which entries a ray may meet: the unbounded that are ahead, then what the tree or the balls let by.
+//!
+//! **Invariant:** every entry that is met at the limit or before is shown; more may be.
+
+use super::tree::Tree;
+use super::{Entry, Geometry, Solid, balls};
+use crate::shape::Ray;
+
+/// Who looks for something among the entries.
+///
+/// A trait and not a closure: its one method is inlined into each of the search's loops.
+pub(super) trait Seeker {
+    /// Looks at the entry of that place; returns the limit from then on (−∞ ends the search).
+    fn look(&mut self, place: usize) -> f64;
+}
+
+impl<F: FnMut(usize) -> f64> Seeker for F {
+    #[inline(always)]
+    fn look(&mut self, place: usize) -> f64 {
+        self(place)
+    }
+}
+
+/// As `seeker.look(place)`, not inlined: where little is looked at, the search itself is short.
+#[inline(never)]
+fn look(seeker: &mut impl Seeker, place: usize) -> f64 {
+    seeker.look(place)
+}
+
+impl Geometry {
+    /// Shows `seeker` every entry that the ray may meet at `limit` or before.
+    #[inline(always)]
+    pub(super) fn search(&self, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
+        let mut limit = limit;
+        for place in 0..self.unbounded {
+            if self.entries[place].is_ahead(ray) {
+                limit = look(seeker, place);
+                if limit == f64::NEG_INFINITY {
+                    return;
+                }
+            }
+        }
+        if let Some(tree) = &self.tree {
+            self.search_tree(tree, ray, limit, seeker);
+            return;
+        }
+        for (group, balls) in self.balls.iter().enumerate() {
+            let first = self.unbounded + group * balls::LANES;
+            let mut met = balls.met(ray);
+            while met != 0 {
+                if look(seeker, first + met.trailing_zeros() as usize) == f64::NEG_INFINITY {
+                    return;
+                }
+                met &= met - 1;
+            }
+        }
+    }
+
+    /// Not inlined: a search without a tree stays short, and its numbers in registers.
+    #[inline(never)]
+    fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
+        tree.visit(ray, limit, |leaf, limit| {
+            let mut limit = limit;
+            for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
+                limit = seeker.look(place);
+                if limit == f64::NEG_INFINITY {
+                    break;
+                }
+            }
+            limit
+        });
+    }
+}
+
+impl Entry {
+    /// `false` when the ray certainly meets nothing of it.
+    #[inline(always)]
+    fn is_ahead(&self, ray: &Ray) -> bool {
+        match &self.solid {
+            Solid::Plane(plane) => plane.is_ahead(ray),
+            Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => true,
+        }
+    }
+}
