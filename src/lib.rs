@@ -12,6 +12,7 @@ pub mod color;
 pub mod diagnostic;
 pub mod evaluate;
 pub mod film;
+pub mod function;
 pub mod geometry;
 pub mod lower;
 pub mod math;

@@ -17,6 +17,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("vocabulary", &[]),
     ("diagnostic", &["source"]),
     // things
+    ("function", &["math"]),
     ("pattern", &["math"]),
     ("shape", &["math"]),
     // nouns

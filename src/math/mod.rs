@@ -6,6 +6,7 @@
 
 pub mod double;
 pub mod elementary;
+pub mod interval;
 pub mod placement;
 pub(crate) mod random;
 pub mod singular;
