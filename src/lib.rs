@@ -24,6 +24,7 @@ pub mod road;
 pub mod scene;
 pub mod shape;
 pub mod source;
+pub mod spline;
 pub mod syntax;
 pub mod trace;
 pub mod vocabulary;

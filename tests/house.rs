@@ -20,6 +20,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("function", &["math"]),
     ("pattern", &["math"]),
     ("shape", &["math"]),
+    ("spline", &[]),
     // nouns
     ("scene", &["color", "math", "pattern", "source", "vocabulary"]),
     ("world", &["color", "math", "pattern", "shape", "source"]),

@@ -1,0 +1,330 @@
+//! Splines: values that change smoothly from one point in time to the next.
+//!
+//! **Invariant:** the points in time rise strictly; before the first and after the last the value
+//! stands still.
+//!
+//! **Source:** manual, section 3.3.1.10 ("Splines"); what it leaves open was read off POV-Ray's
+//! values (the tests hold a table of them): a quadratic piece goes through the point before it, a
+//! cubic one has at each end the mean of the slopes to either side, and of two values for one time
+//! the first counts.
+
+/// Numbers of one value: two to five, the others zero.
+type Values = [f64; 5];
+
+/// How the pieces between two points are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SplineKind {
+    Linear,
+    /// A parabola through the two ends and the point before (after, for the first piece).
+    Quadratic,
+    /// A cubic whose slopes at its ends are known; the first and last point only give slopes.
+    Cubic,
+    /// Cubics that meet with equal slopes and bends, and end without a bend.
+    Natural,
+}
+
+/// A value at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Knot {
+    pub time: f64,
+    pub value: Values,
+}
+
+/// A curve through values in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spline {
+    kind: SplineKind,
+    knots: Vec<Knot>,
+    /// Second derivatives at the knots of a natural spline.
+    bends: Vec<Values>,
+}
+
+impl Spline {
+    /// At least one knot, in any order; none is no spline.
+    pub fn new(kind: SplineKind, mut knots: Vec<Knot>) -> Option<Self> {
+        knots.sort_by(|a, b| a.time.total_cmp(&b.time));
+        knots.dedup_by(|later, first| later.time == first.time);
+        let bends = match kind {
+            SplineKind::Natural => bends(&knots),
+            SplineKind::Linear | SplineKind::Quadratic | SplineKind::Cubic => Vec::new(),
+        };
+        (!knots.is_empty()).then_some(Self { kind, knots, bends })
+    }
+
+    pub fn kind(&self) -> SplineKind {
+        self.kind
+    }
+
+    pub fn knots(&self) -> &[Knot] {
+        &self.knots
+    }
+
+    /// The value at a time.
+    pub fn at(&self, time: f64) -> Values {
+        let (first, last) = match self.kind {
+            SplineKind::Linear | SplineKind::Quadratic | SplineKind::Natural => {
+                (0, self.knots.len() - 1)
+            }
+            SplineKind::Cubic => match self.knots.len() {
+                1 => (0, 0),
+                2 => return mix(&self.knots[0], &self.knots[1], 0.5),
+                count => (1, count - 2),
+            },
+        };
+        if time.is_nan() || time <= self.knots[first].time {
+            return self.knots[first].value;
+        }
+        if time >= self.knots[last].time {
+            return self.knots[last].value;
+        }
+        // Both ends were seen to: there is a knot before and one after.
+        let end = self.knots.partition_point(|knot| knot.time <= time).clamp(first + 1, last);
+        let (from, to) = (&self.knots[end - 1], &self.knots[end]);
+        let width = to.time - from.time;
+        let share = (time - from.time) / width;
+        match self.kind {
+            SplineKind::Linear => mix(from, to, share),
+            SplineKind::Quadratic => self.quadratic(end, time),
+            SplineKind::Cubic => {
+                let (before, after) = (&self.knots[end - 2], &self.knots[end + 1]);
+                let slopes = |k: usize| {
+                    let middle = slope(from, to, k);
+                    [(slope(before, from, k) + middle) / 2.0, (middle + slope(to, after, k)) / 2.0]
+                };
+                each(|k| hermite([from.value[k], to.value[k]], slopes(k), width, share))
+            }
+            SplineKind::Natural => {
+                let rest = 1.0 - share;
+                let bend = |share: f64| (share * share * share - share) * width * width / 6.0;
+                let (bend_from, bend_to) = (&self.bends[end - 1], &self.bends[end]);
+                each(|k| {
+                    rest * from.value[k]
+                        + share * to.value[k]
+                        + (bend(rest) * bend_from[k] + bend(share) * bend_to[k])
+                })
+            }
+        }
+    }
+
+    fn quadratic(&self, end: usize, time: f64) -> Values {
+        if self.knots.len() == 2 {
+            let (from, to) = (&self.knots[0], &self.knots[1]);
+            return mix(from, to, (time - from.time) / (to.time - from.time));
+        }
+        let first = end.saturating_sub(2);
+        let [a, b, c] = [first, first + 1, first + 2].map(|index| self.knots[index]);
+        // Newton's form.
+        each(|k| {
+            let (ab, bc) = (slope(&a, &b, k), slope(&b, &c, k));
+            let bend = (bc - ab) / (c.time - a.time);
+            a.value[k] + (time - a.time) * (ab + (time - b.time) * bend)
+        })
+    }
+}
+
+fn each(f: impl Fn(usize) -> f64) -> Values {
+    [0, 1, 2, 3, 4].map(f)
+}
+
+fn mix(from: &Knot, to: &Knot, share: f64) -> Values {
+    each(|k| from.value[k] + (to.value[k] - from.value[k]) * share)
+}
+
+fn slope(from: &Knot, to: &Knot, k: usize) -> f64 {
+    (to.value[k] - from.value[k]) / (to.time - from.time)
+}
+
+/// The cubic with these values and slopes at its ends, `share` of its width along.
+fn hermite([from, to]: [f64; 2], [leaving, arriving]: [f64; 2], width: f64, share: f64) -> f64 {
+    let rest = 1.0 - share;
+    rest * rest * ((1.0 + 2.0 * share) * from + share * width * leaving)
+        + share * share * ((1.0 + 2.0 * rest) * to - rest * width * arriving)
+}
+
+/// The second derivatives that make slopes equal where pieces meet, zero at both ends.
+///
+/// **Source:** the tridiagonal system of the natural cubic spline, solved from the top down (C. de
+/// Boor, *A Practical Guide to Splines*, 1978, chapter IV); diagonally dominant, so no pivoting.
+fn bends(knots: &[Knot]) -> Vec<Values> {
+    let count = knots.len();
+    let mut bends = vec![[0.0; 5]; count];
+    let mut above = vec![0.0; count];
+    for i in 1..count.saturating_sub(1) {
+        let (before, here, after) = (&knots[i - 1], &knots[i], &knots[i + 1]);
+        let (left, right) = (here.time - before.time, after.time - here.time);
+        let pivot = 2.0 * (left + right) - left * above[i - 1];
+        above[i] = right / pivot;
+        let previous = bends[i - 1];
+        bends[i] = each(|k| {
+            let jump = 6.0 * (slope(here, after, k) - slope(before, here, k));
+            (jump - left * previous[k]) / pivot
+        });
+    }
+    for i in (1..count.saturating_sub(1)).rev() {
+        let next = bends[i + 1];
+        bends[i] = each(|k| bends[i][k] - above[i] * next[k]);
+    }
+    bends
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TIMES: [f64; 6] = [0.0, 1.0, 2.5, 3.0, 5.0, 6.0];
+
+    /// What POV-Ray 3.7 gives at a time, for a spline that is 1 at one knot and 0 at the others.
+    const MEASURED: &[(SplineKind, f64, [f64; 6])] = &[
+        (SplineKind::Linear, -1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Linear, 0.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Linear, 1.2, [0.0, 0.86666666666667, 0.13333333333333, 0.0, 0.0, 0.0]),
+        (SplineKind::Linear, 1.75, [0.0, 0.5, 0.5, 0.0, 0.0, 0.0]),
+        (SplineKind::Linear, 2.5, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Linear, 2.7, [0.0, 0.0, 0.6, 0.4, 0.0, 0.0]),
+        (SplineKind::Linear, 4.9, [0.0, 0.0, 0.0, 0.05, 0.95, 0.0]),
+        (SplineKind::Linear, 5.25, [0.0, 0.0, 0.0, 0.0, 0.75, 0.25]),
+        (SplineKind::Linear, 7.0, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+        (SplineKind::Quadratic, -1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Quadratic, 0.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Quadratic, 1.2, [-0.104, 1.04, 0.064, 0.0, 0.0, 0.0]),
+        (SplineKind::Quadratic, 1.75, [-0.225, 0.875, 0.35, 0.0, 0.0, 0.0]),
+        (SplineKind::Quadratic, 2.5, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Quadratic, 2.7, [0.0, -0.02, 0.68, 0.34, 0.0, 0.0]),
+        (SplineKind::Quadratic, 4.9, [0.0, 0.0, -0.152, 0.24, 0.912, 0.0]),
+        (SplineKind::Quadratic, 5.25, [0.0, 0.0, 0.0, -0.03125, 0.84375, 0.1875]),
+        (SplineKind::Quadratic, 7.0, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+        (SplineKind::Cubic, -1.0, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Cubic, 0.0, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
+        (
+            SplineKind::Cubic,
+            1.2,
+            [-0.07511111111111, 0.98414814814815, 0.11407407407407, -0.02311111111111, 0.0, 0.0],
+        ),
+        (SplineKind::Cubic, 1.75, [-0.09375, 0.59375, 0.6875, -0.1875, 0.0, 0.0]),
+        (SplineKind::Cubic, 2.5, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Cubic, 2.7, [0.0, -0.024, 0.648, 0.388, -0.012, 0.0]),
+        (SplineKind::Cubic, 4.9, [0.0, 0.0, -0.00475, 0.033375, 1.0165, -0.045125]),
+        (SplineKind::Cubic, 5.25, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+        (SplineKind::Cubic, 7.0, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+        (SplineKind::Natural, -1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (SplineKind::Natural, 0.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (
+            SplineKind::Natural,
+            1.2,
+            [
+                -0.08426138032305,
+                0.97864610866373,
+                0.20083406754772,
+                -0.09850220264317,
+                0.00492511013216,
+                -0.00164170337739,
+            ],
+        ),
+        (
+            SplineKind::Natural,
+            1.75,
+            [
+                -0.11801349118943,
+                0.58394135462555,
+                0.9113436123348,
+                -0.39028083700441,
+                0.01951404185022,
+                -0.00650468061674,
+            ],
+        ),
+        (SplineKind::Natural, 2.5, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        (
+            SplineKind::Natural,
+            2.7,
+            [
+                0.0074140969163,
+                -0.02883259911894,
+                0.63777973568282,
+                0.39466079295154,
+                -0.01653303964758,
+                0.00551101321586,
+            ],
+        ),
+        (
+            SplineKind::Natural,
+            4.9,
+            [
+                -0.00075330396476,
+                0.0029295154185,
+                -0.04285462555066,
+                0.07168887665198,
+                1.0247968061674,
+                -0.05580726872247,
+            ],
+        ),
+        (
+            SplineKind::Natural,
+            5.25,
+            [
+                0.00108411343612,
+                -0.00421599669604,
+                0.06167400881057,
+                -0.10299077643172,
+                0.85768860132159,
+                0.18676004955947,
+            ],
+        ),
+        (SplineKind::Natural, 7.0, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+    ];
+
+    fn one_at(kind: SplineKind, place: usize) -> Spline {
+        let knot = |(index, time): (usize, &f64)| Knot {
+            time: *time,
+            value: [f64::from(u8::from(index == place)), 0.0, 0.0, 0.0, 0.0],
+        };
+        Spline::new(kind, TIMES.iter().enumerate().map(knot).collect()).expect("six knots")
+    }
+
+    #[test]
+    fn values_are_those_that_pov_ray_gives() {
+        for (kind, time, expected) in MEASURED {
+            for (place, expected) in expected.iter().enumerate() {
+                let value = one_at(*kind, place).at(*time)[0];
+                assert!((value - expected).abs() < 1e-13, "{kind:?} {place} at {time}: {value}");
+            }
+        }
+    }
+
+    fn spline(kind: SplineKind, knots: &[(f64, f64)]) -> Spline {
+        let knots = knots.iter().map(|(time, value)| Knot { time: *time, value: [*value; 5] });
+        Spline::new(kind, knots.collect()).expect("knots")
+    }
+
+    #[test]
+    fn few_knots_make_what_they_can() {
+        use SplineKind::{Cubic, Linear, Natural, Quadratic};
+        for kind in [Linear, Quadratic, Cubic, Natural] {
+            assert_eq!(spline(kind, &[(2.0, 7.0)]).at(5.0)[4], 7.0);
+            let middle = spline(kind, &[(0.0, 1.0), (1.0, 5.0)]).at(0.5)[0];
+            assert_eq!(middle, 3.0, "{kind:?}");
+            assert_eq!(spline(kind, &[(0.0, 1.0), (1.0, 5.0), (2.0, 7.0)]).at(1.0)[0], 5.0);
+            assert!(Spline::new(kind, Vec::new()).is_none());
+        }
+        assert_eq!(spline(Quadratic, &[(0.0, 1.0), (1.0, 5.0), (2.0, 7.0)]).at(1.5)[0], 6.25);
+        assert_eq!(spline(Natural, &[(0.0, 1.0), (1.0, 5.0), (2.0, 7.0)]).at(0.5)[0], 3.1875);
+    }
+
+    #[test]
+    fn knots_may_come_in_any_order_and_the_first_of_two_at_one_time_counts() {
+        let s = spline(SplineKind::Linear, &[(2.0, 1.0), (1.0, 5.0), (0.0, 1.0), (1.0, 9.0)]);
+        assert_eq!([s.at(0.5)[0], s.at(1.5)[0], s.at(-4.0)[0], s.at(9.0)[0]], [3.0, 3.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_natural_spline_has_no_corner_and_no_jump_in_its_bend() {
+        let s = spline(SplineKind::Natural, &[(0.0, 1.0), (1.0, -2.0), (1.5, 4.0), (4.0, 0.5)]);
+        let f = |t: f64| s.at(t)[0];
+        let h = 1e-4;
+        for knot in [1.0, 1.5] {
+            let slope = |at: f64| (f(at + h) - f(at - h)) / (2.0 * h);
+            let bend = |at: f64| (f(at + h) - 2.0 * f(at) + f(at - h)) / (h * h);
+            assert!((slope(knot - 2.0 * h) - slope(knot + 2.0 * h)).abs() < 0.05);
+            assert!((bend(knot - 2.0 * h) - bend(knot + 2.0 * h)).abs() < 0.1);
+        }
+    }
+}
