@@ -30,6 +30,14 @@ impl Evaluator<'_> {
                         let id = *id;
                         self.macro_value(here, id, arguments, span)
                     }
+                    Some(Value::Function(id)) => {
+                        let (id, unit) = (*id, here.unit.clone());
+                        self.function_value(here, id, unit.ast.arguments(arguments), span)
+                    }
+                    Some(Value::Spline(spline)) => {
+                        let (spline, unit) = (spline.clone(), here.unit.clone());
+                        self.spline_value(here, &spline, unit.ast.arguments(arguments), span)
+                    }
                     Some(Value::Broken) => Err(Reported),
                     Some(Value::Poison(poison)) => {
                         let poison = *poison;
@@ -43,7 +51,7 @@ impl Evaluator<'_> {
                             Code::NotCallable,
                             format!("`{name}` is {kind}, and cannot be called"),
                         )
-                        .at(name_span, "expected the name of a macro or a function");
+                        .at(name_span, "expected the name of a macro, a function or a spline");
                         if let Some(declared) = self.scopes.declared(symbol) {
                             diagnostic = diagnostic.also(declared.site.span, "declared here");
                         }
@@ -95,6 +103,9 @@ impl Evaluator<'_> {
                 let name = self.string(here, *id)?;
                 let from = self.sources.get(word_span.file).name.clone();
                 return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
+            }
+            Word::Dimensions | Word::DimensionSize => {
+                return self.dimensions(here, word, word_span, list);
             }
             Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
                 return self.probe(here, word, word_span, list);

@@ -20,6 +20,9 @@ impl Evaluator<'_> {
             DirectiveKind::Undef(target) => {
                 let symbol = here.symbol(target.name);
                 self.scopes.mark_used(symbol);
+                if !target.indices.is_empty() {
+                    return self.forget_element(here, target);
+                }
                 if self.scopes.undefine(symbol) {
                     self.scopes.note_undone(symbol, here.site(target.span));
                 }
@@ -143,8 +146,10 @@ impl Evaluator<'_> {
     fn is_defined(&mut self, here: &Here, target: &Target) -> bool {
         let symbol = here.symbol(target.name);
         self.scopes.mark_used(symbol);
+        if !target.indices.is_empty() {
+            return self.is_element_set(here, target);
+        }
         match self.scopes.read(symbol) {
-            // Whether an element of something not built is set cannot be known.
             Some(Value::Broken) | None => false,
             Some(_) => true,
         }
@@ -154,6 +159,7 @@ impl Evaluator<'_> {
     fn declare(&mut self, here: &Here, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
+        let indices = self.target_indices(here, target);
         let outer_poison = self.poison.take();
         let outer_hold = self.hold.take();
         let value = match self.next() {
@@ -168,21 +174,10 @@ impl Evaluator<'_> {
         }
         self.hold = outer_hold;
         self.poison = outer_poison;
-        self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
         if !target.indices.is_empty() {
-            for &index in &target.indices {
-                let _: Outcome<Value> = self.expression(here, index);
-            }
-            // Arrays are not built yet: the name holds poison already, and keeps it.
-            return match self.scopes.read(symbol) {
-                Some(Value::Poison(_) | Value::Broken) => Ok(()),
-                Some(other) => {
-                    let other = other.clone();
-                    Err(self.wrong_type(here, target.span, "an array before `[`", &other))
-                }
-                None => Err(self.undeclared(here, symbol, target.span)),
-            };
+            return self.assign_element(here, target, indices, value);
         }
+        self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
         self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Macros: how they are defined, called and given their parameters.
 //!
-//! **Invariant:** as in POV-Ray a lone name is passed by reference and all else by value. An optional
+//! **Invariant:** as in POV-Ray a lone name, or an element of an array, is passed by reference and all else by value. An optional
 //! parameter that a call leaves out, at its end or empty between commas, is not declared inside
 //! (`optional` is version 3.8's; 3.7 has no such word).
 
@@ -39,6 +39,7 @@ enum MacroBody {
 /// What a parameter is bound to.
 enum Bound {
     Variable(Slot),
+    Element(Slot, Box<[f64]>),
     Value(Value),
     Nothing,
 }
@@ -153,6 +154,7 @@ impl Evaluator<'_> {
         for (&(parameter, _), bound) in definition.parameters.iter().zip(bound) {
             match bound {
                 Bound::Variable(slot) => self.scopes.bind(parameter, slot),
+                Bound::Element(slot, indices) => self.scopes.bind_element(parameter, slot, indices),
                 Bound::Value(value) => self.scopes.bind_value(parameter, value),
                 Bound::Nothing => self.scopes.bind_nothing(parameter),
             }
@@ -210,7 +212,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// A lone name is passed by reference, all else by value.
+    /// A lone name or `A[i]` is passed by reference, all else by value.
     fn bound(&mut self, here: &Here, argument: &Argument, optional: bool, span: Span) -> Bound {
         match *argument {
             Argument::Expression(id) => {
@@ -222,6 +224,13 @@ impl Evaluator<'_> {
                     }
                     if optional && self.scopes.is_left_out(symbol) {
                         return Bound::Nothing;
+                    }
+                }
+                if let ExpressionKind::Index(..) = here.unit.expression(id).kind {
+                    match self.referred(here, id) {
+                        Ok(Some((slot, indices))) => return Bound::Element(slot, indices),
+                        Ok(None) => {}
+                        Err(Reported) => return Bound::Value(Value::Broken),
                     }
                 }
                 Bound::Value(self.expression(here, id).unwrap_or(Value::Broken))

@@ -79,17 +79,7 @@ impl Evaluator<'_> {
             ExpressionKind::Call(callee, arguments) => {
                 self.call(here, callee, arguments, expression.span)
             }
-            ExpressionKind::Index(base, index) => {
-                let value = self.expression(here, base)?;
-                let index = self.expression(here, index)?;
-                match (value, index) {
-                    (poison @ Value::Poison(_), _) | (_, poison @ Value::Poison(_)) => Ok(poison),
-                    (value, _) => {
-                        let span = here.unit.expression(base).span;
-                        Err(self.wrong_type(here, span, "an array before `[`", &value))
-                    }
-                }
-            }
+            ExpressionKind::Index(..) => self.indexed(here, id),
             ExpressionKind::Component(base, component) => {
                 let value = self.expression(here, base)?;
                 self.component_value(here, &value, component, here.unit.expression(base).span)
@@ -288,11 +278,6 @@ impl Evaluator<'_> {
             return Ok(value.clone());
         }
         let (index, span) = match component {
-            Component::Word(Word::X | Word::U | Word::Red, span) => (Some(0), span),
-            Component::Word(Word::Y | Word::V | Word::Green, span) => (Some(1), span),
-            Component::Word(Word::Z | Word::Blue, span) => (Some(2), span),
-            Component::Word(Word::T | Word::Filter, span) => (Some(3), span),
-            Component::Word(Word::Transmit, span) => (Some(4), span),
             Component::Word(Word::Gray, span) => {
                 let Some(color) = value.as_color() else {
                     return Err(self.wrong_type(here, base, "a colour before `.gray`", value));
@@ -301,7 +286,8 @@ impl Evaluator<'_> {
                 let _ = span;
                 return Ok(Value::Number(gray));
             }
-            Component::Word(_, span) | Component::Name(_, span) => (None, span),
+            Component::Word(word, span) => (component_index(word), span),
+            Component::Name(_, span) => (None, span),
         };
         let numbers = match value {
             Value::Vector(_) | Value::Color(_) => value.numbers(),
@@ -409,5 +395,17 @@ impl Evaluator<'_> {
             return Err(self.report(&extra.here, diagnostic));
         }
         Ok(value)
+    }
+}
+
+/// Which number of a vector or colour a word after a dot means.
+pub(super) fn component_index(word: Word) -> Option<usize> {
+    match word {
+        Word::X | Word::U | Word::Red => Some(0),
+        Word::Y | Word::V | Word::Green => Some(1),
+        Word::Z | Word::Blue => Some(2),
+        Word::T | Word::Filter => Some(3),
+        Word::Transmit => Some(4),
+        _ => None,
     }
 }

@@ -5,6 +5,7 @@
 //! whoever needs the next item asks the stream for it, and directives, macro calls and includes
 //! run in place, wherever they stand.
 
+mod array;
 mod block;
 mod builtin;
 mod call;
@@ -13,11 +14,14 @@ mod enclosure;
 mod endless;
 mod expand;
 mod expression;
+mod formula;
+mod function;
 mod include;
 mod lint;
 mod probe;
 mod report;
 mod scope;
+mod spline;
 mod stream;
 #[cfg(test)]
 mod tests;
@@ -191,6 +195,7 @@ struct Evaluator<'a> {
     made: Vec<block::Made>,
     scopes: Scopes,
     macros: Vec<Rc<Macro>>,
+    functions: Vec<function::AuthorFunction>,
     streams: RandomStreams,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
@@ -295,6 +300,7 @@ impl<'a> Evaluator<'a> {
             made: Vec::new(),
             scopes,
             macros: Vec::new(),
+            functions: Vec::new(),
             streams: RandomStreams::default(),
             frames: Vec::new(),
             enclosures: Vec::new(),

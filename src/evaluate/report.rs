@@ -216,18 +216,28 @@ impl Evaluator<'_> {
 
     /// Whether more has to be remembered than the limit: then nothing further is evaluated.
     pub(super) fn exceeds_memory(&mut self, here: &Here, span: Span) -> bool {
-        let limit = self.options.limits.memory;
-        if self.stored.saturating_add(self.scopes.held()) >> 20 < limit {
+        if self.has_memory(0) {
             return false;
         }
+        self.too_much_memory(here, span);
+        true
+    }
+
+    /// Whether so many bytes more may be remembered.
+    pub(super) fn has_memory(&self, more: u64) -> bool {
+        let held = self.stored.saturating_add(self.scopes.held()).saturating_add(more);
+        held >> 20 < self.options.limits.memory
+    }
+
+    pub(super) fn too_much_memory(&mut self, here: &Here, span: Span) -> Reported {
+        let limit = self.options.limits.memory;
         let message = format!("what this scene has to remember is larger than {limit} MiB");
         let diagnostic =
             Diagnostic::new(Code::MemoryLimit, message).at(span, "reached before this").help(
-                "strings, maps and lists of transforms count; `--limit memory=N` raises the limit",
+                "strings, maps, arrays and lists of transforms count; `--limit memory=N` raises the limit",
             );
         self.halted = true;
-        self.report(here, diagnostic);
-        true
+        self.report(here, diagnostic)
     }
 
     /// Something stands where a value should.

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 use crate::source::Site;
 
+use super::array::{element, element_mut};
 use super::value::Value;
 
 /// An interned name, the same for every file.
@@ -38,6 +39,14 @@ pub struct Declared {
     pub undone: Option<Site>,
 }
 
+/// What a slot keeps.
+#[derive(Debug)]
+enum Kept {
+    Value(Value),
+    /// An element of the array in another slot: a parameter that refers to `A[i]`.
+    Element(Slot, Box<[f64]>),
+}
+
 #[derive(Debug, Default)]
 struct SymbolState {
     /// Newest last: the depth of the table, and the slot.
@@ -51,7 +60,7 @@ pub struct Scopes {
     names: Vec<String>,
     by_name: HashMap<String, Symbol>,
     states: Vec<SymbolState>,
-    slots: Vec<Value>,
+    slots: Vec<Kept>,
     /// Bytes that the values in the slots hold, about.
     held: u64,
     /// Slots whose table has closed.
@@ -113,7 +122,26 @@ impl Scopes {
             declared.used = true;
         }
         let &(_, slot) = state.bindings.last()?;
-        self.slots.get(slot.0 as usize)
+        self.value(slot)
+    }
+
+    fn value(&self, slot: Slot) -> Option<&Value> {
+        match self.slots.get(slot.0 as usize)? {
+            Kept::Value(value) => Some(value),
+            Kept::Element(array, indices) => element(self.value(*array)?, indices).ok(),
+        }
+    }
+
+    /// The value of a slot, to be changed. Where an array lost the element, there is none.
+    fn value_mut(&mut self, slot: Slot) -> Option<&mut Value> {
+        if let Kept::Element(array, indices) = self.slots.get(slot.0 as usize)? {
+            let (array, indices) = (*array, indices.clone());
+            return element_mut(self.value_mut(array)?, &indices);
+        }
+        match self.slots.get_mut(slot.0 as usize)? {
+            Kept::Value(value) => Some(value),
+            Kept::Element(..) => None,
+        }
     }
 
     pub fn open(&mut self) {
@@ -126,7 +154,7 @@ impl Scopes {
             if let Some((_, slot)) = self.states[symbol.0 as usize].bindings.pop()
                 && own
             {
-                self.put(slot, Value::Broken);
+                self.release(slot);
                 self.free.push(slot);
             }
         }
@@ -177,6 +205,16 @@ impl Scopes {
         }
     }
 
+    /// Takes the value of the newest binding, to be changed and put back by [`Self::overwrite`].
+    pub fn take(&mut self, symbol: Symbol) -> Value {
+        let Some(held) = self.slot(symbol).and_then(|slot| self.value_mut(slot)) else {
+            return Value::Broken;
+        };
+        let value = std::mem::replace(held, Value::Broken);
+        self.held = self.held.saturating_sub(value.bytes());
+        value
+    }
+
     /// Replaces the value of the newest binding, if there is one.
     pub fn overwrite(&mut self, symbol: Symbol, value: Value) {
         if let Some(slot) = self.slot(symbol) {
@@ -193,6 +231,13 @@ impl Scopes {
     /// Binds a parameter to the caller's variable.
     pub fn bind(&mut self, symbol: Symbol, slot: Slot) {
         self.bind_slot(symbol, slot, false);
+    }
+
+    /// Binds a parameter to an element of the caller's array, which has it.
+    pub fn bind_element(&mut self, symbol: Symbol, array: Slot, indices: Box<[f64]>) {
+        let slot = self.empty_slot();
+        self.slots[slot.0 as usize] = Kept::Element(array, indices);
+        self.bind_slot(symbol, slot, true);
     }
 
     /// Binds a parameter that was left out: its name is not declared until it is assigned.
@@ -246,8 +291,7 @@ impl Scopes {
     /// The names that have a value now, in the order they were first seen.
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
-            let value =
-                state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
+            let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
             // A name that was itself reported is no suggestion for another.
             value.is_some_and(|value| *value != Value::Broken)
         });
@@ -257,25 +301,37 @@ impl Scopes {
     /// Every name that was declared and is still bound, with its value.
     pub fn declarations(&self) -> impl Iterator<Item = (&str, &Declared, Option<&Value>)> {
         self.names.iter().zip(&self.states).filter_map(|(name, state)| {
-            let value =
-                state.bindings.last().and_then(|&(_, slot)| self.slots.get(slot.0 as usize));
+            let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
             Some((name.as_str(), state.declared.as_ref()?, value))
         })
     }
 
     fn new_slot(&mut self, value: Value) -> Slot {
-        let slot = self.free.pop().unwrap_or_else(|| {
-            self.slots.push(Value::Broken);
-            Slot(self.slots.len() as u32 - 1)
-        });
+        let slot = self.empty_slot();
         self.put(slot, value);
         slot
     }
 
+    fn empty_slot(&mut self) -> Slot {
+        self.free.pop().unwrap_or_else(|| {
+            self.slots.push(Kept::Value(Value::Broken));
+            Slot(self.slots.len() as u32 - 1)
+        })
+    }
+
+    fn release(&mut self, slot: Slot) {
+        let kept = &mut self.slots[slot.0 as usize];
+        if let Kept::Value(value) = std::mem::replace(kept, Kept::Value(Value::Broken)) {
+            self.held = self.held.saturating_sub(value.bytes());
+        }
+    }
+
     fn put(&mut self, slot: Slot, value: Value) {
-        let old = &mut self.slots[slot.0 as usize];
-        self.held = (self.held + value.bytes()).saturating_sub(old.bytes());
-        *old = value;
+        let bytes = value.bytes();
+        if let Some(old) = self.value_mut(slot) {
+            let old = std::mem::replace(old, value);
+            self.held = (self.held + bytes).saturating_sub(old.bytes());
+        }
     }
 
     /// Bytes that the values of all names hold, about.

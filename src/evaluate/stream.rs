@@ -238,6 +238,11 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Takes the next item if it is of a kind that suits.
+    pub(super) fn next_if(&mut self, suits: impl FnOnce(&TokenKind) -> bool) -> Option<Token> {
+        if self.peek().is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
+    }
+
     /// Takes commas: they may stand between parts, and may be left out.
     pub(super) fn skip_commas(&mut self) {
         while matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {

@@ -14,6 +14,10 @@ use crate::source::Site;
 use crate::syntax::ast::{BinaryOperator, UnaryOperator};
 use crate::vocabulary::Word;
 
+use super::array::Array;
+use super::function::FunctionId;
+use super::spline::SplineValue;
+
 /// Two to five numbers.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Components {
@@ -75,6 +79,9 @@ pub enum Value {
     ColorMap(Arc<ColorMap>),
     Object(ObjectId),
     Camera(Arc<crate::scene::Camera>),
+    Array(Arc<Array>),
+    Spline(Arc<SplineValue>),
+    Function(FunctionId),
     Macro(super::scope::MacroId),
     /// Of a kind that this version does not build: fatal only where it reaches the scene.
     Poison(Poison),
@@ -114,6 +121,8 @@ impl Value {
         match self {
             Self::String(text) => text.len() as u64,
             Self::ColorMap(map) => size_of_val(&map.0[..]) as u64,
+            Self::Array(array) => size_of_val(array.elements()) as u64,
+            Self::Spline(spline) => size_of_val(spline.spline.knots()) as u64,
             _ => 0,
         }
     }
@@ -134,6 +143,9 @@ impl Value {
             Self::ColorMap(_) => "a color_map",
             Self::Object(_) => "an object",
             Self::Camera(_) => "a camera",
+            Self::Array(_) => "an array",
+            Self::Spline(_) => "a spline",
+            Self::Function(_) => "a function",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",
             Self::Broken => "a faulty value",

@@ -76,31 +76,31 @@ vocabulary! {
         ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
         ContainedBy "contained_by" statement later "the sphere or box that holds a function's surface";
         Cube "cube" statement later "the third power, in a julia_fractal";
-        CubicSpline "cubic_spline" statement later "a smooth spline through its points";
+        CubicSpline "cubic_spline" statement built "a smooth spline through its points";
         Evaluate "evaluate" statement later "lets an isosurface learn its gradient";
         FaceIndices "face_indices" statement later "the triangles of a mesh2, as indices of vertices";
         Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
         Hierarchy "hierarchy" statement later "builds a tree over the parts of a mesh or blob";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
         InsideVector "inside_vector" statement later "gives a mesh an inside";
-        LinearSpline "linear_spline" statement later "a spline of straight lines";
+        LinearSpline "linear_spline" statement built "a spline of straight lines";
         LinearSweep "linear_sweep" statement later "a prism with parallel sides";
         MajorRadius "major_radius" statement later "measures a torus-shaped pattern or warp";
         MaxGradient "max_gradient" statement later "the steepest slope of an isosurface's function";
         MaxIteration "max_iteration" statement later "the most turns of a fractal's formula";
         MaxTrace "max_trace" statement later "the most crossings of an isosurface";
-        NaturalSpline "natural_spline" statement later "a spline with free ends";
+        NaturalSpline "natural_spline" statement built "a spline with free ends";
         NormalIndices "normal_indices" statement later "the normals of each face of a mesh2";
         NormalVectors "normal_vectors" statement later "the normals of a mesh2";
         Open "open" statement later "leaves out the end caps";
         Orientation "orientation" statement later "how a shape is turned";
         Precision "precision" statement later "how exactly a julia_fractal is found";
         Precompute "precompute" statement later "tabulates a parametric surface";
-        QuadraticSpline "quadratic_spline" statement later "a spline of parabolas";
+        QuadraticSpline "quadratic_spline" statement built "a spline of parabolas";
         Quaternion "quaternion" statement later "the algebra of a julia_fractal";
         Slice "slice" statement later "the three-dimensional cut of a julia_fractal";
         Smooth "smooth" statement later "rounds a height_field by its normals";
-        Spline "spline" statement later "a curve through points at given times";
+        Spline "spline" statement built "a curve through points at given times";
         Strength "strength" statement later "how strongly a part of a blob pulls";
         Sturm "sturm" statement later "asks for a slower, safer root finder";
         TextureList "texture_list" statement later "the textures of a mesh2";
@@ -436,8 +436,8 @@ vocabulary! {
         Cosh "cosh" function1 built "`cosh(a)`: the hyperbolic cosine";
         Defined "defined" function1 built "`defined(Name)`: 1 if the name is declared, else 0";
         Degrees "degrees" function1 built "`degrees(a)`: radians to degrees";
-        DimensionSize "dimension_size" function later "`dimension_size(array, n)`: how many entries its n-th dimension has";
-        Dimensions "dimensions" function1 later "`dimensions(array)`: how many dimensions it has";
+        DimensionSize "dimension_size" function built "`dimension_size(array, n)`: how many entries its n-th dimension has";
+        Dimensions "dimensions" function1 built "`dimensions(array)`: how many dimensions it has";
         Div "div" function built "`div(a, b)`: the whole part of a / b";
         Exp "exp" function1 built "`exp(a)`: e to the power of a";
         FileExists "file_exists" function1 built "`file_exists(name)`: 1 if the file can be read, else 0";
@@ -451,7 +451,7 @@ vocabulary! {
         Min "min" function built "`min(a, b, …)`: the smallest";
         Mod "mod" function built "`mod(a, b)`: what is left of a / b, with a's sign";
         Pow "pow" function built "`pow(a, b)`: a to the power of b";
-        Prod "prod" function later "`prod(Name, from, to, a)`: the product over a counter, in functions";
+        Prod "prod" function built "`prod(Name, from, to, a)`: the product over a counter, in functions";
         Pwr "pwr" function later "`pwr(a, b)`: a power, in a julia_fractal";
         Radians "radians" function1 built "`radians(a)`: degrees to radians";
         Rand "rand" function1 built "`rand(stream)`: the next random number of a stream, 0 to 1";
@@ -463,7 +463,7 @@ vocabulary! {
         Sqrt "sqrt" function1 built "`sqrt(a)`: the square root; a ≥ 0";
         Strcmp "strcmp" function built "`strcmp(a, b)`: below, at or above 0 as a stands before, at or after b";
         Strlen "strlen" function1 built "`strlen(string)`: how many characters it has";
-        Sum "sum" function later "`sum(Name, from, to, a)`: the sum over a counter, in functions";
+        Sum "sum" function built "`sum(Name, from, to, a)`: the sum over a counter, in functions";
         Tan "tan" function1 built "`tan(a)`: the tangent of an angle in radians";
         Tanh "tanh" function1 built "`tanh(a)`: the hyperbolic tangent";
         Val "val" function1 built "`val(string)`: the number a string writes";
@@ -511,10 +511,10 @@ vocabulary! {
     }
     Definition {
         All "all" statement later "every colour of a picture, for `filter all` and `transmit all`";
-        Array "array" statement later "`array[n] { … }`: a list of values";
+        Array "array" statement built "`array[n] { … }`: a list of values";
         Composite "composite" statement later "the old word for a union";
         Deprecated "deprecated" statement later "marks a declaration as old";
-        Function "function" statement later "`function (x, y) { … }`: a formula to be evaluated later";
+        Function "function" statement built "`function (x, y) { … }`: a formula to be evaluated later";
     }
     FileKind {
         Ascii "ascii" statement later "text of 7 bits";

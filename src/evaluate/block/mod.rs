@@ -130,6 +130,9 @@ impl Evaluator<'_> {
             Word::ColorMap => self.color_map(token),
             Word::TransformWord => self.transform_block(token).map(Value::Transform),
             Word::Camera => self.camera(token),
+            Word::Array => self.array(token),
+            Word::Spline => self.spline(token),
+            Word::Function => self.function(token),
             _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
                 self.object(token, word)
@@ -183,7 +186,7 @@ impl Evaluator<'_> {
     }
 
     /// Enters the block after `token`.
-    fn block<T>(
+    pub(in crate::evaluate) fn block<T>(
         &mut self,
         token: &Token,
         word: Word,

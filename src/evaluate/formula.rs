@@ -1,0 +1,504 @@
+//! The body of a function: an expression to a tape.
+//!
+//! What holds none of the parameters is evaluated at once, by the rules of the language; what holds
+//! one becomes operations, by the rules of functions: comparisons are exact, and what is undefined
+//! is not a number. **Invariant:** one formula is compiled at a time, and knows no other names than
+//! its parameters, its counters and what is declared when it is defined.
+//!
+//! **Source:** manual, section 3.3.1.8, with its list of what may stand in a function. `?:`, vectors'
+//! components and built-in functions of constants are allowed here beyond it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::function::{Binary, Builder, Function, Node, TooLong, Unary};
+use crate::math::elementary::RADIANS_PER_DEGREE;
+use crate::source::Span;
+use crate::syntax::ast::{
+    Argument, Arguments, BinaryOperator, Callee, Component, ExpressionId, ExpressionKind,
+    UnaryOperator,
+};
+use crate::vocabulary::Word;
+
+use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
+use super::value::{Poison, Value};
+use super::{Evaluator, Here, Outcome, Reported, builtin};
+
+/// A formula on its way to a tape.
+struct Formula {
+    builder: Builder,
+    /// The newest last: counters of loops hide parameters.
+    names: Vec<(ParameterName, Node)>,
+    /// Something in it is not built yet.
+    poison: Option<Poison>,
+}
+
+impl Formula {
+    fn named(&self, name: ParameterName) -> Option<Node> {
+        self.names.iter().rev().find(|(other, _)| *other == name).map(|(_, node)| *node)
+    }
+}
+
+impl Evaluator<'_> {
+    /// The tape of a body, or what in it is not built yet.
+    pub(super) fn formula(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        parameters: &[ParameterName],
+    ) -> Outcome<Result<Function, Poison>> {
+        let span = here.unit.expression(id).span;
+        let Ok(builder) = Builder::new(parameters.len()) else {
+            return Err(self.too_long(here, span));
+        };
+        let names = parameters.iter().enumerate();
+        let names = names.filter_map(|(at, name)| Some((*name, builder.parameter(at)?))).collect();
+        let mut formula = Formula { builder, names, poison: None };
+        let result = self.node(here, &mut formula, id)?;
+        Ok(match formula.poison {
+            Some(poison) => Err(poison),
+            None => Ok(formula.builder.finish(result)),
+        })
+    }
+
+    fn too_long(&mut self, here: &Here, span: Span) -> Reported {
+        let diagnostic = Diagnostic::new(Code::OutOfRange, "this function is too long")
+            .at(span, "it comes to more than a million operations, or 56 loops inside each other");
+        self.report(here, diagnostic)
+    }
+
+    fn built(&mut self, here: &Here, span: Span, built: Result<Node, TooLong>) -> Outcome<Node> {
+        built.map_err(|TooLong| self.too_long(here, span))
+    }
+
+    fn node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
+        // Brackets in brackets.
+        stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.node_of(here, formula, id))
+    }
+
+    fn node_of(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
+        let expression = *here.unit.expression(id);
+        let span = expression.span;
+        match expression.kind {
+            ExpressionKind::Name(name) => {
+                let name = ParameterName::Name(here.symbol(name));
+                match formula.named(name) {
+                    Some(node) => Ok(node),
+                    None => self.constant(here, formula, id),
+                }
+            }
+            ExpressionKind::Word(word) => match ParameterName::of_word(word) {
+                Some(name) => {
+                    formula.named(name).ok_or(()).or_else(|()| Err(self.no_parameter(here, span)))
+                }
+                None => self.constant(here, formula, id),
+            },
+            ExpressionKind::Unary(operator, operand) => {
+                let operand = self.node(here, formula, operand)?;
+                let built = match operator {
+                    UnaryOperator::Plus => return Ok(operand),
+                    UnaryOperator::Minus => formula.builder.unary(Unary::Negate, operand),
+                    UnaryOperator::Not => formula.builder.unary(Unary::Not, operand),
+                };
+                self.built(here, span, built)
+            }
+            ExpressionKind::Binary(..) => self.sum_node(here, formula, id),
+            ExpressionKind::Conditional(condition, then, otherwise) => {
+                let condition = self.node(here, formula, condition)?;
+                let then = self.node(here, formula, then)?;
+                let otherwise = self.node(here, formula, otherwise)?;
+                let built = formula.builder.choose(condition, then, otherwise);
+                self.built(here, span, built)
+            }
+            ExpressionKind::Group(inner) => self.node(here, formula, inner),
+            ExpressionKind::Call(callee, arguments) => {
+                self.call_node(here, formula, id, callee, arguments)
+            }
+            ExpressionKind::Component(base, component) => {
+                self.component_node(here, formula, id, base, component)
+            }
+            ExpressionKind::Missing => Err(Reported),
+            ExpressionKind::Number(_)
+            | ExpressionKind::String
+            | ExpressionKind::Vector(_)
+            | ExpressionKind::Index(..)
+            | ExpressionKind::GroupItems(_) => self.constant(here, formula, id),
+        }
+    }
+
+    /// What the language itself makes of it, once, now.
+    fn constant(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
+        let span = here.unit.expression(id).span;
+        if let Some(parameter) = mention(here, formula, id) {
+            let text = self.sources.text(parameter).to_owned();
+            let message = format!("`{text}` has no value yet where the function is defined");
+            let diagnostic = Diagnostic::new(Code::WrongType, message)
+                .at(parameter, "a parameter of the function")
+                .also(span, "this is evaluated once, when the function is defined");
+            return Err(self.report(here, diagnostic));
+        }
+        let number = match self.expression(here, id)? {
+            Value::Number(number) => number,
+            Value::Poison(poison) => {
+                formula.poison.get_or_insert(poison);
+                0.0
+            }
+            other => {
+                let help = matches!(other, Value::Vector(_) | Value::Color(_))
+                    .then(|| "a function works on numbers: write a component, as `.x`".to_owned());
+                return Err(self.wrong_type_with(here, span, "a number", &other, help));
+            }
+        };
+        let built = formula.builder.constant(number);
+        self.built(here, span, built)
+    }
+
+    fn no_parameter(&mut self, here: &Here, span: Span) -> Reported {
+        let text = self.sources.text(span).to_owned();
+        let diagnostic = Diagnostic::new(
+            Code::UndeclaredName,
+            format!("`{text}` is no parameter of this function"),
+        )
+        .at(span, "a vector elsewhere; in a function it must be a parameter")
+        .help(format!("`function (…, {text}) {{ … }}` would make it one"));
+        self.report(here, diagnostic)
+    }
+
+    /// Operations lean to the left as deep as they are long: from the leftmost operand on.
+    fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
+        let (mut operations, mut first) = (Vec::new(), id);
+        while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
+            operations.push((operator, right, here.unit.expression(first).span));
+            first = left;
+        }
+        let mut node = self.node(here, formula, first);
+        for (operator, right, span) in operations.into_iter().rev() {
+            // Both sides may have something to complain of.
+            let right = self.node(here, formula, right);
+            let (left, right) = (node?, right?);
+            let (operation, left, right) = operation_of(operator, left, right);
+            let built = formula.builder.binary(operation, left, right);
+            node = self.built(here, span, built);
+        }
+        node
+    }
+
+    /// `F(x, y, z).red`; of anything else, a component now.
+    fn component_node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        id: ExpressionId,
+        base: ExpressionId,
+        component: Component,
+    ) -> Outcome<Node> {
+        let ExpressionKind::Call(Callee::Name(name, _), arguments) =
+            here.unit.expression(base).kind
+        else {
+            return self.constant(here, formula, id);
+        };
+        let Some(&Value::Function(function)) = self.scopes.read(here.symbol(name)) else {
+            return self.constant(here, formula, id);
+        };
+        let span = here.unit.expression(base).span;
+        let (wanted, components) = self.signature(function);
+        let index = match component {
+            Component::Word(word, _) => super::expression::component_index(word),
+            Component::Name(..) => None,
+        };
+        let Some(index) = index.filter(|index| *index < components && components > 1) else {
+            let text = self.sources.text(here.unit.expression(id).span).to_owned();
+            let message = format!("`{text}`: this function's value has no such component");
+            let diagnostic = Diagnostic::new(Code::WrongArity, message).at(span, "of this");
+            return Err(self.report(here, diagnostic));
+        };
+        let nodes = self.argument_nodes(here, formula, arguments)?;
+        self.check_count(here, wanted, nodes.len(), span)?;
+        let built = formula.builder.ask(outside_id(function, index), &nodes);
+        self.built(here, span, built)
+    }
+
+    fn call_node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        id: ExpressionId,
+        callee: Callee,
+        arguments: Arguments,
+    ) -> Outcome<Node> {
+        match callee {
+            Callee::Name(name, name_span) => match self.scopes.read(here.symbol(name)) {
+                Some(&Value::Function(function)) => self.function_node(
+                    here,
+                    formula,
+                    function,
+                    arguments,
+                    here.unit.expression(id).span,
+                ),
+                Some(Value::Poison(poison)) => {
+                    formula.poison.get_or_insert(*poison);
+                    self.constant_zero(here, formula, name_span)
+                }
+                _ => self.constant(here, formula, id),
+            },
+            Callee::Word(word, word_span) => match word {
+                Word::Sum | Word::Prod => self.loop_node(here, formula, word, word_span, arguments),
+                _ if is_operation(word) => {
+                    self.operation_node(here, formula, word, word_span, arguments)
+                }
+                _ => self.constant(here, formula, id),
+            },
+        }
+    }
+
+    fn constant_zero(&mut self, here: &Here, formula: &mut Formula, span: Span) -> Outcome<Node> {
+        let built = formula.builder.constant(0.0);
+        self.built(here, span, built)
+    }
+
+    fn argument_nodes(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        arguments: Arguments,
+    ) -> Outcome<Vec<Node>> {
+        let unit = here.unit.clone();
+        let mut nodes = Vec::new();
+        let mut outcome = Ok(());
+        for argument in unit.ast.arguments(arguments) {
+            let node = match *argument {
+                Argument::Expression(id) => self.node(here, formula, id),
+                Argument::Items(items) => {
+                    let first = unit.ast.items(items).first();
+                    let span = first.map_or(Span::new(unit.ast.file, 0, 0), |item| item.span);
+                    Err(self.expected("a number", None, (here, span)))
+                }
+            };
+            match node {
+                Ok(node) => nodes.push(node),
+                Err(reported) => outcome = Err(reported),
+            }
+        }
+        outcome.map(|()| nodes)
+    }
+
+    fn function_node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        function: FunctionId,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Node> {
+        let nodes = self.argument_nodes(here, formula, arguments)?;
+        self.check_count(here, self.signature(function).0, nodes.len(), span)?;
+        let built = match &self.functions[function.0 as usize] {
+            AuthorFunction::Formula(called) => formula.builder.call(called, &nodes),
+            AuthorFunction::Spline(_) => {
+                let message = "this function gives a vector, and a number is wanted";
+                let diagnostic = Diagnostic::new(Code::WrongType, message)
+                    .at(span, "a vector")
+                    .help("write one of its components, as `.x`");
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        self.built(here, span, built)
+    }
+
+    /// `sum(i, 1, n, i * x)`.
+    fn loop_node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        word: Word,
+        word_span: Span,
+        arguments: Arguments,
+    ) -> Outcome<Node> {
+        let unit = here.unit.clone();
+        let list = unit.ast.arguments(arguments);
+        let [
+            Argument::Expression(counter),
+            Argument::Expression(from),
+            Argument::Expression(to),
+            Argument::Expression(turn),
+        ] = *list
+        else {
+            return Err(self.wrong_arity(here, word, word_span, 4..=4, list.len()));
+        };
+        let ExpressionKind::Name(counter) = unit.expression(counter).kind else {
+            let message =
+                format!("the first argument of `{}` is the name of its counter", word.name());
+            let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                .at(unit.expression(counter).span, "expected a name");
+            return Err(self.report(here, diagnostic));
+        };
+        let from = self.node(here, formula, from)?;
+        let to = self.node(here, formula, to)?;
+        let operation = if word == Word::Sum { Binary::Add } else { Binary::Multiply };
+        let Ok(open) = formula.builder.open(operation, from, to) else {
+            return Err(self.too_long(here, word_span));
+        };
+        formula.names.push((ParameterName::Name(here.symbol(counter)), open.counter));
+        let turn = self.node(here, formula, turn);
+        formula.names.pop();
+        let built = formula.builder.close(open, turn?);
+        self.built(here, word_span, built)
+    }
+
+    fn operation_node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        word: Word,
+        word_span: Span,
+        arguments: Arguments,
+    ) -> Outcome<Node> {
+        let nodes = self.argument_nodes(here, formula, arguments)?;
+        if let Some(arity) = builtin::arity(word)
+            && !arity.contains(&nodes.len())
+        {
+            return Err(self.wrong_arity(here, word, word_span, arity, nodes.len()));
+        }
+        let built = operation(&mut formula.builder, word, &nodes);
+        self.built(here, word_span, built)
+    }
+}
+
+/// Where an expression names a parameter or a counter.
+fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Option<Span> {
+    let mut waiting = vec![id];
+    while let Some(id) = waiting.pop() {
+        let expression = here.unit.expression(id);
+        let name = match expression.kind {
+            ExpressionKind::Name(name) => Some(ParameterName::Name(here.symbol(name))),
+            ExpressionKind::Word(word) => ParameterName::of_word(word),
+            ExpressionKind::Unary(_, a)
+            | ExpressionKind::Group(a)
+            | ExpressionKind::Component(a, _) => {
+                waiting.push(a);
+                None
+            }
+            ExpressionKind::Binary(_, a, b) | ExpressionKind::Index(a, b) => {
+                waiting.extend([b, a]);
+                None
+            }
+            ExpressionKind::Conditional(a, b, c) => {
+                waiting.extend([c, b, a]);
+                None
+            }
+            ExpressionKind::Vector(arguments) | ExpressionKind::Call(_, arguments) => {
+                let arguments = here.unit.ast.arguments(arguments).iter().rev();
+                waiting.extend(arguments.filter_map(|argument| match argument {
+                    Argument::Expression(id) => Some(*id),
+                    Argument::Items(_) => None,
+                }));
+                None
+            }
+            ExpressionKind::Number(_)
+            | ExpressionKind::String
+            | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Missing => None,
+        };
+        if name.is_some_and(|name| formula.named(name).is_some()) {
+            return Some(expression.span);
+        }
+    }
+    None
+}
+
+fn operation_of(operator: BinaryOperator, left: Node, right: Node) -> (Binary, Node, Node) {
+    match operator {
+        BinaryOperator::Add => (Binary::Add, left, right),
+        BinaryOperator::Subtract => (Binary::Subtract, left, right),
+        BinaryOperator::Multiply => (Binary::Multiply, left, right),
+        BinaryOperator::Divide => (Binary::Divide, left, right),
+        BinaryOperator::Less => (Binary::Less, left, right),
+        BinaryOperator::LessOrEqual => (Binary::LessOrEqual, left, right),
+        BinaryOperator::Equal => (Binary::Equal, left, right),
+        BinaryOperator::NotEqual => (Binary::NotEqual, left, right),
+        BinaryOperator::GreaterOrEqual => (Binary::LessOrEqual, right, left),
+        BinaryOperator::Greater => (Binary::Less, right, left),
+        BinaryOperator::And => (Binary::And, left, right),
+        BinaryOperator::Or => (Binary::Or, left, right),
+    }
+}
+
+fn unary_of(word: Word) -> Option<Unary> {
+    Some(match word {
+        Word::Abs => Unary::Abs,
+        Word::Acos => Unary::Acos,
+        Word::Acosh => Unary::Acosh,
+        Word::Asin => Unary::Asin,
+        Word::Asinh => Unary::Asinh,
+        Word::Atan => Unary::Atan,
+        Word::Atanh => Unary::Atanh,
+        Word::Ceil => Unary::Ceil,
+        Word::Cos => Unary::Cos,
+        Word::Cosh => Unary::Cosh,
+        Word::Exp => Unary::Exp,
+        Word::Floor => Unary::Floor,
+        Word::Int => Unary::Int,
+        Word::Ln => Unary::Ln,
+        Word::Log => Unary::Log,
+        Word::Sin => Unary::Sin,
+        Word::Sinh => Unary::Sinh,
+        Word::Sqrt => Unary::Sqrt,
+        Word::Tan => Unary::Tan,
+        Word::Tanh => Unary::Tanh,
+        _ => return None,
+    })
+}
+
+fn binary_of(word: Word) -> Option<Binary> {
+    Some(match word {
+        Word::Atan2 => Binary::Atan2,
+        Word::Mod => Binary::Mod,
+        Word::Pow => Binary::Pow,
+        Word::Min => Binary::Min,
+        Word::Max => Binary::Max,
+        _ => return None,
+    })
+}
+
+/// Whether a function of the language may stand in a formula.
+fn is_operation(word: Word) -> bool {
+    unary_of(word).is_some()
+        || binary_of(word).is_some()
+        || matches!(word, Word::Div | Word::Degrees | Word::Radians | Word::Select)
+}
+
+/// The operation that a word names; the number of operands is right.
+fn operation(builder: &mut Builder, word: Word, nodes: &[Node]) -> Result<Node, TooLong> {
+    match (word, nodes) {
+        (Word::Degrees, [a]) => {
+            let factor = builder.constant(RADIANS_PER_DEGREE)?;
+            builder.binary(Binary::Divide, *a, factor)
+        }
+        (Word::Radians, [a]) => {
+            let factor = builder.constant(RADIANS_PER_DEGREE)?;
+            builder.binary(Binary::Multiply, *a, factor)
+        }
+        (Word::Div, [a, b]) => {
+            let quotient = builder.binary(Binary::Divide, *a, *b)?;
+            builder.unary(Unary::Int, quotient)
+        }
+        (Word::Select, [a, below, rest @ ..]) => {
+            let zero = builder.constant(0.0)?;
+            let is_below = builder.binary(Binary::Less, *a, zero)?;
+            let rest = match rest {
+                [equal, above] => {
+                    let is_equal = builder.binary(Binary::Equal, *a, zero)?;
+                    builder.choose(is_equal, *equal, *above)?
+                }
+                [other] => *other,
+                _ => zero,
+            };
+            builder.choose(is_below, *below, rest)
+        }
+        _ => match (unary_of(word), binary_of(word), nodes) {
+            (Some(operation), _, [a]) => builder.unary(operation, *a),
+            (_, Some(operation), [first, rest @ ..]) => {
+                rest.iter().try_fold(*first, |node, next| builder.binary(operation, node, *next))
+            }
+            _ => builder.constant(f64::NAN),
+        },
+    }
+}

@@ -1,0 +1,149 @@
+//! Splines: `spline { natural_spline 0, <0, 0, 0>, 1, <2, 1, 0> }`, and their values in time.
+//!
+//! **Source:** manual, section 3.3.1.10 ("Splines"); measured: a name of a spline comes before the
+//! kind, and gives kind and values; values of different size meet as in sums.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::spline::{Knot, Spline, SplineKind};
+use crate::syntax::ast::Argument;
+use crate::vocabulary::Word;
+
+use super::stream::{Token, TokenKind};
+use super::value::{Components, Value};
+use super::{Evaluator, Here, Outcome};
+
+/// A spline and how many numbers its values have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineValue {
+    pub spline: Spline,
+    components: usize,
+}
+
+impl SplineValue {
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// The value at a time: a vector of two to five.
+    pub fn at(&self, time: f64) -> Value {
+        let values = self.spline.at(time);
+        Components::new(&values[..self.components]).map_or(Value::Broken, Value::Vector)
+    }
+}
+
+fn kind_of(word: Word) -> Option<SplineKind> {
+    match word {
+        Word::LinearSpline => Some(SplineKind::Linear),
+        Word::QuadraticSpline => Some(SplineKind::Quadratic),
+        Word::CubicSpline => Some(SplineKind::Cubic),
+        Word::NaturalSpline => Some(SplineKind::Natural),
+        _ => None,
+    }
+}
+
+impl Evaluator<'_> {
+    /// `spline { … }`, after its word.
+    pub(super) fn spline(&mut self, token: &Token) -> Outcome<Value> {
+        self.block(token, Word::Spline, |evaluator| evaluator.spline_items(token))
+    }
+
+    fn spline_items(&mut self, opener: &Token) -> Outcome<Value> {
+        let (mut kind, mut knots, mut components) = (SplineKind::Linear, Vec::new(), 2);
+        let mut poison = None;
+        loop {
+            self.skip_commas();
+            let Some(token) = self.next() else { break };
+            if let TokenKind::Word(word) = token.kind
+                && let Some(named) = kind_of(word)
+            {
+                kind = named;
+                continue;
+            }
+            match self.value_of(&token)? {
+                Value::Spline(other) if knots.is_empty() => {
+                    kind = other.spline.kind();
+                    knots.extend_from_slice(other.spline.knots());
+                    components = other.components;
+                }
+                Value::Number(time) => {
+                    self.skip_commas();
+                    let value = self.value_or(&token.here, token.span)?;
+                    if let Value::Poison(_) = value {
+                        poison = poison.or(Some(value));
+                        continue;
+                    }
+                    let Some(numbers) = value.numbers() else {
+                        let wanted = "a vector after its time";
+                        return Err(self.wrong_type(&token.here, token.span, wanted, &value));
+                    };
+                    components = components.max(numbers.len());
+                    let mut values = [0.0; 5];
+                    values[..numbers.len()].copy_from_slice(numbers.as_slice());
+                    if let Value::Number(number) = value {
+                        values = [number; 5];
+                    }
+                    knots.push(Knot { time, value: values });
+                }
+                found @ Value::Poison(_) => poison = poison.or(Some(found)),
+                other => {
+                    let wanted = "a time, the number before each value";
+                    return Err(self.wrong_type(&token.here, token.span, wanted, &other));
+                }
+            }
+        }
+        if let Some(poison) = poison {
+            return Ok(poison);
+        }
+        match Spline::new(kind, knots) {
+            Some(spline) => Ok(Value::Spline(Arc::new(SplineValue { spline, components }))),
+            None => {
+                let diagnostic = Diagnostic::new(Code::MissingPart, "this spline has no values")
+                    .at(opener.span, "expected a time and a value")
+                    .help("`spline { linear_spline 0, <0, 0, 0>, 1, <5, 0, 0> }`");
+                Err(self.report(&opener.here, diagnostic))
+            }
+        }
+    }
+
+    /// `S(time)` or `S(time, natural_spline)`.
+    pub(super) fn spline_value(
+        &mut self,
+        here: &Here,
+        spline: &SplineValue,
+        list: &[Argument],
+        span: Span,
+    ) -> Outcome<Value> {
+        let (time, kind) = match list {
+            [Argument::Expression(time)] => (*time, None),
+            [Argument::Expression(time), Argument::Items(items)] => {
+                let kind = self.inside(here, *items, |evaluator| match evaluator.next() {
+                    Some(Token { kind: TokenKind::Word(word), .. }) => kind_of(word),
+                    _ => None,
+                });
+                let Some(kind) = kind else {
+                    let diagnostic =
+                        Diagnostic::new(Code::WrongType, "a spline is asked for a time and a kind")
+                            .at(span, "expected a kind of spline after the time")
+                            .help("the kinds are `linear_spline`, `quadratic_spline`, `cubic_spline` and `natural_spline`");
+                    return Err(self.report(here, diagnostic));
+                };
+                (*time, Some(kind))
+            }
+            _ => {
+                let message =
+                    format!("a spline is asked for one time, and is given {} values", list.len());
+                let diagnostic =
+                    Diagnostic::new(Code::WrongArity, message).at(span, "expected one number");
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        let time = self.number(here, time)?;
+        match kind.and_then(|kind| Spline::new(kind, spline.spline.knots().to_vec())) {
+            Some(other) => Ok(SplineValue { spline: other, ..*spline }.at(time)),
+            None => Ok(spline.at(time)),
+        }
+    }
+}
