@@ -55,6 +55,8 @@ const ROOMS: &[(&str, &[&str])] = &[
             "source",
             "syntax",
             "vocabulary",
+            "function",
+            "spline",
             // `trace()`, `inside()`, `min_extent()` and `max_extent()` look at what was declared.
             "geometry",
             "lower",
@@ -158,6 +160,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("evaluate/block/settings.rs", "1_000_000.0", "levels of reflection"),
     ("evaluate/builtin/float.rs", "BORDER", "roundings of a sine or cosine, which is at most 1"),
     ("evaluate/builtin/mod.rs", "1e-5..1e16", "how a number is written in a message"),
+    ("evaluate/array.rs", "1e-10", "an index, which is a whole number"),
     (
         "evaluate/builtin/vector.rs",
         "1e-280..1e300",
@@ -182,6 +185,9 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
     ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
+    ("math/interval.rs", "const FAR", "radians: intervals that wide hold every angle"),
+    ("math/interval.rs", "const TURN", "relative: of an angle"),
+    ("math/interval.rs", "const WHOLE", "whole numbers that are exact"),
     ("math/random.rs", "(1u64 << 53)", "the numbers of 53 bits between 0 and 1"),
     ("math/singular.rs", "cosine.abs()", "a cosine: columns that are at right angles"),
     ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),

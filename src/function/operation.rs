@@ -114,14 +114,14 @@ impl Unary {
             Self::Exp => a.rising(elementary::exp).max(Interval::point(0.0)),
             Self::Ln => a.monotone_within(0.0, INFINITY, elementary::log),
             Self::Log => a.monotone_within(0.0, INFINITY, elementary::log10),
-            Self::Sin => a.sin(),
-            Self::Cos => a.cos(),
-            Self::Tan => a.tan(),
+            Self::Sin => Interval::sin(a),
+            Self::Cos => Interval::cos(a),
+            Self::Tan => Interval::tan(a),
             Self::Asin => a.monotone_within(-1.0, 1.0, elementary::asin),
             Self::Acos => a.monotone_within(-1.0, 1.0, elementary::acos),
             Self::Atan => a.rising(elementary::atan),
             Self::Sinh => a.rising(elementary::sinh),
-            Self::Cosh => a.cosh(),
+            Self::Cosh => Interval::cosh(a),
             Self::Tanh => a.rising(elementary::tanh),
             Self::Asinh => a.rising(elementary::asinh),
             Self::Acosh => a.monotone_within(1.0, INFINITY, elementary::acosh),
@@ -191,7 +191,7 @@ impl Binary {
             Self::Max => a.max(b),
             Self::Mod => a.fmod(b),
             Self::Pow => a.pow(b),
-            Self::Atan2 => a.atan2(b),
+            Self::Atan2 => Interval::atan2(a, b),
         }
     }
 

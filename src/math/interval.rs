@@ -16,6 +16,15 @@ use super::elementary;
 /// Steps outward for a function that is not correctly rounded.
 const SLACK: usize = 2;
 
+/// Beyond so many radians, multiples of π are not told apart well enough to place a crest.
+const FAR: f64 = 1e6;
+
+/// What π and a division by it round off, of a radian.
+const TURN: f64 = 1e-15;
+
+/// Whole numbers up to it are exact, and so are their neighbours' quotients.
+const WHOLE: f64 = 1e15;
+
 /// All numbers from `low` to `high`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -125,17 +134,16 @@ impl Interval {
     /// A wave of −1 to 1 and period 2π whose crests lie at `crest`·π and whole turns from there.
     fn wave(self, f: impl Fn(f64) -> f64, crest: f64) -> Self {
         const FULL: Interval = Interval { low: -1.0, high: 1.0 };
-        // Beyond this, multiples of π are not told apart well enough to place a crest.
         let far = self.low.abs().max(self.high.abs());
         if far == f64::INFINITY {
             return Self::EVERYTHING;
         }
-        if far > 1e6 || self.high - self.low >= 2.0 * PI {
+        if far > FAR || self.high - self.low >= 2.0 * PI {
             return FULL;
         }
         let ends = self.rising(f);
         // In half turns from a crest, widened by what π and the division round off.
-        let slack = 1e-15 * (far + 4.0);
+        let slack = TURN * (far + 4.0);
         let turns = |value: f64| value / PI - crest;
         let (first, last) = (turns(self.low) - slack, turns(self.high) + slack);
         let reaches = |parity: f64| {
@@ -149,7 +157,7 @@ impl Interval {
     }
 
     pub fn tan(self) -> Self {
-        let Self { low, high } = self.cos();
+        let Self { low, high } = Self::cos(self);
         if low <= 0.0 && high >= 0.0 || self.high - self.low >= PI {
             return Self::EVERYTHING;
         }
@@ -171,7 +179,7 @@ impl Interval {
 
     /// `pow(self, exponent)`.
     pub fn pow(self, exponent: Self) -> Self {
-        if let Some(whole) = exponent.single().filter(|n| n.fract() == 0.0 && n.abs() < 1e9) {
+        if let Some(whole) = exponent.single().filter(|n| n.fract() == 0.0 && n.abs() < WHOLE) {
             let even = whole % 2.0 == 0.0;
             if whole == 0.0 {
                 return Self::point(1.0);
@@ -199,7 +207,7 @@ impl Interval {
         };
         // Within one period the remainder rises with the dividend.
         let (low, high) = ((self.low / by).trunc(), (self.high / by).trunc());
-        if low == high && low.abs() < 1e15 && self.low * self.high >= 0.0 {
+        if low == high && low.abs() < WHOLE && self.low * self.high >= 0.0 {
             let ends =
                 Self::between(elementary::fmod(self.low, by), elementary::fmod(self.high, by));
             // A quotient that was rounded up to a whole number is told by ends out of order.
@@ -342,22 +350,23 @@ mod tests {
         holds("abs", |a, _| a.abs(), |a, _| a.abs());
         holds("square", |a, _| a.square(), |a, _| a * a);
         holds("sqrt", |a, _| a.sqrt(), |a, _| a.sqrt());
-        holds("sin", |a, _| a.sin(), |a, _| elementary::sin(a));
-        holds("cos", |a, _| a.cos(), |a, _| elementary::cos(a));
-        holds("tan", |a, _| a.tan(), |a, _| elementary::tan(a));
+        holds("sin", |a, _| Interval::sin(a), |a, _| elementary::sin(a));
+        holds("cos", |a, _| Interval::cos(a), |a, _| elementary::cos(a));
+        holds("tan", |a, _| Interval::tan(a), |a, _| elementary::tan(a));
         holds("atan2", Interval::atan2, elementary::atan2);
         holds("pow", Interval::pow, elementary::pow);
         holds("cube", |a, _| a.pow(Interval::point(3.0)), |a, _| elementary::pow(a, 3.0));
         holds("fmod", |a, _| a.fmod(Interval::point(0.75)), |a, _| elementary::fmod(a, 0.75));
-        holds("cosh", |a, _| a.cosh(), |a, _| elementary::cosh(a));
+        holds("cosh", |a, _| Interval::cosh(a), |a, _| elementary::cosh(a));
     }
 
     #[test]
     fn a_wave_is_cut_where_it_does_not_reach_its_crest() {
-        let quarter = Interval { low: 0.1, high: 1.0 }.sin();
+        let sin = |low, high| Interval::sin(Interval { low, high });
+        let quarter = sin(0.1, 1.0);
         assert!(quarter.low > 0.09 && quarter.high < 0.85, "{quarter:?}");
-        assert_eq!(Interval { low: 1.0, high: 2.0 }.sin().high, 1.0);
-        assert_eq!(Interval { low: 3.0, high: 3.3 }.cos().low, -1.0);
+        assert_eq!(sin(1.0, 2.0).high, 1.0);
+        assert_eq!(Interval::cos(Interval { low: 3.0, high: 3.3 }).low, -1.0);
     }
 
     #[test]

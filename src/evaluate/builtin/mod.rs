@@ -335,7 +335,14 @@ mod tests {
     }
 
     /// What needs names, files, objects or formulas belongs to the evaluator.
-    const OF_THE_EVALUATOR: [Word; 4] = [Word::Defined, Word::FileExists, Word::Prod, Word::Sum];
+    const OF_THE_EVALUATOR: [Word; 6] = [
+        Word::Defined,
+        Word::DimensionSize,
+        Word::Dimensions,
+        Word::FileExists,
+        Word::Prod,
+        Word::Sum,
+    ];
 
     #[test]
     fn every_built_function_of_the_vocabulary_is_here_with_the_arity_its_syntax_needs() {
