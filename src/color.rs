@@ -4,6 +4,10 @@
 //! a colour: light plus `filter` and `transmit`. Encoding for a display happens only in
 //! [`srgb_encode`].
 
+mod web;
+
+pub use web::web;
+
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul};
 

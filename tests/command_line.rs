@@ -474,6 +474,10 @@ fn a_limit_is_four() {
     let place = Place::new();
     place.write("loop.scene", &format!("{SCENE}#while (1) #end\n"));
     place.run("check loop.scene --limit loop-turns=1000").ends(4, &["loop-limit"]);
+    let text = "#declare T = \"a\"; #for (I, 1, 30) #declare T = concat(T, T); #end";
+    place.write("text.scene", text);
+    place.run("check text.scene").ends(4, &["string-limit", "16 MiB", "--limit string=N"]);
+    place.run("check text.scene --limit string=1").ends(4, &["string-limit", "1 MiB"]);
     // Whatever else was wrong: it was the limit that stopped it.
     place.write("both.scene", "#include \"nowhere.inc\"\n#while (1) #end\n");
     let both = ["missing-include", "loop-limit"];

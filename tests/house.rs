@@ -27,12 +27,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("film", &["color", "math", "plan"]),
     ("picture", &["color", "film"]),
     // verbs
-    ("syntax", &["source", "vocabulary", "diagnostic"]),
+    ("syntax", &["color", "source", "vocabulary", "diagnostic"]),
     (
         "lower",
         &[
             "color",
             "diagnostic",
+            // Whether anything is in view.
+            "geometry",
             "math",
             "pattern",
             "scene",
@@ -176,6 +178,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
     ("geometry/tree.rs", "least", "relative: of the tree's size"),
     ("lower/camera.rs", "PARALLEL", "relative: between directions"),
+    ("lower/view.rs", "CLEARLY", "relative: to the place of a corner"),
     ("lower/lint.rs", "ROUNDING", "relative: what a warning overlooks in a sum near 1"),
     ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),

@@ -13,7 +13,7 @@ use crate::syntax::ast::{
 };
 
 use super::report::count;
-use super::scope::{MacroId, Slot, Symbol};
+use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
@@ -65,8 +65,8 @@ impl Evaluator<'_> {
             unit: here.unit.clone(),
             defined: name_span,
         }));
-        let in_main = self.in_main();
-        self.scopes.note_declaration(symbol, here.site(name_span), in_main);
+        let owner = if self.in_main() { Owner::Main } else { Owner::Other };
+        self.scopes.note_declaration(symbol, here.site(name_span), owner);
         self.scopes.assign(symbol, Value::Macro(id));
     }
 

@@ -89,6 +89,8 @@ pub struct Limits {
     pub objects: u64,
     /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
     pub memory: u64,
+    /// MiB of one string.
+    pub string: u64,
 }
 
 impl Limits {
@@ -104,6 +106,7 @@ impl Default for Limits {
             nesting: 1_000,
             objects: 5_000_000,
             memory: 2_048,
+            string: 16,
         }
     }
 }
@@ -340,7 +343,7 @@ impl<'a> Evaluator<'a> {
         }
         // What a mistake kept from being run may be the use that is missing.
         if !self.halted && !self.diagnostics.has_errors() {
-            self.lint_declarations();
+            self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
             self.warn_of_old_version(main.file);
         }

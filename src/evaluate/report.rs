@@ -7,6 +7,7 @@ use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
 use crate::vocabulary::{Family, Role, Word};
 
+use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, Symbol};
@@ -60,7 +61,17 @@ impl Evaluator<'_> {
             )
             .at(span, format!("{subject} is {}", found.kind())),
         };
-        let diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        if let Value::String(found) = found
+            && matches!(wanted, "a colour" | "a vector")
+            && let Some(color) = color_of_string(found)
+        {
+            let color = if wanted == "a colour" { format!("rgb {color}") } else { color };
+            diagnostic = diagnostic.help(format!("write `{color}`"));
+            if name.is_none() {
+                diagnostic = diagnostic.fix(span, color);
+            }
+        }
         let diagnostic = match name.and_then(|symbol| self.scopes.declared(symbol)) {
             Some(declared) if declared.site.span != span => {
                 let site = declared.site;

@@ -2,7 +2,6 @@
 
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
-use crate::diagnostic::Code;
 use crate::math::UnitVector;
 use crate::math::double::DoubleVector;
 use crate::scene::{LightKind, LightSource};
@@ -26,8 +25,7 @@ fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
     let unit = |to_light: DoubleVector| match to_light.normalized() {
         Some(unit) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
         Some(_) => Err(Fault::not_finite("this light's direction")),
-        None => Err(Fault::new(Code::ZeroVector, "this light's direction is the zero vector")
-            .label("expected the light to come from somewhere")),
+        None => Err(Fault::no_direction("this light's direction")),
     };
     let kind = match light.kind {
         LightKind::Point { location } => {

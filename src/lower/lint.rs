@@ -59,7 +59,27 @@ impl Lowering<'_, '_> {
                 diagnostic = diagnostic.at(dropped.site.span, "this light is black");
             }
             self.reporter.diagnostics.push(diagnostic);
+        } else {
+            self.lint_view();
+            self.lint_pigment();
         }
+    }
+
+    /// Objects that are black because nothing gives them a colour.
+    fn lint_pigment(&mut self) {
+        let sites: Vec<Site> = std::mem::take(&mut self.unpainted).into_values().collect();
+        let Some((&first, others)) = sites.split_first() else { return };
+        let message = match others.len() {
+            0 => "this object has no pigment, and is black".to_owned(),
+            n => format!("{} objects have no pigment, and are black", n + 1),
+        };
+        let mut diagnostic = Diagnostic::new(Code::NoPigment, message)
+            .at(first.span, "this one has none, nor does what holds it")
+            .help("write `pigment { rgb 1 }` in it, or `#default { pigment { rgb 1 } }` before it");
+        for other in others.iter().take(2) {
+            diagnostic = diagnostic.also(other.span, "nor does this one");
+        }
+        self.reporter.diagnostics.push(diagnostic.traced(first, self.reporter.expansions));
     }
 
     /// A picture of another shape than the camera sees is squashed.

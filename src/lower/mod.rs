@@ -13,8 +13,9 @@ mod object;
 mod shape;
 mod texture;
 mod transform;
+mod view;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::{Scene, TransformId};
@@ -50,6 +51,7 @@ pub fn lower(
         transforms: transform::Transforms::new(&scene.transforms),
         dropped: HashSet::new(),
         noted_interiors: HashSet::new(),
+        unpainted: BTreeMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -79,6 +81,8 @@ struct Lowering<'s, 'd> {
     dropped: HashSet<(&'static str, Span)>,
     /// What called for each interior so far.
     noted_interiors: HashSet<(usize, Span)>,
+    /// Where solids stand that have no pigment and do not mirror.
+    unpainted: BTreeMap<Span, Site>,
 }
 
 impl Lowering<'_, '_> {
@@ -153,6 +157,12 @@ impl Fault {
 
     fn help(self, help: &'static str) -> Self {
         Self { help: Some(help), ..self }
+    }
+
+    /// Of `what` nothing is left that points anywhere: it was too short for what it went through.
+    fn no_direction(what: &str) -> Self {
+        Self::new(Code::ZeroVector, format!("{what} is the zero vector"))
+            .label("too short to point anywhere")
     }
 
     /// `what` has a number that is infinite or not a number.

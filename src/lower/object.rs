@@ -244,6 +244,11 @@ impl<'s> Lowering<'s, '_> {
     ) -> Result<(), Fault> {
         let surface = &here.surface;
         let material = self.material(surface.pigment, surface.finish, site);
+        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        // What mirrors is seen by what it mirrors.
+        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+            self.unpainted.entry(site.span).or_insert(site);
+        }
         let texture_from_world = self.texture_map(surface, material)?;
         let faces = match faces {
             [] => None,

@@ -66,9 +66,6 @@ impl Affine {
                 self.offset = self.offset + if undone { -by } else { by };
             }
             Step::Scale(by) => {
-                if by.to_array().contains(&0.0) {
-                    return Err(Fault::flat("a scale factor is 0"));
-                }
                 for axis in 0..3 {
                     let factor = Double::from(by[axis]);
                     self.scale_row(axis, if undone { Double::ONE / factor } else { factor });
@@ -195,6 +192,9 @@ impl Affine {
     pub fn cofactors(&self) -> Option<Cofactors> {
         // Brought near 1 first, so that the determinant of a huge or tiny map is a number.
         let size = self.size();
+        if size == 0.0 {
+            return None;
+        }
         let near_one = |v: DoubleVector| v.map(|c| c.times_power_of_two(1.0 / size));
         let [x, y, z] = self.columns().map(near_one);
         let determinant = x.dot(y.cross(z));

@@ -47,8 +47,17 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
                 .help("comments nest: each `/*` needs its own `*/`"),
         );
     }
+    for &stray in &scan.stray_closers {
+        let span = Span::new(file, stray, stray + 2);
+        diagnostics.push(
+            Diagnostic::new(Code::StrayCloser, "this `*/` ends no comment")
+                .at(span, "no `/*` is open here")
+                .help("comments nest: each `/*` has its own `*/`")
+                .fix(span, ""),
+        );
+    }
     let comments = scan.comments.iter().map(|&(start, end)| Span::new(file, start, end)).collect();
-    if scan.comments.is_empty() && scan.closers.is_empty() {
+    if scan.comments.is_empty() && scan.closers.is_empty() && scan.stray_closers.is_empty() {
         return Quiet { text: Cow::Borrowed(text), comments };
     }
     let mut bytes = text.as_bytes().to_vec();
@@ -59,6 +68,9 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
                 *byte = b' ';
             }
         }
+    }
+    for &stray in &scan.stray_closers {
+        bytes[stray..stray + 2].fill(b' ');
     }
     for &place in &scan.closers {
         match bytes.get_mut(place) {
@@ -76,6 +88,8 @@ struct Scan {
     unclosed_comment: Option<usize>,
     /// The first opening quote without an end.
     unclosed_string: Option<usize>,
+    /// Each `*/` outside of all comments.
+    stray_closers: Vec<usize>,
     /// Where a closing quote has to stand in for a line break, or for the end of the text.
     closers: Vec<usize>,
 }
@@ -95,6 +109,11 @@ impl Scan {
                     at = end;
                 }
                 (b'/', Some(b'*')) => at = scan.block_comment(bytes, at),
+                // `2 */* two */ 3` and `2 *// two` multiply.
+                (b'*', Some(b'/')) if !matches!(bytes.get(at + 2), Some(b'*' | b'/')) => {
+                    scan.stray_closers.push(at);
+                    at += 2;
+                }
                 _ => at += 1,
             }
         }
@@ -160,6 +179,13 @@ mod tests {
         let text = "/*".repeat(50_000) + &"*/".repeat(50_000) + "x";
         assert_eq!(text_of(&text).0.trim(), "x");
         assert_eq!(text_of(&"/*".repeat(50_000)).1, [Code::UnclosedComment]);
+    }
+
+    #[test]
+    fn an_end_without_a_beginning_is_told_once_and_left_out() {
+        assert_eq!(text_of("/*a*/ b */ c").0, "      b    c");
+        assert_eq!(text_of("b */").1, [Code::StrayCloser]);
+        assert_eq!(text_of("\"*/\" // */\n2 */*b*/ 3 *// c\n4").1, []);
     }
 
     #[test]

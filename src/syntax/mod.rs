@@ -8,6 +8,7 @@ pub mod ast;
 mod balance;
 mod bracket;
 mod comment;
+mod control;
 mod directive;
 mod dump;
 mod expression;
@@ -58,7 +59,8 @@ pub fn parse(
     diagnostics: &mut Diagnostics,
 ) -> Ast {
     let mut found = Diagnostics::new(true);
-    let quiet = comment::quiet(&source.text, file, &mut found);
+    let mut quiet = comment::quiet(&source.text, file, &mut found);
+    quiet.text = control::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
     let tokens = habits::translate(tokens, &quiet.text, file, &mut found);

@@ -1,5 +1,6 @@
 //! Puts right the misspelt words of directives, so that one letter does not unnest a file.
 
+use super::habits::color_at;
 use super::token::{Head, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
@@ -23,12 +24,18 @@ pub(super) fn correct_heads(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) {
+    let mut before = None;
     for token in tokens {
+        let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
             continue;
         }
         let span = Span::new(file, token.start as usize, token.end as usize);
         let word = text.get(span.range()).unwrap_or("").trim_start_matches(['#', ' ', '\t']);
+        if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {
+            // A colour, as the web writes it (habits/web.rs).
+            continue;
+        }
         if word == "define" {
             // Told with what follows it, which is written otherwise too (habits/head.rs).
             token.kind = TokenKind::Directive(Head::Declare);

@@ -6,6 +6,7 @@
 mod camera;
 mod color;
 mod finish;
+mod habit;
 mod interior;
 mod light;
 mod object;
@@ -16,6 +17,8 @@ mod settings;
 mod texture;
 mod transform;
 mod unexpected;
+
+pub(super) use habit::color_of_string;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};

@@ -195,6 +195,12 @@ impl Evaluator<'_> {
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
+            let diagnostic = match self.comma_after(radius.span) {
+                Some((span, number)) => diagnostic
+                    .help(format!("a fraction is written with a point: `{number}`"))
+                    .fix(span, number),
+                None => diagnostic,
+            };
             return Err(self.report(&radius.here, diagnostic));
         }
         if radius.value < 0.0 {

@@ -152,6 +152,10 @@ impl Evaluator<'_> {
                 return;
             }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+        } else if let Some((span, number)) = self.comma_before(token.span) {
+            diagnostic = diagnostic
+                .help(format!("a fraction is written with a point: `{number}`"))
+                .fix(span, number);
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(word.sentence().to_owned());
         }
@@ -231,7 +235,7 @@ impl Evaluator<'_> {
         let words = || place.words(dialect);
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
-            .filter(|word| words().any(|other| other == *word))
+            .filter(|word| *word == "transmit" || words().any(|other| other == *word))
             .or_else(|| {
                 Some("translate").filter(|word| name == "position" && words().any(|w| w == *word))
             })
@@ -264,6 +268,9 @@ impl Evaluator<'_> {
         let mut diagnostic =
             Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
         diagnostic = match near {
+            Some(near) if near == "transmit" && is_foreign => {
+                self.clear_word(diagnostic, &name, span, place)
+            }
             // The right word would be the next error: no fix.
             Some(near) if !is_built(&near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))

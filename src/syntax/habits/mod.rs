@@ -1,5 +1,5 @@
 //! Habits of other languages: a directive without its `#`, `let A = 1`, `A += 1`, `==`, `&&`; the heads of
-//! directives (`head.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
+//! directives (`head.rs`), colours of the web (`web.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -12,9 +12,11 @@ mod letter;
 mod map;
 mod part;
 mod sign;
+mod web;
 
 use self::letter::Foreign;
 use self::part::Inside;
+pub(super) use self::web::color_at;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -154,8 +156,13 @@ impl Reader<'_> {
                     || self.vector(meant)
                     || self.part(meant)
             }
+            TokenKind::Directive(Head::Unknown) if self.web_color(meant) => true,
             TokenKind::Directive(head) => self.head(head, meant),
-            TokenKind::Stray => self.single_quotes(meant) || (!self.ascii && self.sign(meant)),
+            TokenKind::Stray => {
+                self.web_color(meant)
+                    || self.single_quotes(meant)
+                    || (!self.ascii && self.sign(meant))
+            }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
             TokenKind::Number => self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
