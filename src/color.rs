@@ -268,7 +268,10 @@ mod tests {
         assert!(close(Gamma::Srgb.linear(0.02), 0.001_547_99));
         assert!(close(Gamma::Srgb.linear(2.01), 5.011_898_1));
         for gamma in [Gamma::LINEAR, Gamma::Power(0.4), Gamma::Srgb] {
-            assert_eq!([-1.0, -0.0, 0.0, f64::NAN, 1.0].map(|c| gamma.linear(c)), [0., 0., 0., 0., 1.]);
+            assert_eq!(
+                [-1.0, -0.0, 0.0, f64::NAN, 1.0].map(|c| gamma.linear(c)),
+                [0., 0., 0., 0., 1.]
+            );
         }
         assert_eq!(Gamma::LINEAR.linear(0.3), 0.3);
     }

@@ -256,11 +256,14 @@ mod tests {
     #[test]
     fn known_colours_have_known_numbers() {
         let colors = vec![Rgb::new(0.0, 1.0, 0.5), Rgb::new(f64::NAN, 7.0, 0.215_860_5)];
-        let Pixels::Eight(eight) = develop(&film(colors.clone(), Gamma::LINEAR), Depth::Eight).pixels else {
+        let Pixels::Eight(eight) =
+            develop(&film(colors.clone(), Gamma::LINEAR), Depth::Eight).pixels
+        else {
             panic!("not 8 bit")
         };
         assert_eq!(eight, [[0, 255, 188], [0, 255, 128]]);
-        let Pixels::Sixteen(sixteen) = develop(&film(colors, Gamma::LINEAR), Depth::Sixteen).pixels else {
+        let Pixels::Sixteen(sixteen) = develop(&film(colors, Gamma::LINEAR), Depth::Sixteen).pixels
+        else {
             panic!("not 16 bit")
         };
         assert_eq!(sixteen[0], [0, 65_535, 48_192]);

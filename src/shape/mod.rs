@@ -115,6 +115,18 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// How far `point`, which was found at `t`, may be along each axis from where `ray` was meant to
+    /// cross the surface; `crossing` is the kernel's.
+    ///
+    /// Along the ray it is the crossing's error, taken four times: the direction may be farther off
+    /// than the crossing allows for, where the camera's or a mirror's vectors nearly cancelled. The
+    /// rest is what rounding start, direction and point adds.
+    pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing) -> Vector {
+        let along = (t - crossing.t).abs() + 4.0 * crossing.error;
+        let size = ray.origin.abs().element_sum() + t;
+        ray.direction.abs() * along + Vector::splat(8.0 * U * size + self.error)
+    }
+
     /// Where the ray that goes on from here toward `direction` starts: moved along the normal, to
     /// the side on which it leaves, by the error bound and by nothing else. The bound has room for
     /// the rounding of this very sum.

@@ -119,7 +119,7 @@ impl<'a> Tracer<'a> {
                 let object = &self.world.objects[hit.object as usize];
                 let Material { pigment, finish } = &self.world.materials[object.material as usize];
                 let normal = if hit.leaving { -surface.normal } else { surface.normal };
-                let paint = pigment::on_surface(pigment, self.world, object, &surface);
+                let paint = pigment::on_surface(pigment, self.world, &way.ray, &hit, &surface);
                 let place = Place {
                     finish,
                     color: paint.rgb,
@@ -307,7 +307,7 @@ impl<'a> Tracer<'a> {
             Pigment::Color(color) => *color,
             patterned @ Pigment::Patterned { .. } => {
                 let surface = geometry::surface(self.world, ray, hit);
-                pigment::on_surface(patterned, self.world, object, &surface)
+                pigment::on_surface(patterned, self.world, ray, hit, &surface)
             }
         };
         color.transmittance()
