@@ -508,6 +508,18 @@ fn assumed_gamma_srgb_is_the_displays_own_curve_so_its_numbers_are_shown_as_writ
 }
 
 #[test]
+fn a_parallel_light_without_point_at_shines_at_z_in_a_pov_file_as_in_pov_ray() {
+    let place = Place::new();
+    let lamp = "#version 3.7; global_settings { assumed_gamma 1 } camera { location -9*z }
+        light_source { <-5, 6, 2>, rgb 1 parallel } sphere { 0, 1 }";
+    for (name, shown) in [("a.pov", "<0, 0, 1>"), ("b.scene", "<0, 0, 0>")] {
+        place.write(name, lamp);
+        let scene = place.run(&format!("show {name} --stage scene")).ends(0, &[]).stdout();
+        assert!(scene.contains(&format!("parallel point_at {shown}")), "{scene}");
+    }
+}
+
+#[test]
 fn a_background_is_darker_by_its_transmit_as_in_pov_ray() {
     let place = Place::new();
     for (written, shown) in [

@@ -334,7 +334,7 @@ vocabulary! {
         MediaAttenuation "media_attenuation" statement later "media dim this light";
         MediaInteraction "media_interaction" statement later "this light lights media";
         Parallel "parallel" statement built "all rays run from the place toward `point_at`";
-        PointAt "point_at" statement built "the point a parallel light shines at: <0, 0, 0>";
+        PointAt "point_at" statement built "the point a parallel light shines at: <0, 0, 0>; in a `.pov` z";
         ProjectedThrough "projected_through" statement later "only light through this object counts";
         Radius "radius" statement later "the bright middle of a spotlight, in degrees";
         Shadowless "shadowless" statement built "no object casts a shadow from this light";
