@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
@@ -288,8 +288,8 @@ pub struct SkySphere {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     pub ambient_light: Rgb,
-    /// The exponent that turns the scene's colours into linear light; 1 for none.
-    pub assumed_gamma: f64,
+    /// What turns the scene's colours into linear light.
+    pub assumed_gamma: Gamma,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     /// Where `max_trace_level` was written.
@@ -300,7 +300,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             ambient_light: Rgb::WHITE,
-            assumed_gamma: 1.0,
+            assumed_gamma: Gamma::LINEAR,
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             max_trace_level_site: None,

@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
@@ -295,12 +295,12 @@ pub struct Settings {
     pub max_trace_level: u32,
     /// A path whose weight falls below this in every component is not followed.
     pub adc_bailout: f64,
-    /// The exponent that turns the film's colours into linear light.
-    pub assumed_gamma: f64,
+    /// What turns the film's colours into linear light.
+    pub assumed_gamma: Gamma,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: 1.0 }
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: Gamma::LINEAR }
     }
 }

@@ -496,6 +496,45 @@ fn the_first_assumed_gamma_counts_as_in_pov_ray() {
     assert!(world.contains("assumed_gamma 1.8"), "{world}");
 }
 
+#[test]
+fn assumed_gamma_srgb_is_the_displays_own_curve_so_its_numbers_are_shown_as_written() {
+    let place = Place::new();
+    let scene = "global_settings { assumed_gamma srgb } background { rgb <0.5, 0.02, 0.8> }";
+    place.write("curve.scene", scene);
+    place.run("render curve.scene -o curve.ppm --size 1x1").ends(0, &[]);
+    // The numbers POV-Ray shows: 255 times what is written. With 2.2 they are 128, 0 and 205.
+    let image = place.read("curve.ppm");
+    assert_eq!(image[image.len() - 3..], [128, 5, 204]);
+}
+
+#[test]
+fn a_parallel_light_without_point_at_shines_at_z_in_a_pov_file_as_in_pov_ray() {
+    let place = Place::new();
+    let lamp = "#version 3.7; global_settings { assumed_gamma 1 } camera { location -9*z }
+        light_source { <-5, 6, 2>, rgb 1 parallel } sphere { 0, 1 }";
+    for (name, shown) in [("a.pov", "<0, 0, 1>"), ("b.scene", "<0, 0, 0>")] {
+        place.write(name, lamp);
+        let scene = place.run(&format!("show {name} --stage scene")).ends(0, &[]).stdout();
+        assert!(scene.contains(&format!("parallel point_at {shown}")), "{scene}");
+    }
+}
+
+#[test]
+fn a_background_is_darker_by_its_transmit_as_in_pov_ray() {
+    let place = Place::new();
+    for (written, shown) in [
+        ("rgbt <0.8, 0.6, 0.4, 0.5>", "<0.4, 0.3, 0.2>"),
+        ("rgbft <0.5, 1, 0, 0.3, 0.75>", "<0.125, 0.25, 0>"),
+        ("rgbf <0.8, 0.6, 0.4, 0.5>", "<0.8, 0.6, 0.4>"),
+        ("rgbt <0.8, 0.6, 0.4, 1>", "<0, 0, 0>"),
+        ("color 0.5", "<0.25, 0.25, 0.25>"),
+    ] {
+        place.write("sky.scene", &format!("background {{ {written} }} {SCENE}"));
+        let world = place.run("show sky.scene --stage world").ends(0, &[]).stdout();
+        assert!(world.contains(&format!("\nbackground {shown}\n")), "{written}: {world}");
+    }
+}
+
 // ── check ──
 
 #[test]

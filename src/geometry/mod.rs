@@ -16,6 +16,7 @@ mod tree;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 
+use crate::math::Vector;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
@@ -249,6 +250,22 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
         Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
     }
+}
+
+/// How far a surface's point may be along each axis from where the ray was meant to meet it; no
+/// distance where that is not known.
+#[inline(never)]
+pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
+    let chord = match world.objects[hit.object as usize].shape {
+        Shape::Sphere(i) => world.spheres[i as usize].chord(ray),
+        Shape::Plane(i) => world.planes[i as usize].chord(ray),
+        Shape::Box(i) => world.boxes[i as usize].chord(ray),
+        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].chord(ray),
+    };
+    // In single precision a ray may meet what it truly misses.
+    chord.map_or(Vector::ZERO, |Chord { enter, leave }| {
+        surface.spread(ray, hit.t, if hit.leaving { &leave } else { &enter })
+    })
 }
 
 #[cfg(test)]

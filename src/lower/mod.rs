@@ -17,6 +17,7 @@ mod view;
 
 use std::collections::{BTreeMap, HashSet};
 
+use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::{Scene, TransformId};
 use crate::source::{Expansions, Site, Span};
@@ -130,7 +131,8 @@ impl Lowering<'_, '_> {
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
-            let rgb = background.color.rgb;
+            let Color { rgb, transmit, .. } = background.color;
+            let rgb = rgb * (1.0 - transmit);
             let rgb = rgb.is_finite().then_some(rgb).ok_or(Fault::not_finite("the background"));
             self.world.background = self.reporter.made(rgb, background.site).unwrap_or_default();
         }

@@ -22,6 +22,7 @@ mod tiles;
 
 use std::ops::AddAssign;
 
+use crate::color::Gamma;
 use crate::film::Film;
 use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
@@ -95,7 +96,7 @@ pub struct Traced {
 
 impl Traced {
     /// Before any ray: every pixel black.
-    pub fn unbegun(frame: Frame, assumed_gamma: f64) -> Self {
+    pub fn unbegun(frame: Frame, assumed_gamma: Gamma) -> Self {
         let film = Film::new(frame, assumed_gamma);
         Self { film, counters: Counters::default(), complete: false }
     }

@@ -93,8 +93,9 @@ impl<'a> Tracer<'a> {
     /// The radiance seen along `ray`.
     ///
     /// The weight that `adc_bailout` cuts at is the product of [`reflection::most`] of each surface
-    /// that mirrors, and of the brightness of what each surface lets through, as in POV-Ray; a seed
-    /// finish neither lowers it nor is cut by it.
+    /// that mirrors, and of the largest component of what each surface lets through; of a surface
+    /// that lets through less brightness than that, whatever the weight, nothing is followed either,
+    /// as in POV-Ray. A seed finish neither lowers the weight nor is cut by it.
     #[inline(never)]
     pub fn radiance<const SHADOWS: bool, const SECONDARY: bool>(
         &self,
@@ -119,7 +120,7 @@ impl<'a> Tracer<'a> {
                 let object = &self.world.objects[hit.object as usize];
                 let Material { pigment, finish } = &self.world.materials[object.material as usize];
                 let normal = if hit.leaving { -surface.normal } else { surface.normal };
-                let paint = pigment::on_surface(pigment, self.world, object, &surface);
+                let paint = pigment::on_surface(pigment, self.world, &way.ray, &hit, &surface);
                 let place = Place {
                     finish,
                     color: paint.rgb,
@@ -294,10 +295,9 @@ impl<'a> Tracer<'a> {
             let mirrored = reflection::reflectance(reflection, color, cosine, fresnel);
             factor = factor * mirrored.map(|part| 1.0 - part);
         }
-        // Cut by its brightness, it goes on with its largest component (measured).
-        self.weight(way.weight, finish, || factor.brightness())?;
-        let weight = if finish.seed { way.weight } else { way.weight * factor.largest() };
-        (!factor.is_black()).then_some((weight, factor))
+        let weight = self.weight(way.weight, finish, || factor.largest())?;
+        let too_dark = !finish.seed && factor.brightness().abs() < self.adc_bailout;
+        (!too_dark && !factor.is_black()).then_some((weight, factor))
     }
 
     /// What the surface at `hit` lets through of the light behind it.
@@ -307,7 +307,7 @@ impl<'a> Tracer<'a> {
             Pigment::Color(color) => *color,
             patterned @ Pigment::Patterned { .. } => {
                 let surface = geometry::surface(self.world, ray, hit);
-                pigment::on_surface(patterned, self.world, object, &surface)
+                pigment::on_surface(patterned, self.world, ray, hit, &surface)
             }
         };
         color.transmittance()

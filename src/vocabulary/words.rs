@@ -334,7 +334,7 @@ vocabulary! {
         MediaAttenuation "media_attenuation" statement later "media dim this light";
         MediaInteraction "media_interaction" statement later "this light lights media";
         Parallel "parallel" statement built "all rays run from the place toward `point_at`";
-        PointAt "point_at" statement built "the point a parallel light shines at: <0, 0, 0>";
+        PointAt "point_at" statement built "the point a parallel light shines at: <0, 0, 0>; in a `.pov` z";
         ProjectedThrough "projected_through" statement later "only light through this object counts";
         Radius "radius" statement later "the bright middle of a spotlight, in degrees";
         Shadowless "shadowless" statement built "no object casts a shadow from this light";
@@ -368,7 +368,7 @@ vocabulary! {
     }
     Atmosphere {
         ArcAngle "arc_angle" statement later "the part of a rainbow that is seen";
-        Background "background" statement built "`background { color }`: what is seen where nothing is: black";
+        Background "background" statement built "`background { color }`: what is seen where nothing is, darker by its `transmit`: black";
         Distance "distance" statement later "the distance at which fog has covered two thirds";
         Fog "fog" statement later "haze over distance";
         FogAlt "fog_alt" statement later "the height over which ground fog thins";
@@ -384,7 +384,7 @@ vocabulary! {
         Altitude "altitude" statement later "reserved by version 3.7, without a documented meaning";
         AlwaysSample "always_sample" statement later "radiosity is refined in the final pass";
         AmbientLight "ambient_light" statement built "multiplies every `ambient`: 1";
-        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours; `srgb` too: 1";
+        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours, or `srgb` for that curve: 1";
         Autostop "autostop" statement later "when photons stop";
         Brightness "brightness" statement later "how bright radiosity is";
         Charset "charset" statement later "how strings are encoded";

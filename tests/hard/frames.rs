@@ -1,7 +1,7 @@
 //! Pictures of hard shapes, deep paths, knife edges and the display's curve: rows 45, 62, 73, 74,
 //! 75 and 76.
 
-use lucarne::color::{Rgb, srgb_decode, srgb_encode};
+use lucarne::color::{Gamma, Rgb, srgb_decode, srgb_encode};
 use lucarne::film::{Depth, Film, Pixels, develop};
 use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
@@ -62,7 +62,7 @@ fn row_62_the_displays_curve_is_monotone_and_keeps_its_numbers() {
     assert_eq!((srgb_encode(0.0), srgb_encode(1.0)), (0.0, 1.0));
     assert_eq!(srgb_encode(f64::NAN), 0.0);
     let shown = |radiance: Vec<Rgb>, depth: Depth| {
-        let mut film = Film::new(Frame::whole(radiance.len() as u32, 1), 1.0);
+        let mut film = Film::new(Frame::whole(radiance.len() as u32, 1), Gamma::LINEAR);
         film.radiance = radiance;
         develop(&film, depth).pixels
     };

@@ -104,7 +104,12 @@ impl Evaluator<'_> {
         mut light: Option<&mut LightSource>,
     ) -> Outcome<()> {
         let mut failed = false;
-        let (mut parallel, mut point_at) = (false, Vector::ZERO);
+        // POV-Ray 3.7's default, measured; its manual says the origin.
+        let mut point_at = match self.options.dialect {
+            Dialect::Scene => Vector::ZERO,
+            Dialect::Pov => Vector::Z,
+        };
+        let mut parallel = false;
         while let Some(token) = self.next() {
             let outcome = match token.kind {
                 TokenKind::Word(Word::Parallel) => {

@@ -26,10 +26,10 @@ fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> 
 fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
     let world = varied();
     for (gamma, antialias) in [
-        (1.0, Antialias::Off),
-        (1.0, Antialias::Grid(3)),
-        (1.0, Antialias::default()),
-        (2.2, Antialias::Adaptive { threshold: 0.01, grid: 2 }),
+        (Gamma::LINEAR, Antialias::Off),
+        (Gamma::Srgb, Antialias::Grid(3)),
+        (Gamma::LINEAR, Antialias::default()),
+        (Gamma::Power(2.2), Antialias::Adaptive { threshold: 0.01, grid: 2 }),
     ] {
         let mut world = world.clone();
         world.settings.assumed_gamma = gamma;
