@@ -6,6 +6,7 @@
 use pest::Parser;
 use pest_derive::Parser;
 
+use super::numbers::{Piece, Pieces};
 use crate::vocabulary::Word;
 
 #[derive(Parser)]
@@ -144,45 +145,90 @@ impl Head {
 
 /// All tokens of a text.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    // The grammar ends in `ANY`, so it takes every text.
-    let Some(file) = Grammar::parse(Rule::file, text).ok().and_then(|mut pairs| pairs.next())
-    else {
-        return Vec::new();
-    };
     let mut tokens = Vec::with_capacity(text.len() / 5);
-    for pair in file.into_inner() {
-        let span = pair.as_span();
-        let (start, end) = (span.start(), span.end());
-        let token = span.as_str();
-        let kind = match pair.as_rule() {
-            Rule::word => match Word::from_name(token) {
-                Some(word) => TokenKind::Word(word),
-                None => TokenKind::Name,
-            },
-            Rule::number => TokenKind::Number,
-            Rule::numbers => TokenKind::Numbers,
-            Rule::vectors => TokenKind::Vectors,
-            Rule::mark => mark(token),
-            Rule::directive => {
-                TokenKind::Directive(Head::from_word(token[1..].trim_start_matches([' ', '\t'])))
-            }
-            Rule::string => TokenKind::String,
-            Rule::stray => TokenKind::Stray,
-            Rule::EOI => break,
-            Rule::file
-            | Rule::blank
-            | Rule::token
-            | Rule::letter
-            | Rule::digit
-            | Rule::literal
-            | Rule::exponent
-            | Rule::triple
-            | Rule::signed
-            | Rule::comma => continue,
-        };
-        tokens.push(Token { kind, start: start as u32, end: end as u32 });
+    let mut at = 0;
+    // The grammar takes any character as a token, so each piece is longer than nothing.
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty())
+        && let Some(piece) = Grammar::parse(Rule::piece, rest).ok().and_then(|mut p| p.next())
+    {
+        let length = piece.as_str().len();
+        if length == 0 {
+            break;
+        }
+        for pair in piece.into_inner() {
+            token(pair.as_str(), (at + pair.as_span().start()) as u32, &mut tokens);
+        }
+        at += length;
     }
     tokens
+}
+
+/// Adds the token that `text` is, which starts at `start`; a vector of literals is its parts.
+fn token(text: &str, start: u32, tokens: &mut Vec<Token>) {
+    let bytes = text.as_bytes();
+    let kind = match bytes {
+        [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => match Word::from_name(text) {
+            Some(word) => TokenKind::Word(word),
+            None => TokenKind::Name,
+        },
+        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] if bytes.contains(&b',') => TokenKind::Numbers,
+        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] => TokenKind::Number,
+        [b'<', .., b'>'] => return vector(text, start, tokens),
+        [b'<', _, _, ..] => TokenKind::Vectors,
+        [b'#', _, ..] => {
+            TokenKind::Directive(Head::from_word(text[1..].trim_start_matches([' ', '\t'])))
+        }
+        [b'"', _, ..] => TokenKind::String,
+        _ => mark(text),
+    };
+    tokens.push(Token { kind, start, end: start + text.len() as u32 });
+}
+
+/// Adds the parts of one vector of literals.
+fn vector(text: &str, start: u32, tokens: &mut Vec<Token>) {
+    let mut add = |kind, from: usize, to: usize| {
+        tokens.push(Token { kind, start: start + from as u32, end: start + to as u32 });
+    };
+    let mut commas = text.bytes().filter(|&byte| byte == b',').count();
+    let mut behind_run = 0;
+    for (at, piece) in Pieces::of(text) {
+        let mark = match piece {
+            _ if at < behind_run => continue,
+            Piece::Number { start: from, end } => {
+                let sign = match text.as_bytes()[from] {
+                    b'-' => Some(Mark::Minus),
+                    b'+' => Some(Mark::Plus),
+                    _ => None,
+                };
+                if let Some(sign) = sign {
+                    add(TokenKind::Mark(sign), from, from + 1);
+                }
+                let from = from + usize::from(sign.is_some());
+                if commas >= 8 {
+                    let last = text.rfind(',').unwrap_or(end) + 1;
+                    let blanks = text[last..].find(|c: char| !is_blank(c)).unwrap_or(0);
+                    behind_run = last + blanks;
+                    commas = 0;
+                    add(TokenKind::Numbers, from, behind_run);
+                } else {
+                    add(TokenKind::Number, from, end);
+                }
+                continue;
+            }
+            Piece::Open => Mark::Less,
+            Piece::Close => Mark::Greater,
+            Piece::Comma => {
+                commas = commas.saturating_sub(1);
+                Mark::Comma
+            }
+        };
+        add(TokenKind::Mark(mark), at, at + 1);
+    }
+}
+
+/// What the grammar takes as a blank.
+fn is_blank(c: char) -> bool {
+    matches!(c, ' ' | '\t'..='\r' | '\0')
 }
 
 fn mark(text: &str) -> TokenKind {
