@@ -6,7 +6,7 @@
 use pest::Parser;
 use pest_derive::Parser;
 
-use super::numbers::{Piece, Pieces};
+use super::numeric;
 use crate::vocabulary::Word;
 
 #[derive(Parser)]
@@ -145,92 +145,54 @@ impl Head {
 
 /// All tokens of a text.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    let mut tokens = Vec::with_capacity(text.len() / 5);
-    let mut at = 0;
-    // The grammar takes any character as a token, so each piece is longer than nothing.
-    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty())
+    let mut tokens = Vec::with_capacity(text.len() / 3);
+    // Where the next piece begins, and where the last token ends.
+    let (mut at, mut behind) = (0, 0);
+    while let Some(rest) = text.get(at..)
         && let Some(piece) = Grammar::parse(Rule::piece, rest).ok().and_then(|mut p| p.next())
     {
         let length = piece.as_str().len();
         if length == 0 {
+            // The grammar takes every character: this is the end.
             break;
         }
         for pair in piece.into_inner() {
-            token(pair.as_str(), (at + pair.as_span().start()) as u32, &mut tokens);
+            let start = at + pair.as_span().start();
+            let token = pair.as_str();
+            if start < behind {
+                continue;
+            }
+            behind = match token.as_bytes() {
+                [b'+'..=b'9' | b'<' | b'>', ..] => {
+                    numeric::part(text, start, start + token.len(), &mut tokens)
+                }
+                bytes => {
+                    let kind = match bytes {
+                        [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => word(token),
+                        [b'#', _, ..] => {
+                            let word = token[1..].trim_start_matches([' ', '\t']);
+                            TokenKind::Directive(Head::from_word(word))
+                        }
+                        [b'"', _, ..] => TokenKind::String,
+                        _ => mark(token),
+                    };
+                    let end = start + token.len();
+                    tokens.push(Token { kind, start: start as u32, end: end as u32 });
+                    end
+                }
+            };
         }
         at += length;
     }
     tokens
 }
 
-/// Adds the token that `text` is, which starts at `start`; a vector of literals is its parts.
-fn token(text: &str, start: u32, tokens: &mut Vec<Token>) {
-    let bytes = text.as_bytes();
-    let kind = match bytes {
-        [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => match Word::from_name(text) {
-            Some(word) => TokenKind::Word(word),
-            None => TokenKind::Name,
-        },
-        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] if bytes.contains(&b',') => TokenKind::Numbers,
-        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] => TokenKind::Number,
-        [b'<', .., b'>'] => return vector(text, start, tokens),
-        [b'<', _, _, ..] => TokenKind::Vectors,
-        [b'#', _, ..] => {
-            TokenKind::Directive(Head::from_word(text[1..].trim_start_matches([' ', '\t'])))
-        }
-        [b'"', _, ..] => TokenKind::String,
-        _ => mark(text),
-    };
-    tokens.push(Token { kind, start, end: start + text.len() as u32 });
+/// A word of the language, or a name.
+pub(super) fn word(text: &str) -> TokenKind {
+    Word::from_name(text).map_or(TokenKind::Name, TokenKind::Word)
 }
 
-/// Adds the parts of one vector of literals.
-fn vector(text: &str, start: u32, tokens: &mut Vec<Token>) {
-    let mut add = |kind, from: usize, to: usize| {
-        tokens.push(Token { kind, start: start + from as u32, end: start + to as u32 });
-    };
-    let mut commas = text.bytes().filter(|&byte| byte == b',').count();
-    let mut behind_run = 0;
-    for (at, piece) in Pieces::of(text) {
-        let mark = match piece {
-            _ if at < behind_run => continue,
-            Piece::Number { start: from, end } => {
-                let sign = match text.as_bytes()[from] {
-                    b'-' => Some(Mark::Minus),
-                    b'+' => Some(Mark::Plus),
-                    _ => None,
-                };
-                if let Some(sign) = sign {
-                    add(TokenKind::Mark(sign), from, from + 1);
-                }
-                let from = from + usize::from(sign.is_some());
-                if commas >= 8 {
-                    let last = text.rfind(',').unwrap_or(end) + 1;
-                    let blanks = text[last..].find(|c: char| !is_blank(c)).unwrap_or(0);
-                    behind_run = last + blanks;
-                    commas = 0;
-                    add(TokenKind::Numbers, from, behind_run);
-                } else {
-                    add(TokenKind::Number, from, end);
-                }
-                continue;
-            }
-            Piece::Open => Mark::Less,
-            Piece::Close => Mark::Greater,
-            Piece::Comma => {
-                commas = commas.saturating_sub(1);
-                Mark::Comma
-            }
-        };
-        add(TokenKind::Mark(mark), at, at + 1);
-    }
-}
-
-/// What the grammar takes as a blank.
-fn is_blank(c: char) -> bool {
-    matches!(c, ' ' | '\t'..='\r' | '\0')
-}
-
+/// The marks that numeric text does not have.
 fn mark(text: &str) -> TokenKind {
     TokenKind::Mark(match text {
         "{" => Mark::Open(Bracket::Brace),
@@ -239,20 +201,11 @@ fn mark(text: &str) -> TokenKind {
         "]" => Mark::Close(Bracket::Square),
         "(" => Mark::Open(Bracket::Round),
         ")" => Mark::Close(Bracket::Round),
-        "," => Mark::Comma,
         ";" => Mark::Semicolon,
-        "." => Mark::Dot,
-        "+" => Mark::Plus,
-        "-" => Mark::Minus,
         "*" => Mark::Star,
-        "/" => Mark::Slash,
         "!" => Mark::Not,
-        "<" => Mark::Less,
-        "<=" => Mark::LessOrEqual,
         "=" => Mark::Equal,
         "!=" => Mark::NotEqual,
-        ">=" => Mark::GreaterOrEqual,
-        ">" => Mark::Greater,
         "&" => Mark::And,
         "|" => Mark::Or,
         "?" => Mark::Question,
