@@ -89,7 +89,7 @@ impl<'a> Road<'a> {
         parse(self.sources.get(file), file, &options, &mut self.diagnostics)
     }
 
-    pub fn evaluate(&mut self, ast: &Ast) -> Scene {
+    pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
         let before = self.diagnostics.len();
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
@@ -144,7 +144,7 @@ impl<'a> Road<'a> {
     pub fn compile(&mut self, name: &str, bytes: Vec<u8>) -> (World, Origins) {
         let file = self.read(name, bytes);
         let ast = self.parse(file);
-        let scene = self.evaluate(&ast);
+        let scene = self.evaluate(ast);
         self.lower(scene)
     }
 }

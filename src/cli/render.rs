@@ -41,7 +41,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let file = road.read(&name_of(&arguments.file), bytes);
     let ast = road.parse(file);
     stats.parse_cpu_s = watch.lap();
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     stats.evaluate_cpu_s = watch.lap();
     let (world, origins) = road.lower(scene);
     stats.lower_cpu_s = watch.lap();

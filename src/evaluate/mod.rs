@@ -23,6 +23,7 @@ mod stream;
 mod tests;
 mod turn;
 pub mod value;
+mod vector;
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -111,9 +112,9 @@ impl Default for Limits {
     }
 }
 
-/// Runs `main`; whatever is wrong goes to `diagnostics`.
+/// Runs `main`, which is gone then: of a big scene it is the larger half. Whatever is wrong goes to `diagnostics`.
 pub fn evaluate(
-    main: &Ast,
+    main: Ast,
     sources: &mut Sources,
     files: &dyn Files,
     options: &EvaluateOptions,
@@ -329,9 +330,10 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn run(&mut self, main: &Ast) {
-        let unit = self.unit(main.clone());
-        let main_name = self.sources.get(main.file).name.clone();
+    fn run(&mut self, main: Ast) {
+        let file = main.file;
+        let unit = self.unit(main);
+        let main_name = self.sources.get(file).name.clone();
         self.including.push(main_name);
         self.misread = self.diagnostics.has_errors();
         let root = unit.ast.root;
@@ -345,7 +347,7 @@ impl<'a> Evaluator<'a> {
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
-            self.warn_of_old_version(main.file);
+            self.warn_of_old_version(file);
         }
     }
 

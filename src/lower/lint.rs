@@ -112,10 +112,10 @@ impl Lowering<'_, '_> {
     /// Colours that let through more than comes in, and fresnel without the number it lives by.
     fn lint_clear(&mut self) {
         let (world, origins) = (&self.world, &self.origins);
-        let origin = |i: usize| origins.materials.get(i).cloned().unwrap_or_default();
+        let origin = |i: usize| origins.materials.get(i);
         let mut lints: Vec<(Site, Diagnostic)> = Vec::new();
         for (i, material) in world.materials.iter().enumerate() {
-            let Some(site) = origin(i).pigment else { continue };
+            let Some(site) = origin(i).and_then(|origin| origin.pigment) else { continue };
             let sums = material.pigment.colors().map(|color| color.filter + color.transmit);
             let most = sums.fold(0.0, f64::max);
             if most > 1.0 + ROUNDING {
@@ -130,7 +130,7 @@ impl Lowering<'_, '_> {
             let index = object.material as usize;
             let reflection = &world.materials[index].finish.reflection;
             if object.interior.is_none() && reflection.as_ref().is_some_and(|r| r.fresnel) {
-                let site = origin(index).finish.unwrap_or(*site);
+                let site = origin(index).and_then(|origin| origin.finish).unwrap_or(*site);
                 let message =
                     "`fresnel` goes by the `ior` of an interior, and this object has none";
                 let diagnostic = Diagnostic::new(Code::FresnelWithoutIor, message)

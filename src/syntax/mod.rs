@@ -20,6 +20,7 @@ mod loose;
 mod mark;
 mod nest;
 mod numbers;
+mod numeric;
 mod operand;
 mod print;
 mod repair;
