@@ -104,7 +104,7 @@ fn without(spans: &[Span], sources: &Sources) -> Changed {
 }
 
 fn traced(world: &World, plan: &Plan) -> Traced {
-    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+    trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn compiled(text: &str, number: f64) -> (World, Origins) {
     compiled
 }
 
-const ONE_THREAD: TraceOptions = TraceOptions { threads: Some(1) };
+const ONE_THREAD: TraceOptions = TraceOptions::on_threads(1);
 
 fn asked(width: u32, height: u32) -> Options<'static> {
     Options {
@@ -198,7 +198,8 @@ fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
         (report.knobs[1].settings[1].row, Antialias::default(), 2),
     ] {
         let options = PlanOptions { antialias, depth: Some(depth), ..own(&world, options.frame) };
-        let traced = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched);
+        let counted = TraceOptions { count_work: true, ..ONE_THREAD };
+        let traced = trace(&world, &plan(&world, &origins, &options), &counted, &Unwatched);
         let exact = Metric::Rmse.of(&truth.deviations(&traced));
         let Estimate { value, low, high } = report.rows[row].errors[0];
         assert!((value / exact - 1.0).abs() < 0.1, "{antialias:?} {depth}: {value} {exact}");
@@ -213,7 +214,7 @@ fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
 fn the_same_seed_gives_the_same_errors_whatever_the_threads() {
     let (world, origins) = compiled(BALLS, 0.4);
     let errors = |threads, seed| {
-        let trace = TraceOptions { threads: Some(threads) };
+        let trace = TraceOptions::on_threads(threads);
         let options = Options { knobs: &KNOBS[2..], trace, seed, ..asked(120, 90) };
         let clock = Ticking::new(1e-3);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("done");
@@ -296,7 +297,7 @@ fn a_promised_error_is_kept_for_95_of_100_pictures_and_errors() {
 fn a_promise_is_kept_by_the_same_picture_on_every_run() {
     let (world, origins) = compiled(BALLS, 0.2);
     let picture = |threads| {
-        let trace = TraceOptions { threads: Some(threads) };
+        let trace = TraceOptions::on_threads(threads);
         let options = Options { trace, ..asked(48, 36) };
         keep(&world, &origins, &options, 0.03, &Unwatched)
     };

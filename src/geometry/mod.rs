@@ -12,9 +12,11 @@ mod search;
 mod single;
 mod through;
 mod tree;
+mod work;
 
 pub use nearest::Hit;
 pub use occluder::Occluder;
+pub use work::Work;
 
 use crate::math::Vector;
 use crate::shape::{
@@ -42,8 +44,20 @@ pub struct Geometry {
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
-    /// Shapes are met in single precision.
+    manner: Manner,
+}
+
+/// How rays and shapes meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Manner {
+    /// In single precision.
     single: bool,
+    /// With what it takes counted.
+    counted: bool,
+}
+
+impl Manner {
+    const PLAIN: Self = Self { single: false, counted: false };
 }
 
 /// An object, as far as rays ask.
@@ -98,7 +112,7 @@ impl Geometry {
             balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
-            single: false,
+            manner: Manner::PLAIN,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -109,6 +123,18 @@ impl Geometry {
             geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
         }
         geometry
+    }
+
+    /// The same geometry, its shapes met in single precision where they have such a kernel.
+    pub fn in_single_precision(mut self) -> Self {
+        self.manner.single = true;
+        self
+    }
+
+    /// The same geometry, which counts what its searches take.
+    pub fn counting(mut self) -> Self {
+        self.manner.counted = true;
+        self
     }
 
     fn append(&mut self, world: &World, number: u32) {
