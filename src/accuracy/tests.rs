@@ -206,6 +206,10 @@ fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
         assert!(low < exact && exact < high);
         assert_eq!(report.rows[row].counters, traced.counters);
     }
+    // The reference is as fine as the smallest error needs, or as fine as it gets.
+    let errors = report.rows.iter().map(|row| row.errors[0].value);
+    let least = errors.filter(|&error| error > 0.0).fold(f64::INFINITY, f64::min);
+    assert!(4.0 * report.floors[0] <= least || report.reference_samples == 8192, "{least}");
     let rows = &report.knobs[1].settings;
     assert!(rows.iter().position(|setting| setting.is_own) == Some(3) && rows[3].label == "5");
 }
@@ -235,6 +239,10 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
     assert_eq!(stars.len(), 4, "{table}");
     assert!(stars[0].contains("adaptive 0.05 4×4") && stars[1].contains("5 "), "{table}");
+    // What the reference cannot resolve is no number.
+    let coarse = Report { floors: [0.1; 3], ..report.clone() };
+    assert_eq!(table::error(&coarse, 0), "< 0.400");
+    assert!(table::text(&coarse, "a.scene", 1).contains(" < 0.400 "));
     let host = json::Host {
         os: "linux".to_owned(),
         arch: "x86_64".to_owned(),
@@ -305,6 +313,20 @@ fn a_promise_is_kept_by_the_same_picture_on_every_run() {
     assert_eq!(picture(1), picture(4));
     let tiny = asked(6, 4);
     assert_eq!(keep(&world, &origins, &tiny, 0.03, &Unwatched), Err(TooSmall));
+}
+
+#[test]
+fn a_promised_error_is_sought_deeper_than_the_scene_says_where_it_must_be() {
+    let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
+    let (world, origins) = compiled(&flat, 0.2);
+    let kept = keep(&world, &origins, &asked(48, 36), 0.05, &Unwatched);
+    let kept = kept.expect("large enough").expect("not stopped");
+    assert!(kept.audit.expect("done").proves(0.05), "{}", kept.flags);
+    assert!(
+        kept.flags.contains("--depth ") && !kept.flags.contains("--depth 1 "),
+        "{}",
+        kept.flags
+    );
 }
 
 #[test]

@@ -47,17 +47,14 @@ pub struct Geometry {
     manner: Manner,
 }
 
-/// How rays and shapes meet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Manner {
-    /// In single precision.
-    single: bool,
-    /// With what it takes counted.
-    counted: bool,
-}
-
-impl Manner {
-    const PLAIN: Self = Self { single: false, counted: false };
+/// How rays and shapes meet, and whether it is counted what that takes. A single byte, so that the
+/// common manner is told in one comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    Double,
+    DoubleCounted,
+    Single,
+    SingleCounted,
 }
 
 /// An object, as far as rays ask.
@@ -112,7 +109,7 @@ impl Geometry {
             balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
-            manner: Manner::PLAIN,
+            manner: Manner::Double,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -127,14 +124,27 @@ impl Geometry {
 
     /// The same geometry, its shapes met in single precision where they have such a kernel.
     pub fn in_single_precision(mut self) -> Self {
-        self.manner.single = true;
+        self.manner = match self.counts() {
+            true => Manner::SingleCounted,
+            false => Manner::Single,
+        };
         self
     }
 
     /// The same geometry, which counts what its searches take.
     pub fn counting(mut self) -> Self {
-        self.manner.counted = true;
+        self.manner = match self.manner {
+            Manner::Double | Manner::DoubleCounted => Manner::DoubleCounted,
+            Manner::Single | Manner::SingleCounted => Manner::SingleCounted,
+        };
         self
+    }
+
+    fn counts(&self) -> bool {
+        match self.manner {
+            Manner::Double | Manner::Single => false,
+            Manner::DoubleCounted | Manner::SingleCounted => true,
+        }
     }
 
     fn append(&mut self, world: &World, number: u32) {

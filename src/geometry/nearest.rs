@@ -34,7 +34,7 @@ impl Geometry {
     /// [`Geometry::counting`].
     #[inline(always)]
     pub fn nearest_counted(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
-        if self.manner != Manner::PLAIN {
+        if self.manner != Manner::Double {
             return self.nearest_in_its_manner(ray, work);
         }
         self.nearest_in_double(ray, Uncounted)
@@ -44,10 +44,10 @@ impl Geometry {
     #[inline(never)]
     fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
         match self.manner {
-            Manner { single: false, counted: false } => self.nearest_in_double(ray, Uncounted),
-            Manner { single: false, counted: true } => self.nearest_in_double(ray, work),
-            Manner { single: true, counted: false } => self.nearest_in_single(ray, Uncounted),
-            Manner { single: true, counted: true } => self.nearest_in_single(ray, work),
+            Manner::Double => self.nearest_in_double(ray, Uncounted),
+            Manner::DoubleCounted => self.nearest_in_double(ray, work),
+            Manner::Single => self.nearest_in_single(ray, Uncounted),
+            Manner::SingleCounted => self.nearest_in_single(ray, work),
         }
     }
 

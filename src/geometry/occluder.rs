@@ -27,7 +27,7 @@ impl Geometry {
     /// is added to `work` by a geometry that is [`Geometry::counting`].
     #[inline(always)]
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder, work: &mut Work) -> Occluder {
-        if self.manner != Manner::PLAIN {
+        if self.manner != Manner::Double {
             return self.occluder_in_its_manner(ray, distance, guess, work);
         }
         self.occluder_in_double(ray, distance, guess, Uncounted)
@@ -42,12 +42,11 @@ impl Geometry {
         guess: Occluder,
         work: &mut Work,
     ) -> Occluder {
-        let Manner { single, counted } = self.manner;
-        match (single, counted) {
-            (false, false) => self.occluder_in_double(ray, distance, guess, Uncounted),
-            (false, true) => self.occluder_in_double(ray, distance, guess, work),
-            (true, false) => self.occluder_in_single(ray, distance, guess, Uncounted),
-            (true, true) => self.occluder_in_single(ray, distance, guess, work),
+        match self.manner {
+            Manner::Double => self.occluder_in_double(ray, distance, guess, Uncounted),
+            Manner::DoubleCounted => self.occluder_in_double(ray, distance, guess, work),
+            Manner::Single => self.occluder_in_single(ray, distance, guess, Uncounted),
+            Manner::SingleCounted => self.occluder_in_single(ray, distance, guess, work),
         }
     }
 

@@ -14,7 +14,7 @@ impl Geometry {
     /// than `distance` (which may be ∞), in no order. What it takes is added to `work` by a geometry
     /// that is [`Geometry::counting`].
     pub fn filters(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>, work: &mut Work) {
-        match self.manner.counted {
+        match self.counts() {
             true => self.filters_with(ray, distance, hits, work),
             false => self.filters_with(ray, distance, hits, Uncounted),
         }
@@ -70,7 +70,7 @@ impl Geometry {
             limit
         };
         self.search(ray, limit, &mut Each(&mut found, look));
-        if self.manner.counted {
+        if self.counts() {
             *work += found;
         }
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
