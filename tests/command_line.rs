@@ -173,8 +173,12 @@ fn stats_are_one_object_of_json_or_a_table() {
     assert_eq!((stats["objects"].as_u64(), stats["lights"].as_u64()), (Some(1), Some(1)));
     assert_eq!(stats["rays"]["camera"].as_u64(), Some(16 * 8));
     assert!(stats["rays"]["shadow"].is_u64() && stats["rays"]["reflection"].is_u64());
+    // One ball: no tree of boxes, and an equation for each ray that may meet it.
+    let solves = stats["work"]["root_solves"].as_u64().expect("a count");
+    assert!((1..=16 * 8 * 2).contains(&solves) && stats["work"]["box_visits"] == 0, "{stats}");
+    let words = ["peak memory", "camera rays", "box visits", "root solves"];
     let table = place.run("--stats a.scene --size 16x8").ends(0, &[]).stdout();
-    assert!(table.contains(" CPU s\n") && table.contains("peak memory"), "{table}");
+    assert!(table.contains(" CPU s\n") && words.iter().all(|word| table.contains(word)), "{table}");
 }
 
 #[test]
@@ -718,6 +722,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let table = run.stdout();
     assert!(table.starts_with("a.scene 48×36: 1728 audited pixels (seed 1), "), "{table}");
     assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
+    assert!(table.contains("  rays/px  boxes/px  roots/px "), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
     // Nothing reflects.
     assert!(!table.contains("depth"), "{table}");
@@ -737,6 +742,9 @@ fn accuracy_writes_json_and_a_diagram() {
     assert_eq!(report["knobs"][0]["settings"][0]["flag"], "--antialias off");
     let rays = report["rows"][1]["rays"]["camera"].as_u64();
     assert_eq!(rays, Some(32 * 24));
+    let work = &report["rows"][1]["work"];
+    assert!(work["root_solves"].as_u64().is_some_and(|solves| solves > 0), "{work}");
+    assert_eq!(work["box_visits"], 0);
     let svg = String::from_utf8(place.read("d.svg")).expect("text");
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     assert!(svg.contains("prefers-color-scheme:dark"));

@@ -52,7 +52,9 @@ impl Studio<'_> {
         let Self { world, geometry, options, watch } = *self;
         let geometry = match plan.precision {
             Precision::Double => &geometry.double,
-            Precision::Single => geometry.single.get_or_init(|| trace::geometry(world, plan)),
+            Precision::Single => {
+                geometry.single.get_or_init(|| trace::geometry(world, plan, &options))
+            }
         };
         let seen = pixels(world, geometry, plan, list, sampling, &options, watch)?;
         let gamma = world.settings.assumed_gamma;

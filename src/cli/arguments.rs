@@ -86,7 +86,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     #[arg(allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Print times, memory and rays, as a table or as JSON
+    /// Print times, memory, rays and what they took, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
     pub stats: Option<Option<StatsFormat>>,
     /// Overwrite OUT even where it is not a picture. (A picture is always overwritten; a file the scene

@@ -12,9 +12,11 @@ mod search;
 mod single;
 mod through;
 mod tree;
+mod work;
 
 pub use nearest::Hit;
 pub use occluder::Occluder;
+pub use work::Work;
 
 use crate::math::Vector;
 use crate::shape::{
@@ -42,8 +44,17 @@ pub struct Geometry {
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
-    /// Shapes are met in single precision.
-    single: bool,
+    manner: Manner,
+}
+
+/// How rays and shapes meet, and whether it is counted what that takes. A single byte, so that the
+/// common manner is told in one comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    Double,
+    DoubleCounted,
+    Single,
+    SingleCounted,
 }
 
 /// An object, as far as rays ask.
@@ -98,7 +109,7 @@ impl Geometry {
             balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
-            single: false,
+            manner: Manner::Double,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -109,6 +120,31 @@ impl Geometry {
             geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
         }
         geometry
+    }
+
+    /// The same geometry, its shapes met in single precision where they have such a kernel.
+    pub fn in_single_precision(mut self) -> Self {
+        self.manner = match self.counts() {
+            true => Manner::SingleCounted,
+            false => Manner::Single,
+        };
+        self
+    }
+
+    /// The same geometry, which counts what its searches take.
+    pub fn counting(mut self) -> Self {
+        self.manner = match self.manner {
+            Manner::Double | Manner::DoubleCounted => Manner::DoubleCounted,
+            Manner::Single | Manner::SingleCounted => Manner::SingleCounted,
+        };
+        self
+    }
+
+    fn counts(&self) -> bool {
+        match self.manner {
+            Manner::Double | Manner::Single => false,
+            Manner::DoubleCounted | Manner::SingleCounted => true,
+        }
     }
 
     fn append(&mut self, world: &World, number: u32) {

@@ -109,7 +109,8 @@ impl<'a> Tracer<'a> {
         }
         loop {
             let mut seen = loop {
-                let Some(hit) = self.geometry.nearest(&way.ray) else {
+                let Some(hit) = self.geometry.nearest_counted(&way.ray, &mut walk.counters.work)
+                else {
                     break sky::seen(
                         self.world.sky.as_ref(),
                         self.world.background,
@@ -230,7 +231,9 @@ impl<'a> Tracer<'a> {
         walk.coinciding.clear();
         if clear && hit.contested {
             let straight = Ray { origin: met.behind, direction: way.ray.direction };
-            self.geometry.coinciding(&way.ray, hit, &straight, &mut walk.coinciding);
+            let Walk { coinciding, counters, .. } = walk;
+            let work = &mut counters.work;
+            self.geometry.coinciding(&way.ray, hit, &straight, coinciding, work);
         }
         let Border { from, to } = match self.bends {
             true => walk.media.border(self.world, hit, &walk.coinciding),

@@ -15,7 +15,7 @@ fn sampled(text: &str, (width, height): (u32, u32), antialias: Antialias) -> Fil
     let (world, origins) = compiled(text);
     let frame = Frame::whole(width, height);
     let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-    trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+    trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
                     ..PlanOptions::new(frame)
                 };
                 let plan = plan(&world, &origins, &options);
-                trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+                trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
             })
             .expect("a thread")
             .join()

@@ -4,6 +4,7 @@ mod film;
 mod glass;
 mod light;
 mod single;
+mod work;
 
 use super::*;
 use crate::color::{Color, Rgb};
@@ -147,7 +148,7 @@ fn options(width: u32, height: u32, antialias: Antialias) -> PlanOptions {
 }
 
 fn traced_by(world: &World, plan: &Plan) -> Traced {
-    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+    trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
 }
 
 fn traced(world: &World, width: u32, height: u32, antialias: Antialias) -> Traced {

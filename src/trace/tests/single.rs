@@ -14,9 +14,9 @@ fn scattered(region: Region) -> Vec<(u32, u32)> {
 
 fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
     let geometry = Geometry::build(world);
-    let threads = TraceOptions { threads: Some(1) };
+    let threads = TraceOptions::on_threads(1);
     let alone = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
-    let threads = TraceOptions { threads: Some(3) };
+    let threads = TraceOptions::on_threads(3);
     let shared = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
     assert_eq!(alone, shared, "threads");
     alone.expect("not stopped")
@@ -44,7 +44,9 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
                 assert_eq!(*radiance, traced.film.radiance[traced.film.index(x, y)], "{x} {y}");
             }
             let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
-            assert!(border || single.counters == traced.counters, "{antialias:?}");
+            // What last shadowed a ray is another where the pixels come in another order.
+            let sent = |counters| Counters { work: Work::default(), ..counters };
+            assert!(border || sent(single.counters) == sent(traced.counters), "{antialias:?}");
         }
     }
 }
