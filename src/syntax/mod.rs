@@ -69,6 +69,7 @@ pub fn parse(
     // Each pass found its own; the author reads from the top.
     let mut found: Vec<_> = found.iter().cloned().collect();
     found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
+    comment::drop_swallowed(&mut found, &source.text);
     // A quote that was added behind the end is no place in the author's text.
     let end = source.text.len() as u32;
     let within = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };

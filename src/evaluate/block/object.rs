@@ -55,7 +55,6 @@ impl Evaluator<'_> {
     pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {
         let limit = self.options.limits.objects;
         if self.scene.objects.len() as u64 >= limit {
-            self.halted = true;
             let expansion = object.site.expansion;
             let diagnostic = Diagnostic::new(
                 Code::ObjectLimit,
@@ -63,7 +62,7 @@ impl Evaluator<'_> {
             )
             .at(object.site.span, "this object is one too many")
             .help("raise the limit with `--limit objects=N`");
-            return Err(self.report_in(expansion, diagnostic));
+            return Err(self.halt(expansion, diagnostic));
         }
         self.stored += size_of_val(&object.modifiers[..]) as u64;
         let used = match object.kind {

@@ -170,6 +170,10 @@ impl Evaluator<'_> {
             self.set_poison(poison);
             return;
         }
+        if self.missing_at == Some(token.here.site(token.span)) {
+            // Told: a value should stand here.
+            return self.skip_arguments(word);
+        }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let name = word.name();
         let dialect = self.options.dialect;
