@@ -203,6 +203,9 @@ pub struct FinishOrigin {
     pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
+    /// The first word of the seed's, and of POV-Ray's.
+    pub seed: Option<(Word, Site)>,
+    pub classic: Option<(Word, Site)>,
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
@@ -211,7 +214,7 @@ pub struct ClassicFinish {
     pub ambient: Rgb,
     pub emission: Rgb,
     pub diffuse: f64,
-    /// `diffuse albedo`: `diffuse` is then the reflectance over the hemisphere.
+    pub albedo: Albedo,
     pub brilliance: f64,
     pub phong: f64,
     pub phong_size: f64,
@@ -233,6 +236,7 @@ impl Default for ClassicFinish {
             ambient: Rgb::gray(0.1),
             emission: Rgb::BLACK,
             diffuse: 0.6,
+            albedo: Albedo::default(),
             brilliance: 1.0,
             phong: 0.0,
             phong_size: 40.0,
@@ -244,6 +248,15 @@ impl Default for ClassicFinish {
             ior: None,
         }
     }
+}
+
+/// Which weights are the part of all light that leaves again, in whatever direction (`diffuse albedo 0.7`),
+/// not that of the brightest direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Albedo {
+    pub diffuse: bool,
+    pub phong: bool,
+    pub specular: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -161,9 +161,10 @@ impl<'a> Statements<'a> {
         let alone = self.indent(fault.start).filter(|_| code == Code::StrayCloser);
         let Some(own) = alone else { return fault.start };
         let behind = self.items.partition_point(|item| item.span.start < fault.start);
-        let inner = self.items[..behind].iter().rev().take_while(|item| {
-            self.indent(item.span.start).is_none_or(|indent| indent > own)
-        });
+        let inner = self.items[..behind]
+            .iter()
+            .rev()
+            .take_while(|item| self.indent(item.span.start).is_none_or(|indent| indent > own));
         inner.last().map_or(fault.start, |item| item.span.start)
     }
 

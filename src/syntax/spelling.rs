@@ -66,9 +66,9 @@ pub(super) fn correct_heads(
 /// Where there are more `#end`s than directives to end, those of the unknown ones go with them.
 fn drop_their_ends(tokens: &mut Vec<Token>) {
     let takes_parentheses = |at: usize| {
-        tokens.get(at + 1).is_some_and(|next| {
-            next.kind == TokenKind::Mark(Mark::Open(Bracket::Round))
-        })
+        tokens
+            .get(at + 1)
+            .is_some_and(|next| next.kind == TokenKind::Mark(Mark::Open(Bracket::Round)))
     };
     let mut surplus: isize = 0;
     let (mut open, mut ends) = (Vec::new(), Vec::new());
@@ -88,8 +88,7 @@ fn drop_their_ends(tokens: &mut Vec<Token>) {
             _ => {}
         }
     }
-    let dropped: HashSet<usize> =
-        ends.into_iter().rev().take(surplus.max(0) as usize).collect();
+    let dropped: HashSet<usize> = ends.into_iter().rev().take(surplus.max(0) as usize).collect();
     let mut at = 0..;
     tokens.retain(|_| at.next().is_none_or(|at| !dropped.contains(&at)));
 }

@@ -9,6 +9,7 @@ mod finish;
 mod habit;
 mod interior;
 mod light;
+mod modifier;
 mod object;
 mod part;
 mod pigment;
