@@ -214,7 +214,6 @@ pub struct ClassicFinish {
     pub ambient: Rgb,
     pub emission: Rgb,
     pub diffuse: f64,
-    pub albedo: Albedo,
     pub brilliance: f64,
     pub phong: f64,
     pub phong_size: f64,
@@ -236,7 +235,6 @@ impl Default for ClassicFinish {
             ambient: Rgb::gray(0.1),
             emission: Rgb::BLACK,
             diffuse: 0.6,
-            albedo: Albedo::default(),
             brilliance: 1.0,
             phong: 0.0,
             phong_size: 40.0,
@@ -248,15 +246,6 @@ impl Default for ClassicFinish {
             ior: None,
         }
     }
-}
-
-/// Which weights are the part of all light that leaves again, in whatever direction (`diffuse albedo 0.7`),
-/// not that of the brightest direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Albedo {
-    pub diffuse: bool,
-    pub phong: bool,
-    pub specular: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]

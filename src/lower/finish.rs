@@ -5,7 +5,6 @@
 
 use super::Fault;
 use crate::color::Rgb;
-use crate::math::elementary::pow;
 use crate::scene::{self, ClassicFinish};
 use crate::world::{Finish, Lobe, LobeKind, Reflection};
 
@@ -49,14 +48,13 @@ pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish
 }
 
 fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
-    let Peaks { diffuse, phong, specular } = peaks(finish);
-    let mut lobes = lobe(LobeKind::Phong, phong, finish.phong_size, finish.metallic);
-    lobes.extend(lobe(LobeKind::Blinn, specular, 1.0 / finish.roughness, finish.metallic));
+    let mut lobes = lobe(LobeKind::Phong, finish.phong, finish.phong_size, finish.metallic);
+    lobes.extend(lobe(LobeKind::Blinn, finish.specular, 1.0 / finish.roughness, finish.metallic));
     let reflection = finish.reflection.as_ref();
     let reflection = reflection.filter(|r| !(r.minimum.is_black() && r.maximum.is_black()));
     Finish {
         glow: finish.ambient * ambient_light + finish.emission,
-        diffuse,
+        diffuse: finish.diffuse,
         // Brilliance bends diffuse light only.
         brilliance: if finish.diffuse == 0.0 { 1.0 } else { finish.brilliance },
         lobes,
@@ -71,32 +69,6 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
         }),
         conserve_energy: finish.conserve_energy,
         seed: false,
-    }
-}
-
-/// What is sent in the brightest direction, as parts of the light that falls in.
-struct Peaks {
-    diffuse: f64,
-    phong: f64,
-    specular: f64,
-}
-
-/// Albedo `a` is the part of all light that leaves again. With brilliance `b`, Phong's exponent `n`, or
-/// Blinn's, the brightest direction has `a·(b + 1)/2`, `a·(n + 1)/2`, `a·(n + 2) / (4·(2 − 2^(−n/2)))`.
-///
-/// **Source:** POV-Ray manual, section 3.4.6.3.3.1 "Diffuse" and after; the factors measured on POV-Ray 3.7
-/// at five and more exponents each, equal to the last of 16 bits.
-fn peaks(finish: &ClassicFinish) -> Peaks {
-    let &ClassicFinish { diffuse, phong, specular, albedo, .. } = finish;
-    let n = 1.0 / finish.roughness;
-    let of = |weight: f64, is_albedo: bool, factor: f64| match is_albedo {
-        true if weight != 0.0 => weight * factor,
-        _ => weight,
-    };
-    Peaks {
-        diffuse: of(diffuse, albedo.diffuse, (finish.brilliance + 1.0) / 2.0),
-        phong: of(phong, albedo.phong, (finish.phong_size + 1.0) / 2.0),
-        specular: of(specular, albedo.specular, (n + 2.0) / (4.0 * (2.0 - pow(2.0, -n / 2.0)))),
     }
 }
 

@@ -7,8 +7,8 @@
 use std::fmt::{self, Write};
 
 use super::{
-    Albedo, CameraItemKind, CameraKind, Finish, LightKind, LightSource, Modifier, ModifierKind,
-    ObjectId, ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
+    CameraItemKind, CameraKind, Finish, LightKind, LightSource, Modifier, ModifierKind, ObjectId,
+    ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
 };
 use crate::math::transform::Step;
 use crate::math::vector::written as vector;
@@ -206,13 +206,9 @@ impl Printer<'_> {
                 if !f.emission.is_black() {
                     write!(out, " emission {}", f.emission)?;
                 }
-                let albedo = |is: bool| if is { "albedo " } else { "" };
-                let Albedo { diffuse, phong, specular } = f.albedo;
-                write!(out, " diffuse {}{}", albedo(diffuse), f.diffuse)?;
-                write!(out, " brilliance {}", f.brilliance)?;
-                write!(out, " phong {}{} phong_size {}", albedo(phong), f.phong, f.phong_size)?;
-                write!(out, " specular {}{}", albedo(specular), f.specular)?;
-                write!(out, " roughness {}", f.roughness)?;
+                write!(out, " diffuse {} brilliance {}", f.diffuse, f.brilliance)?;
+                write!(out, " phong {} phong_size {}", f.phong, f.phong_size)?;
+                write!(out, " specular {} roughness {}", f.specular, f.roughness)?;
                 write!(out, " metallic {}", f.metallic)?;
                 if let Some(r) = &f.reflection {
                     let (low, high) = (r.minimum, r.maximum);

@@ -1,5 +1,6 @@
 //! `finish`: POV-Ray's words, or the seed's three; never both.
 
+mod albedo;
 mod reflection;
 mod whole;
 
@@ -12,6 +13,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use albedo::Albedo;
 use whole::Written;
 
 /// A loop may go through one place again and again.
@@ -51,6 +53,9 @@ impl Evaluator<'_> {
                 return Err(Reported);
             }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
+            if let Finish::Classic(classic) = &mut finish {
+                written.albedo.spend(classic);
+            }
             if let (Finish::Seed { ks, .. }, Some(item)) = (&finish, written.seed_item) {
                 written.origin.zeros.clear();
                 match *ks == 0.0 {
@@ -140,7 +145,7 @@ impl Evaluator<'_> {
             // POV-Ray's words replace a seed's finish that came by default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
-        let known = self.classic_item(token, word, &mut classic)?;
+        let known = self.classic_item(token, word, &mut classic, &mut written.albedo)?;
         if known {
             written.classic.get_or_insert((word, token.span));
             let weightless = match word {
@@ -169,23 +174,24 @@ impl Evaluator<'_> {
         token: &Token,
         word: Word,
         finish: &mut ClassicFinish,
+        albedo: &mut Albedo,
     ) -> Outcome<bool> {
         match word {
             Word::Ambient => finish.ambient = self.intensity_after(token)?,
             Word::Emission => finish.emission = self.intensity_after(token)?,
             Word::Diffuse => {
-                finish.albedo.diffuse |= self.skip_albedo();
+                albedo.diffuse |= self.skip_albedo();
                 finish.diffuse = self.strength_after(token, word)?;
                 self.back_side(token)?;
             }
             Word::Brilliance => finish.brilliance = self.at_least_zero(token, word)?,
             Word::Phong => {
-                finish.albedo.phong |= self.skip_albedo();
+                albedo.phong |= self.skip_albedo();
                 finish.phong = self.strength_after(token, word)?;
             }
             Word::PhongSize => finish.phong_size = self.at_least_zero(token, word)?,
             Word::Specular => {
-                finish.albedo.specular |= self.skip_albedo();
+                albedo.specular |= self.skip_albedo();
                 finish.specular = self.strength_after(token, word)?;
             }
             Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
@@ -216,12 +222,6 @@ impl Evaluator<'_> {
             self.lint_strength(&given.here, given.span, word, given.value.rgb);
         }
         Ok(given.value.rgb)
-    }
-
-    /// `diffuse albedo …`: once said, it holds for the numbers to come too (measured on POV-Ray 3.7).
-    fn skip_albedo(&mut self) -> bool {
-        let found = matches!(self.peek(), Some(Token { kind: TokenKind::Word(Word::Albedo), .. }));
-        found && self.next().is_some()
     }
 
     /// `diffuse front, back`: light from behind is not built yet, but for none.

@@ -1,6 +1,7 @@
 //! Whether the words of a finish make a whole one: the seed's three together, or POV-Ray's; never both,
 //! wherever the finish starts from.
 
+use super::albedo::Albedo;
 use super::list_once;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::stream::Token;
@@ -20,6 +21,7 @@ pub(super) struct Written {
     /// All of the seed's words, from the first to the last.
     pub seed_item: Option<Site>,
     pub classic: Option<(Word, Span)>,
+    pub albedo: Albedo,
     /// Where it starts from: its words count as written here.
     pub origin: FinishOrigin,
 }
