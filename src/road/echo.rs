@@ -57,10 +57,12 @@ pub(super) fn drop_echoes(
             return true;
         }
         let Some(place) = later.primary().map(|label| label.span) else { return false };
+        let rest = sources.get(place.file).text.get(place.range().end..).unwrap_or("");
         let is_name = later.code == Code::UnknownWord
             && Word::from_name(sources.text(place)).is_none()
             // A file that ends in the middle of a block may end in the middle of a word.
-            && !sources.get(place.file).text[place.range().end..].trim().is_empty();
+            && !rest.trim().is_empty();
+        let is_block = is_name && rest.trim_start().starts_with('{');
         let (reach, on_line) = (reach(sources, place), line(place));
         !faults.iter().any(|fault| {
             let shifts = fault.code.shifts_what_follows();
@@ -71,6 +73,7 @@ pub(super) fn drop_echoes(
                 _ if fault.span.file != place.file => false,
                 true if is_name => fault.code == Code::UnclosedString && beside,
                 true => beside || fault.doubt.contains(&place.start),
+                false if is_block => false,
                 false => beside,
             }
         })

@@ -26,6 +26,10 @@ impl<'a> Nest<'a> {
 
     pub(super) fn named(&mut self, span: Span, after_contextual: bool) {
         let text = self.slice(span);
+        if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Brace))) {
+            // A misspelt word and its block: no component.
+            self.leave_vectors(span);
+        }
         let top = self.top();
         if let Some(block) = top.block
             && top.state != State::Wanting

@@ -18,6 +18,9 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::FileId;
 
+/// How many tokens a vector of plain values has at most.
+const LONGEST_VECTOR: usize = 12;
+
 /// Adds and drops closers until everything pairs.
 pub(super) fn repair(
     tokens: Vec<Token>,
@@ -233,6 +236,16 @@ impl Repair<'_> {
                 .fix(self.span(at), "}");
             return self.tell(diagnostic);
         }
+        if let Some(open) = self.vector_before(at).filter(|_| bracket != Bracket::Brace) {
+            self.inserted.push((at, TokenKind::Mark(Mark::Greater)));
+            let message = format!("this `<` is closed by `{closer}`");
+            let diagnostic = Diagnostic::new(Code::StrayCloser, message)
+                .at(self.span(at), "expected `>` here")
+                .also(self.span(open), "the vector opened here")
+                .help("replace it with `>`")
+                .fix(self.span(at), ">");
+            return self.tell(diagnostic);
+        }
         let mut diagnostic =
             Diagnostic::new(Code::StrayCloser, format!("this `{closer}` closes nothing"))
                 .at(self.span(at), format!("no `{}` is open here", bracket.opener()));
@@ -240,6 +253,19 @@ impl Repair<'_> {
             diagnostic = diagnostic.also(self.span(top.token), "this is open instead");
         }
         self.tell(diagnostic.fix(self.span(at), ""));
+    }
+
+    /// The `<` of a vector of plain values that reaches up to token `at`.
+    fn vector_before(&self, at: usize) -> Option<usize> {
+        let before = self.tokens[..at].iter().rev().take(LONGEST_VECTOR);
+        let values = before.take_while(|token| match token.kind {
+            TokenKind::Number | TokenKind::Name => true,
+            TokenKind::Mark(mark) => matches!(mark, Mark::Comma | Mark::Dot | Mark::Minus),
+            _ => false,
+        });
+        let open = at.checked_sub(values.count() + 1)?;
+        let opens = self.tokens[open].kind == TokenKind::Mark(Mark::Less);
+        (opens && open + 1 < at).then_some(open)
     }
 
     /// `#end`.

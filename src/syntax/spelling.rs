@@ -27,7 +27,9 @@ pub(super) fn correct_heads(
     diagnostics: &mut Diagnostics,
 ) {
     let mut before = None;
-    for token in tokens.iter_mut() {
+    for at in 0..tokens.len() {
+        let next = tokens.get(at + 1).map(|next| next.kind);
+        let Some(token) = tokens.get_mut(at) else { continue };
         let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
             continue;
@@ -47,8 +49,8 @@ pub(super) fn correct_heads(
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
-        if let Some(near) = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()))
-        {
+        let near = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()));
+        if let Some(near) = near.filter(|near| fits(Head::from_word(near), next)) {
             let start = span.end - word.len() as u32;
             diagnostic = diagnostic
                 .help(format!("did you mean `#{near}`?"))
@@ -61,6 +63,21 @@ pub(super) fn correct_heads(
         diagnostics.push(diagnostic);
     }
     drop_their_ends(tokens);
+}
+
+/// Whether what follows can be a condition, where a directive has one.
+fn fits(head: Head, next: Option<TokenKind>) -> bool {
+    let has_condition = matches!(head, Head::Elseif | Head::Case | Head::Range)
+        || (head.opens() && head != Head::Macro);
+    let may_begin = matches!(
+        next,
+        Some(
+            TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Not)
+                | TokenKind::Name
+                | TokenKind::Number
+        )
+    );
+    !has_condition || may_begin
 }
 
 /// Where there are more `#end`s than directives to end, those of the unknown ones go with them.
