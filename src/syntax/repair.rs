@@ -329,3 +329,59 @@ impl Repair<'_> {
         self.inserted.push((outside.map_or(at, |outside| outside.token), kind));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::syntax::balance::pairs;
+    use crate::syntax::token::tokens;
+
+    #[test]
+    fn whatever_is_missing_or_too_many_what_comes_back_pairs() {
+        const PARTS: [&str; 16] = [
+            "sphere {",
+            "union {",
+            "finish {",
+            "}",
+            "(",
+            ")",
+            "[",
+            "]",
+            "#if (1)",
+            "#else",
+            "#end",
+            "\n",
+            "\n  ",
+            "\n",
+            "; ",
+            "#declare A = 1;",
+        ];
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize
+        };
+        for _ in 0..3000 {
+            let length = random() % 30;
+            let text: Vec<&str> = (0..length).map(|_| PARTS[random() % PARTS.len()]).collect();
+            let text = text.join(" ");
+            let mut told = Diagnostics::new(true);
+            let repaired = repair(tokens(&text), &text, FileId(0), &mut told);
+            let stray = |token: &Token| {
+                matches!(turn(token.kind), Some(Turn::Divide | Turn::Close(Opener::Directive)))
+            };
+            // An `#end` or `#else` of nothing is told where the tree is built.
+            if !text.contains("#end") && !text.contains("#else") {
+                assert!(pairs(&repaired), "{text}");
+            }
+            let brackets: Vec<Token> = repaired.into_iter().filter(|t| !stray(t)).collect();
+            let opens = brackets
+                .iter()
+                .filter(|t| matches!(turn(t.kind), Some(Turn::Open(Opener::Bracket(_)))));
+            let closes = brackets
+                .iter()
+                .filter(|t| matches!(turn(t.kind), Some(Turn::Close(Opener::Bracket(_)))));
+            assert_eq!(opens.count(), closes.count(), "{text}");
+        }
+    }
+}
