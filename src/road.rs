@@ -3,7 +3,9 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+mod echo;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -93,41 +95,8 @@ impl<'a> Road<'a> {
         let options = &self.options.evaluate;
         let before = self.diagnostics.len();
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
-        self.drop_echoes(before);
+        echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
         scene
-    }
-
-    /// A bracket without its partner shifts everything after it: what evaluation then finds out of
-    /// place there is the same mistake once more. So is what it misses in a block that did not
-    /// parse, and after that on the same line.
-    fn drop_echoes(&mut self, parsed: usize) {
-        let line = |span: Span| {
-            (span.file, self.sources.get(span.file).position(span.start as usize).line)
-        };
-        let faults: Vec<(Code, Span)> = self
-            .diagnostics
-            .iter()
-            .take(parsed)
-            .filter(|fault| fault.severity == Severity::Error)
-            .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
-            .collect();
-        if faults.is_empty() {
-            return;
-        }
-        let echoes = |at: Span| {
-            let reach = reach(&self.sources, at);
-            faults.iter().any(|&(code, fault)| {
-                let follows = at.start >= fault.start;
-                fault.file == at.file
-                    && (follows && code.shifts_what_follows()
-                        || (follows || fault.start <= reach) && line(fault) == line(at))
-            })
-        };
-        let keep = |later: &Diagnostic| {
-            let place = later.primary().map(|label| label.span);
-            !(later.code.is_about_place() && place.is_none_or(echoes))
-        };
-        self.diagnostics.retain_after(parsed, keep);
     }
 
     /// Beyond a limit nothing is lowered: the scene is not whole, and its message was given.
@@ -147,22 +116,6 @@ impl<'a> Road<'a> {
         let scene = self.evaluate(ast);
         self.lower(scene)
     }
-}
-
-/// Where the block that begins at `at` ends, as far as its line shows it.
-fn reach(sources: &Sources, at: Span) -> u32 {
-    let text = &sources.get(at.file).text;
-    let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
-    let (line, mut depth) = (line.unwrap_or(""), 0);
-    let end = line.bytes().position(|byte| {
-        depth += match byte {
-            b'{' | b'(' | b'[' => 1,
-            b'}' | b')' | b']' => -1,
-            _ => return false,
-        };
-        depth <= 0
-    });
-    at.start + end.unwrap_or(line.len()) as u32
 }
 
 #[cfg(test)]

@@ -203,6 +203,9 @@ pub struct FinishOrigin {
     pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
+    /// The first word of the seed's, and of POV-Ray's.
+    pub seed: Option<(Word, Site)>,
+    pub classic: Option<(Word, Site)>,
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
@@ -211,7 +214,6 @@ pub struct ClassicFinish {
     pub ambient: Rgb,
     pub emission: Rgb,
     pub diffuse: f64,
-    /// `diffuse albedo`: `diffuse` is then the reflectance over the hemisphere.
     pub brilliance: f64,
     pub phong: f64,
     pub phong_size: f64,

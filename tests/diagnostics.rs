@@ -319,7 +319,9 @@ fn bad_fixes(case: &Case) -> String {
             after.iter().filter(said_before).map(|other| other.message.as_str()).collect();
         // A missing closer may hide other mistakes, and they are told once it stands.
         // So may a name in other quotes: whether there is such a file.
+        // A misspelt directive hides what it does.
         let hides = one.code.shifts_what_follows()
+            || one.code == Code::UnknownDirective
             || after.iter().any(|other| other.code == Code::MissingInclude);
         // And the block of a misspelt word.
         let end = one.fixes.iter().map(|fix| fix.span.end as usize).max().unwrap_or(0);

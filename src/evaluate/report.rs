@@ -22,6 +22,10 @@ impl Evaluator<'_> {
         expansion: ExpansionId,
         mut diagnostic: Diagnostic,
     ) -> Reported {
+        if self.halted {
+            // What is missing now is missing because nothing more is read.
+            return Reported;
+        }
         if let Some(span) = diagnostic.primary().map(|label| label.span) {
             let site = crate::source::Site { span, expansion };
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
@@ -29,6 +33,13 @@ impl Evaluator<'_> {
         self.reports += 1;
         self.diagnostics.push(diagnostic);
         Reported
+    }
+
+    /// A limit is reached: nothing further is evaluated.
+    pub(super) fn halt(&mut self, expansion: ExpansionId, diagnostic: Diagnostic) -> Reported {
+        let reported = self.report_in(expansion, diagnostic);
+        self.halted = true;
+        reported
     }
 
     pub(super) fn wrong_type(
@@ -221,8 +232,7 @@ impl Evaluator<'_> {
             _ => diagnostic,
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
-        self.halted = true;
-        Err(self.report(here, diagnostic))
+        Err(self.halt(here.expansion, diagnostic))
     }
 
     /// Whether more has to be remembered than the limit: then nothing further is evaluated.
@@ -236,8 +246,7 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::MemoryLimit, message).at(span, "reached before this").help(
                 "strings, maps and lists of transforms count; `--limit memory=N` raises the limit",
             );
-        self.halted = true;
-        self.report(here, diagnostic);
+        self.halt(here.expansion, diagnostic);
         true
     }
 
@@ -308,6 +317,8 @@ fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {
         Word::Texture => "layered textures are".to_owned(),
+        Word::Diffuse => "light that a surface scatters from behind is".to_owned(),
+        Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),
         Word::Fopen => format!("`#{name}` is"),
         _ if word.family() == Family::Pattern && word.is_built() => {

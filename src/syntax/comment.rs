@@ -82,6 +82,26 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
 }
 
+/// A string without its quote swallows the closers on its line: that what they would close is never closed
+/// is the same mistake. `found` is in the order of the text.
+pub(super) fn drop_swallowed(found: &mut Vec<Diagnostic>, text: &str) {
+    let place = |one: &Diagnostic| one.primary().map_or(0, |label| label.span.start as usize);
+    let Some(at) = found.iter().position(|one| one.code == Code::UnclosedString) else { return };
+    let start = place(&found[at]);
+    let line = text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
+    for (opener, closer) in [('{', '}'), ('(', ')'), ('[', ']'), ('<', '>')] {
+        let count = |sign: char| line.chars().filter(|c| *c == sign).count();
+        for _ in count(opener)..count(closer) {
+            let unclosed = |one: &Diagnostic| {
+                let opens = text.get(place(one)..).is_some_and(|rest| rest.starts_with(opener));
+                one.code == Code::UnclosedBlock && opens && place(one) < start
+            };
+            let Some(echo) = found.iter().rposition(unclosed) else { break };
+            found.remove(echo);
+        }
+    }
+}
+
 #[derive(Default)]
 struct Scan {
     comments: Vec<(usize, usize)>,

@@ -25,6 +25,7 @@ mod operand;
 mod print;
 mod repair;
 mod spelling;
+mod tally;
 mod target;
 mod token;
 
@@ -65,11 +66,13 @@ pub fn parse(
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
     let tokens = habits::translate(tokens, &quiet.text, file, &mut found);
-    let (tokens, cut) = balance::balance(tokens, &quiet.text, file, options, &mut found);
+    let (tokens, cut) = balance::balance(tokens, &source.text, file, options, &mut found);
     let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
     // Each pass found its own; the author reads from the top.
     let mut found: Vec<_> = found.iter().cloned().collect();
     found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
+    comment::drop_swallowed(&mut found, &source.text);
+    let found = tally::tally(found, &source.text);
     // A quote that was added behind the end is no place in the author's text.
     let end = source.text.len() as u32;
     let within = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };

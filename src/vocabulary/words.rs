@@ -254,7 +254,7 @@ vocabulary! {
         Warp "warp" statement later "bends the space of a pattern";
     }
     FinishItem {
-        Albedo "albedo" statement later "measures brightness over the whole hemisphere";
+        Albedo "albedo" statement built "`diffuse albedo 0.7`: of all light that falls in, not in the brightest direction; `phong` and `specular` too";
         Ambient "ambient" statement built "light given off without any source, a number or a colour: 0.1";
         Brilliance "brilliance" statement built "how fast diffuse light falls off with the angle: 1";
         ConserveEnergy "conserve_energy" statement built "what is reflected is not let through as well";
