@@ -94,8 +94,12 @@ impl<'a> Road<'a> {
     pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
         let before = self.diagnostics.len();
+        // Only a tree with faults has echoes; others are large, and gone when they have run.
+        let faulty = self.diagnostics.has_errors().then(|| ast.clone());
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
-        echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
+        if let Some(ast) = &faulty {
+            echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
+        }
         scene
     }
 
