@@ -139,12 +139,15 @@ impl Evaluator<'_> {
                 }
             });
             let too_long = error.kind == CallErrorKind::TooLong;
-            // As at every limit, nothing further is evaluated.
-            self.halted |= too_long;
             let label = if too_long { "too much with this" } else { "expected another value" };
             let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, label);
             diagnostic.help.extend(error.help);
-            self.report(here, diagnostic)
+            // As at every limit, nothing further is evaluated.
+            if too_long {
+                self.halt(here.expansion, diagnostic)
+            } else {
+                self.report(here, diagnostic)
+            }
         })
     }
 }
