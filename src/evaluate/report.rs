@@ -298,6 +298,8 @@ fn what_is_not_built(word: Word) -> String {
     match word {
         Word::Texture => "layered textures are".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),
+        Word::Object => "the pattern `object` is".to_owned(),
+        Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
         Word::Fopen => format!("`#{name}` is"),
         _ if word.family() == Family::Pattern && word.is_built() => {
             format!("a `{name}` of textures is")

@@ -19,7 +19,7 @@ pub use occluder::Occluder;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
-use crate::world::World;
+use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use tree::Tree;
 
@@ -43,6 +43,10 @@ pub struct Geometry {
     ellipsoids: Vec<Ellipsoid>,
     /// Shapes are met in single precision.
     single: bool,
+    /// What the camera's rays meet, where that is not all.
+    in_image: Option<Box<Geometry>>,
+    /// What mirrored rays meet, likewise.
+    in_reflections: Option<Box<Geometry>>,
 }
 
 /// An object, as far as rays ask.
@@ -81,8 +85,32 @@ enum Sides {
 
 impl Geometry {
     pub fn build(world: &World) -> Self {
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..world.objects.len() as u32).partition(|&object| bounds(world, object).is_some());
+        let part = |holds: fn(&Object) -> bool| {
+            let is_part = !world.objects.iter().all(holds);
+            is_part.then(|| Box::new(Self::of(world, holds)))
+        };
+        Self {
+            in_image: part(|object| object.in_image),
+            in_reflections: part(|object| object.in_reflections),
+            ..Self::of(world, |_| true)
+        }
+    }
+
+    /// What the camera's rays meet, as long as nothing has mirrored them.
+    pub fn in_image(&self) -> &Self {
+        self.in_image.as_deref().unwrap_or(self)
+    }
+
+    /// What mirrored rays meet.
+    pub fn in_reflections(&self) -> &Self {
+        self.in_reflections.as_deref().unwrap_or(self)
+    }
+
+    /// Of those of the World's objects that it `holds`.
+    fn of(world: &World, holds: fn(&Object) -> bool) -> Self {
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = (0..world.objects.len() as u32)
+            .filter(|&object| holds(&world.objects[object as usize]))
+            .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
             (None, bounded)
         } else {
@@ -98,6 +126,8 @@ impl Geometry {
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             single: false,
+            in_image: None,
+            in_reflections: None,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);

@@ -38,6 +38,9 @@ impl Geometry {
     /// The same geometry, its shapes met in single precision where they have such a kernel.
     pub fn in_single_precision(mut self) -> Self {
         self.single = true;
+        for part in [&mut self.in_image, &mut self.in_reflections] {
+            *part = part.take().map(|part| Box::new(part.in_single_precision()));
+        }
         self
     }
 
@@ -182,6 +185,9 @@ mod tests {
             texture_from_world: None,
             faces: None,
             casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
             inverse: false,
         };
         world.objects = [Shape::Sphere(0), Shape::Plane(0), Shape::Box(0)].map(object).to_vec();

@@ -29,6 +29,9 @@ fn add(world: &mut World, shape: Shape) {
         texture_from_world: None,
         faces: None,
         casts_shadow: true,
+        in_image: true,
+        in_reflections: true,
+        double_illuminate: false,
         inverse: false,
     };
     world.objects.push(object);

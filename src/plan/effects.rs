@@ -319,6 +319,9 @@ mod tests {
                 texture_from_world: None,
                 faces: None,
                 casts_shadow: true,
+                in_image: true,
+                in_reflections: true,
+                double_illuminate: false,
                 inverse: false,
             }],
             materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
@@ -326,6 +329,7 @@ mod tests {
                 kind: LightKind::Point { position: Vector::Y },
                 color: Rgb::WHITE,
                 casts_shadows: true,
+                attenuation: None,
             }],
             ..World::default()
         };

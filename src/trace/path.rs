@@ -21,7 +21,12 @@ use crate::world::{Finish, Material, Pigment, World};
 /// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
     pub world: &'a World,
+    /// Everything: what stands in the way of light.
     pub geometry: &'a Geometry,
+    /// What the camera's rays meet.
+    in_image: &'a Geometry,
+    /// What mirrored rays meet.
+    in_reflections: &'a Geometry,
     /// Rays go on behind clear surfaces.
     pub clear: bool,
     /// Interiors have indices of refraction.
@@ -40,6 +45,8 @@ struct Way {
     weight: f64,
     /// 1 for the camera's rays.
     level: u32,
+    /// Something has mirrored it, or one it goes on from.
+    mirrored: bool,
 }
 
 /// A surface on a path, waiting for what the ray that goes on from it sees.
@@ -82,6 +89,8 @@ impl<'a> Tracer<'a> {
         Self {
             world,
             geometry,
+            in_image: geometry.in_image(),
+            in_reflections: geometry.in_reflections(),
             clear: plan.simulates(Effect::Transparency),
             bends: plan.simulates(Effect::Refraction),
             filters_shadows: plan.simulates(Effect::ColoredShadows),
@@ -101,14 +110,15 @@ impl<'a> Tracer<'a> {
         walk: &mut Walk,
         ray: Ray,
     ) -> Rgb {
-        let mut way = Way { ray, weight: 1.0, level: 1 };
+        let mut way = Way { ray, weight: 1.0, level: 1, mirrored: false };
         walk.chain.clear();
         if SECONDARY && self.bends {
             walk.media.start(ray.origin);
         }
         loop {
             let mut seen = loop {
-                let Some(hit) = self.geometry.nearest(&way.ray) else {
+                let met = if SECONDARY { self.met_by(&way) } else { self.in_image };
+                let Some(hit) = met.nearest(&way.ray) else {
                     break sky::seen(
                         self.world.sky.as_ref(),
                         self.world.background,
@@ -129,7 +139,11 @@ impl<'a> Tracer<'a> {
                     normal,
                     to_viewer: -way.ray.direction,
                 };
-                let local = shade::local::<SHADOWS>(self, walk, &place);
+                let mut local = shade::local::<SHADOWS>(self, walk, &place);
+                if object.double_illuminate {
+                    let behind = surface.spawn(-normal);
+                    local += shade::from_behind::<SHADOWS>(self, walk, &place, behind);
+                }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
                     break clamped(local);
@@ -171,6 +185,12 @@ impl<'a> Tracer<'a> {
                 walk.media.go_on(fork.media);
             }
         }
+    }
+
+    /// What a ray under way can meet.
+    #[inline(always)]
+    fn met_by(&self, way: &Way) -> &'a Geometry {
+        if way.mirrored { self.in_reflections } else { self.in_image }
     }
 
     /// Whether what goes on from a surface may be more, or other, than a mirrored ray.
@@ -229,7 +249,7 @@ impl<'a> Tracer<'a> {
         walk.coinciding.clear();
         if clear && hit.contested {
             let straight = Ray { origin: met.behind, direction: way.ray.direction };
-            self.geometry.coinciding(&way.ray, hit, &straight, &mut walk.coinciding);
+            self.met_by(&way).coinciding(&way.ray, hit, &straight, &mut walk.coinciding);
         }
         let Border { from, to } = match self.bends {
             true => walk.media.border(self.world, hit, &walk.coinciding),
@@ -251,7 +271,7 @@ impl<'a> Tracer<'a> {
                 walk.counters.transmission += 1;
                 let ray = Ray { origin: met.behind, direction: bent.direction };
                 let level = if from == to { way.level } else { way.level + 1 };
-                Some((Way { ray, weight, level }, factor))
+                Some((Way { ray, weight, level, ..way }, factor))
             }
             (None, _) => None,
         };
@@ -326,6 +346,11 @@ impl Way {
     #[inline(always)]
     fn mirrored(self, place: &Place, weight: f64) -> Self {
         let direction = reflection::mirrored(self.ray.direction, place.normal);
-        Self { ray: Ray { origin: place.origin, direction }, weight, level: self.level + 1 }
+        Self {
+            ray: Ray { origin: place.origin, direction },
+            weight,
+            level: self.level + 1,
+            mirrored: true,
+        }
     }
 }

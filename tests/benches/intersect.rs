@@ -42,6 +42,9 @@ fn object(shape: Shape) -> Object {
         texture_from_world: None,
         faces: None,
         casts_shadow: true,
+        in_image: true,
+        in_reflections: true,
+        double_illuminate: false,
         inverse: false,
     }
 }

@@ -72,6 +72,9 @@ impl Built {
             texture_from_world: None,
             faces: None,
             casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
             inverse: false,
         });
         self.0.materials.push(material);
@@ -102,7 +105,12 @@ impl Built {
 
     fn light(mut self, position: [f64; 3], intensity: f64) -> Self {
         let kind = LightKind::Point { position: Vector::from_array(position) };
-        self.0.lights.push(Light { kind, color: Rgb::gray(intensity), casts_shadows: true });
+        self.0.lights.push(Light {
+            kind,
+            color: Rgb::gray(intensity),
+            casts_shadows: true,
+            attenuation: None,
+        });
         self
     }
 
