@@ -64,3 +64,77 @@ fn smooth(edge: f64, core: f64, v: f64) -> f64 {
 fn faded(fade: Fade, distance: f64) -> f64 {
     2.0 / (1.0 + power(distance / fade.distance, fade.power))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::UnitVector;
+    use crate::math::elementary::cos;
+    use crate::trace::shadow::aim;
+
+    /// What a white light one unit above a floor leaves x units beside its foot, times N·L.
+    fn lit(kind: LightKind, attenuation: Attenuation, x: f64) -> f64 {
+        let point = Vector::X * x;
+        let aim = aim(&kind, point).expect("not on the light");
+        let color = attenuated(Rgb::WHITE, &attenuation, &kind, point, &aim);
+        color.map_or(0.0, |color| color.red) * aim.to_light.y
+    }
+
+    fn spot(radius: f64, falloff: f64, tightness: f64, x: f64) -> f64 {
+        let cosine = |degrees: f64| cos(degrees.to_radians());
+        let (edge, core) = (cosine(falloff), cosine(radius));
+        let beam = Some(Beam::Cone { axis: -UnitVector::Y, edge, core, tightness });
+        let kind = LightKind::Point { position: Vector::Y };
+        lit(kind, Attenuation { beam, fade: None }, x)
+    }
+
+    fn cylinder(radius: f64, tightness: f64, x: f64) -> f64 {
+        let beam = Some(Beam::Cylinder { radius: 1.0, core: 1.0 - radius, tightness });
+        let kind = LightKind::Parallel { position: Vector::Y, to_light: UnitVector::Y };
+        lit(kind, Attenuation { beam, fade: None }, x)
+    }
+
+    fn fading(distance: f64, power: f64, x: f64) -> f64 {
+        let fade = Some(Fade { distance, power });
+        let kind = LightKind::Point { position: Vector::Y };
+        lit(kind, Attenuation { beam: None, fade }, x)
+    }
+
+    /// The numbers on the right are POV-Ray 3.7's, of a picture with 16 bits.
+    #[test]
+    fn lights_are_as_bright_beside_their_axis_and_far_off_as_those_of_the_other_program() {
+        for (ours, theirs) in [
+            (spot(30.0, 45.0, 0.0, 0.675), 0.7140),
+            (spot(10.0, 30.0, 3.0, 0.475), 0.1554),
+            (spot(20.0, 45.0, 0.0, 0.925), 0.0274),
+            (spot(30.0, 100.0, 0.0, 0.875), 0.7277),
+            (spot(30.0, 30.0, 0.0, 0.025), 0.9997),
+            (spot(30.0, 30.0, 0.0, 0.625), 0.0),
+            (cylinder(0.5, 0.0, 0.675), 0.7183),
+            (cylinder(0.5, 3.0, 0.225), 0.4655),
+            (cylinder(1.0, 2.0, 0.425), 0.3306),
+            (cylinder(0.5, 0.0, 1.025), 0.0),
+            (fading(1.0, 2.0, 0.975), 0.4853),
+            (fading(2.0, 3.0, 1.725), 0.5038),
+        ] {
+            assert!((ours - theirs).abs() < 2e-4, "{ours} is not {theirs}");
+        }
+    }
+
+    #[test]
+    fn a_cylinder_of_light_is_dark_behind_its_plane_and_a_cone_behind_its_tip() {
+        let beam = Some(Beam::Cylinder { radius: 1.0, core: 0.0, tightness: 0.0 });
+        let kind = LightKind::Parallel { position: -Vector::Y, to_light: UnitVector::Y };
+        assert_eq!(lit(kind, Attenuation { beam, fade: None }, 0.0), 0.0);
+        let beam = Some(Beam::Cone { axis: UnitVector::Y, edge: -1.0, core: -1.0, tightness: 0.0 });
+        let kind = LightKind::Point { position: Vector::Y };
+        assert_eq!(lit(kind, Attenuation { beam, fade: None }, 0.0), 0.0);
+    }
+
+    #[test]
+    fn light_at_its_fade_distance_has_its_colour_at_any_scale() {
+        for size in [1e-200, 1.0, 1e200] {
+            assert_eq!(faded(Fade { distance: size, power: 2.0 }, size), 1.0);
+        }
+    }
+}

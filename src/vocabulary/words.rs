@@ -120,7 +120,6 @@ vocabulary! {
         Difference "difference" statement later "the first object without the others";
         Intersection "intersection" statement later "what all its objects share";
         Merge "merge" statement later "objects as one, without inner faces";
-        SplitUnion "split_union" statement inert "whether a union may be taken apart; it always is";
         Union "union" statement built "`union { object … }`: objects treated as one";
     }
     Modifier {
@@ -134,6 +133,7 @@ vocabulary! {
         NoRadiosity "no_radiosity" statement inert until [Radiosity] "the object is left out of `radiosity`, which is not built yet";
         NoReflection "no_reflection" statement built "mirrors do not show the object; the camera and lights see it";
         NoShadow "no_shadow" statement built "the object casts no shadow";
+        SplitUnion "split_union" statement inert "whether a union may be taken apart; it always is";
         Object "object" statement built "`object { Name … }`: a declared object, with more modifiers";
     }
     Transform {

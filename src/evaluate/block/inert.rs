@@ -31,6 +31,7 @@ impl Evaluator<'_> {
             Word::FocalPoint => self.vector_after(token, "a point").map(drop),
             Word::BlurSamples => {
                 self.number_after(token, "a number of samples")?;
+                self.skip_commas();
                 self.optional_number(token, 0.0).map(drop)
             }
             Word::Charset => {
@@ -38,8 +39,10 @@ impl Evaluator<'_> {
                 if known.into_iter().any(|word| self.take_word(word).is_some()) {
                     return Ok(());
                 }
-                let next = self.peek().cloned();
-                let at = next.as_ref().map_or(token.span.after(), |next| next.span);
+                let is_value =
+                    matches!(self.peek(), Some(Token { kind: TokenKind::Expression(_), .. }));
+                let next = if is_value { self.next() } else { None };
+                let at = token.span.after();
                 Err(self.expected("`ascii`, `utf8` or `sys`", next.as_ref(), (&token.here, at)))
             }
             Word::Hierarchy

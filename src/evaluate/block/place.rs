@@ -104,7 +104,7 @@ impl Place {
     pub const SETTINGS: Self = Self {
         word: Some(Word::GlobalSettings),
         families: &[Family::Setting, Family::Interior],
-        others: &[Word::Subsurface, Word::NoiseGenerator],
+        others: &[Word::Subsurface, Word::NoiseGenerator, Word::IridWavelength],
     };
 
     pub const BOUNDED_BY: Self = Self {
