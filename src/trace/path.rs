@@ -142,7 +142,7 @@ impl<'a> Tracer<'a> {
                 let mut local = shade::local::<SHADOWS>(self, walk, &place);
                 if object.double_illuminate {
                     let behind = surface.spawn(-normal);
-                    local += shade::from_behind::<SHADOWS>(self, walk, &place, behind);
+                    local += shade::from_behind::<SHADOWS>(self, walk, place, behind);
                 }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {

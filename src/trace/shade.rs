@@ -51,7 +51,7 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         }
         let Some(aim) = shadow::aim(&light.kind, place.origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        let arriving = arriving::<SHADOWS>(tracer, walk, number, place.origin, &aim);
+        let arriving = arriving::<SHADOWS>(tracer, walk, (number, light), place.origin, &aim);
         let Some(color) = arriving else { continue };
         sum += color * answer(place, light, aim.to_light, cosine);
     }
@@ -61,12 +61,14 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
 /// What the lights behind a surface add that is lit on both sides. It answers them as those before it,
 /// but for its highlights, which know where the light is. `behind` is where rays start on that side.
 ///
+/// `place` comes as a copy: pointed to, it would lie in memory for every other surface, too.
+///
 /// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
 #[inline(never)]
 pub(super) fn from_behind<const SHADOWS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
-    place: &Place,
+    place: Place,
     behind: Vector,
 ) -> Rgb {
     let mut sum = Rgb::BLACK;
@@ -77,8 +79,8 @@ pub(super) fn from_behind<const SHADOWS: bool>(
         }
         let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
         let cosine = place.normal.dot(aim.to_light).min(0.0);
-        if let Some(color) = arriving::<SHADOWS>(tracer, walk, number, behind, &aim) {
-            sum += color * answer(place, light, aim.to_light, cosine);
+        if let Some(color) = arriving::<SHADOWS>(tracer, walk, (number, light), behind, &aim) {
+            sum += color * answer(&place, light, aim.to_light, cosine);
         }
     }
     sum
@@ -89,11 +91,10 @@ pub(super) fn from_behind<const SHADOWS: bool>(
 fn arriving<const SHADOWS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
-    number: usize,
+    (number, light): (usize, &Light),
     origin: Vector,
     aim: &Aim,
 ) -> Option<Rgb> {
-    let light = &tracer.world.lights[number];
     let mut color = light.color;
     if let Some(attenuation) = &light.attenuation {
         color = attenuated(color, attenuation, &light.kind, origin, aim)?;
