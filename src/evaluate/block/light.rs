@@ -110,10 +110,12 @@ impl Evaluator<'_> {
         while let Some(token) = self.next() {
             let outcome = match token.kind {
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
-                    written.shapes.push((word, token.clone()));
+                    written.shapes.push(word);
+                    written.last = Some(token.clone());
                     Ok(())
                 }
                 TokenKind::Word(Word::PointAt) => {
+                    written.last = Some(token.clone());
                     self.vector_after(&token, "a point").map(|given| written.point_at = given.value)
                 }
                 TokenKind::Word(Word::Radius) => self
@@ -174,7 +176,9 @@ impl Evaluator<'_> {
 /// What a light's words say, in whatever order.
 struct Written {
     /// `parallel`, `spotlight`, `cylinder`. The last counts; but what is `parallel` is no spotlight.
-    shapes: Vec<(Word, Token)>,
+    shapes: Vec<Word>,
+    /// The last word that says where its axis lies.
+    last: Option<Token>,
     point_at: Vector,
     radius: Option<f64>,
     falloff: Option<f64>,
@@ -195,6 +199,7 @@ impl Written {
         };
         let mut written = Self {
             shapes: Vec::new(),
+            last: None,
             point_at,
             radius: None,
             falloff: None,
@@ -218,7 +223,7 @@ impl Written {
 
     /// Makes the light what is written; returns the word that needs another `point_at`.
     fn spend(self, light: &mut LightSource) -> Option<Token> {
-        let Self { shapes, point_at, radius, falloff, tightness, fade } = self;
+        let Self { shapes, last, point_at, radius, falloff, tightness, fade } = self;
         light.fade = (fade.distance > 0.0 && fade.power > 0.0).then_some(fade);
         let (location, before) = match light.kind {
             LightKind::Point { location } => (location, None),
@@ -231,7 +236,7 @@ impl Written {
                 return None;
             }
         };
-        let said = |word: Word| before == Some(word) || shapes.iter().any(|(w, _)| *w == word);
+        let said = |word: Word| before == Some(word) || shapes.contains(&word);
         if shapes.is_empty() && before.is_none() {
             return None;
         }
@@ -240,8 +245,8 @@ impl Written {
             falloff: falloff.unwrap_or(most),
             tightness,
         };
-        let round = shapes.iter().rev().map(|(word, _)| *word).chain(before);
-        let round = round.into_iter().find(|word| *word != Word::Parallel);
+        let mut round = shapes.iter().rev().copied().chain(before);
+        let round = round.find(|word| *word != Word::Parallel);
         light.kind = match (round, said(Word::Parallel)) {
             (Some(Word::Cylinder), _) => {
                 LightKind::Cylinder { location, point_at, beam: beam(0.75, 1.0) }
@@ -249,7 +254,6 @@ impl Written {
             (Some(_), false) => LightKind::Spotlight { location, point_at, beam: beam(30.0, 45.0) },
             (None, _) | (Some(_), true) => LightKind::Parallel { location, point_at },
         };
-        let (_, token) = shapes.into_iter().next_back()?;
-        (location == point_at).then_some(token)
+        last.filter(|_| location == point_at)
     }
 }
