@@ -312,6 +312,7 @@ fn what_is_not_built(word: Word) -> String {
 fn built_beside(word: Word) -> Vec<String> {
     let fits = |other: &&Word| {
         other.is_built()
+            && !other.is_inert()
             && other.family() == word.family()
             && other.block() == word.block()
             && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())
