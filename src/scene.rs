@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
@@ -244,6 +244,9 @@ pub struct FinishOrigin {
     pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
+    /// The first word of the seed's, and of POV-Ray's.
+    pub seed: Option<(Word, Site)>,
+    pub classic: Option<(Word, Site)>,
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
@@ -252,7 +255,6 @@ pub struct ClassicFinish {
     pub ambient: Rgb,
     pub emission: Rgb,
     pub diffuse: f64,
-    /// `diffuse albedo`: `diffuse` is then the reflectance over the hemisphere.
     pub brilliance: f64,
     pub phong: f64,
     pub phong_size: f64,
@@ -329,8 +331,8 @@ pub struct SkySphere {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     pub ambient_light: Rgb,
-    /// The exponent that turns the scene's colours into linear light; 1 for none.
-    pub assumed_gamma: f64,
+    /// What turns the scene's colours into linear light.
+    pub assumed_gamma: Gamma,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     /// Where `max_trace_level` was written.
@@ -341,7 +343,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             ambient_light: Rgb::WHITE,
-            assumed_gamma: 1.0,
+            assumed_gamma: Gamma::LINEAR,
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             max_trace_level_site: None,

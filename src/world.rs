@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
@@ -134,6 +134,24 @@ pub struct Object {
     pub double_illuminate: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
+}
+
+impl Object {
+    /// A shape of which nothing else is said: the first material, filled with air.
+    pub fn plain(shape: Shape) -> Self {
+        Self {
+            shape,
+            material: 0,
+            texture_from_world: None,
+            faces: None,
+            interior: None,
+            casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
+            inverse: false,
+        }
+    }
 }
 
 /// What a solid is filled with. It only matters where light goes into it.
@@ -329,12 +347,12 @@ pub struct Settings {
     pub max_trace_level: u32,
     /// A path whose weight falls below this in every component is not followed.
     pub adc_bailout: f64,
-    /// The exponent that turns the film's colours into linear light.
-    pub assumed_gamma: f64,
+    /// What turns the film's colours into linear light.
+    pub assumed_gamma: Gamma,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: 1.0 }
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: Gamma::LINEAR }
     }
 }

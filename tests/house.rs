@@ -27,12 +27,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("film", &["color", "math", "plan"]),
     ("picture", &["color", "film"]),
     // verbs
-    ("syntax", &["source", "vocabulary", "diagnostic"]),
+    ("syntax", &["color", "source", "vocabulary", "diagnostic"]),
     (
         "lower",
         &[
             "color",
             "diagnostic",
+            // Whether anything is in view.
+            "geometry",
             "math",
             "pattern",
             "scene",
@@ -176,6 +178,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
     ("geometry/tree.rs", "least", "relative: of the tree's size"),
     ("lower/camera.rs", "PARALLEL", "relative: between directions"),
+    ("lower/view.rs", "CLEARLY", "relative: to the place of a corner"),
     ("lower/lint.rs", "ROUNDING", "relative: what a warning overlooks in a sum near 1"),
     ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
     ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
@@ -185,6 +188,9 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),
     ("math/vector.rs", "UNIT_ROUNDOFF", "the roundoff itself"),
     ("math/vector.rs", "debug_assert", "of a length that is 1"),
+    ("math/placement.rs", "let centre", "roundings of a map's centre, relative"),
+    ("math/placement.rs", "let difference", "roundings of a difference, relative"),
+    ("pattern/gradient.rs", "let error", "roundings of a sum, relative"),
     ("pattern/noise/perlin.rs", "ORIGIN", "where POV-Ray's noise has its origin"),
     ("pattern/noise/turbulence.rs", "greatest", "numbers pass through `f32` there, as in POV-Ray"),
     ("plan/print.rs", "1e-3..1e6", "how a number is written"),
@@ -195,6 +201,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),
     ("shape/plane.rs", "error: t / 67_108_864.0", "relative: of the distance"),
     ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
+    ("trace/sky.rs", "ROUNDED", "roundings of a direction, whose length is 1"),
     ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
 ];
 

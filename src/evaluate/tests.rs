@@ -30,7 +30,7 @@ fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
     let mut road = Road::new(&Shadowing, options);
     let file = road.read("a.pov", format!("{head}{text}").into_bytes());
     let ast = road.parse(file);
-    road.evaluate(&ast);
+    road.evaluate(ast);
     let told =
         road.diagnostics.iter().filter(|one| one.severity != crate::diagnostic::Severity::Warning);
     told.map(|one| one.message.as_str()).collect::<String>().trim_end().to_owned()
@@ -222,7 +222,7 @@ fn finish(text: &str) -> Finish {
     let mut road = Road::new(&Shadowing, Options::new(Dialect::Scene));
     let file = road.read("a.scene", text.as_bytes().to_vec());
     let ast = road.parse(file);
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     assert!(road.diagnostics.is_empty(), "{:?}", road.diagnostics.iter().collect::<Vec<_>>());
     scene.finishes.last().cloned().unwrap_or_else(|| panic!("no finish"))
 }

@@ -22,18 +22,7 @@ fn empty() -> World {
 }
 
 fn add(world: &mut World, shape: Shape) {
-    let object = Object {
-        interior: None,
-        shape,
-        material: 0,
-        texture_from_world: None,
-        faces: None,
-        casts_shadow: true,
-        in_image: true,
-        in_reflections: true,
-        double_illuminate: false,
-        inverse: false,
-    };
+    let object = Object::plain(shape);
     world.objects.push(object);
 }
 

@@ -2,7 +2,6 @@
 
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
-use crate::diagnostic::Code;
 use crate::math::UnitVector;
 use crate::math::double::DoubleVector;
 use crate::math::elementary::cos;
@@ -57,8 +56,7 @@ fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {
     match direction.normalized() {
         Some(unit) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
         Some(_) => Err(Fault::not_finite("this light's direction")),
-        None => Err(Fault::new(Code::ZeroVector, "this light's direction is the zero vector")
-            .label("expected the light to come from somewhere")),
+        None => Err(Fault::no_direction("this light's direction")),
     }
 }
 

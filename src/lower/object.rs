@@ -58,10 +58,19 @@ impl<'s> Lowering<'s, '_> {
         let scene = self.scene;
         let limit = self.options.objects;
         let mut visits = 0;
+        let mut stack = Vec::new();
+        // Most roots have the same default.
+        let mut last: Option<(TextureId, Surface)> = None;
         for Root { object, default_texture } in &scene.roots {
-            let default =
-                Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY);
+            let known = last.filter(|(texture, _)| texture == default_texture);
+            let default = match known {
+                Some((_, surface)) => Ok(surface),
+                None => {
+                    Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY)
+                }
+            };
             let Some(surface) = self.reporter.made_there(default) else { continue };
+            last = Some((*default_texture, surface));
             let inherited = Inherited {
                 world_from_here: Affine::IDENTITY,
                 surface,
@@ -75,7 +84,7 @@ impl<'s> Lowering<'s, '_> {
                 strained: false,
             };
             let children = std::slice::from_ref(object).iter();
-            let mut stack = vec![Frame { children, inherited, default_texture: *default_texture }];
+            stack.push(Frame { children, inherited, default_texture: *default_texture });
             while let Some(frame) = stack.last_mut() {
                 let Some(&id) = frame.children.next() else {
                     stack.pop();
@@ -92,8 +101,10 @@ impl<'s> Lowering<'s, '_> {
                         .fault(fault.label("reached here"), scene.objects[id.index()].site);
                     return;
                 }
-                let (inherited, default_texture) = (frame.inherited, frame.default_texture);
-                if let Some((children, inherited)) = self.visit(id, &inherited, default_texture) {
+                let default_texture = frame.default_texture;
+                if let Some((children, inherited)) =
+                    self.visit(id, &frame.inherited, default_texture)
+                {
                     stack.push(Frame { children: children.iter(), inherited, default_texture });
                 }
             }
@@ -262,6 +273,11 @@ impl<'s> Lowering<'s, '_> {
     ) -> Result<(), Fault> {
         let surface = &here.surface;
         let material = self.material(surface.pigment, surface.finish, site);
+        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        // What mirrors is seen by what it mirrors.
+        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+            self.unpainted.entry(site.span).or_insert(site);
+        }
         let texture_from_world = self.texture_map(surface, material)?;
         let faces = match faces {
             [] => None,

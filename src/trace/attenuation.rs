@@ -19,9 +19,9 @@ pub(super) fn attenuated(
     attenuation: &Attenuation,
     kind: &LightKind,
     point: Vector,
-    aim: &Aim,
+    aim: Aim,
 ) -> Option<Rgb> {
-    let beam = attenuation.beam.map_or(1.0, |beam| in_beam(beam, kind, point, aim));
+    let beam = attenuation.beam.map_or(1.0, |beam| in_beam(beam, kind, point, &aim));
     let fade = attenuation.fade.map_or(1.0, |fade| faded(fade, aim.reach.abs()));
     let left = color * (beam * fade);
     (!left.is_black()).then_some(left)
@@ -76,7 +76,7 @@ mod tests {
     fn lit(kind: LightKind, attenuation: Attenuation, x: f64) -> f64 {
         let point = Vector::X * x;
         let aim = aim(&kind, point).expect("not on the light");
-        let color = attenuated(Rgb::WHITE, &attenuation, &kind, point, &aim);
+        let color = attenuated(Rgb::WHITE, &attenuation, &kind, point, aim);
         color.map_or(0.0, |color| color.red) * aim.to_light.y
     }
 

@@ -61,14 +61,11 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
 /// What the lights behind a surface add that is lit on both sides. It answers them as those before it,
 /// but for its highlights, which know where the light is. `behind` is where rays start on that side.
 ///
-/// `place` comes as a copy: pointed to, it would lie in memory for every other surface, too.
-///
 /// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
-#[inline(never)]
 pub(super) fn from_behind<const SHADOWS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
-    place: Place,
+    place: &Place,
     behind: Vector,
 ) -> Rgb {
     let mut sum = Rgb::BLACK;
@@ -80,7 +77,7 @@ pub(super) fn from_behind<const SHADOWS: bool>(
         let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
         let cosine = place.normal.dot(aim.to_light).min(0.0);
         if let Some(color) = arriving::<SHADOWS>(tracer, walk, (number, light), behind, &aim) {
-            sum += color * answer(&place, light, aim.to_light, cosine);
+            sum += color * answer(place, light, aim.to_light, cosine);
         }
     }
     sum
@@ -97,7 +94,7 @@ fn arriving<const SHADOWS: bool>(
 ) -> Option<Rgb> {
     let mut color = light.color;
     if let Some(attenuation) = &light.attenuation {
-        color = attenuated(color, attenuation, &light.kind, origin, aim)?;
+        color = attenuated(color, attenuation, &light.kind, origin, *aim)?;
     }
     if SHADOWS && light.casts_shadows {
         if shadow::shadowed(tracer, walk, number, origin, aim) {

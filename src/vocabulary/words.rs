@@ -255,7 +255,7 @@ vocabulary! {
         Warp "warp" statement later "bends the space of a pattern";
     }
     FinishItem {
-        Albedo "albedo" statement later "measures brightness over the whole hemisphere";
+        Albedo "albedo" statement built "`diffuse albedo 0.7`: of all light that falls in, not in the brightest direction; `phong` and `specular` too";
         Ambient "ambient" statement built "light given off without any source, a number or a colour: 0.1";
         Brilliance "brilliance" statement built "how fast diffuse light falls off with the angle: 1";
         ConserveEnergy "conserve_energy" statement built "what is reflected is not let through as well";
@@ -335,7 +335,7 @@ vocabulary! {
         MediaAttenuation "media_attenuation" statement inert until [Media] "`media` dim this light; they are not built yet";
         MediaInteraction "media_interaction" statement inert until [Media] "this light lights `media`, which are not built yet";
         Parallel "parallel" statement built "all rays run from the place toward `point_at`";
-        PointAt "point_at" statement built "the point a parallel light or a spotlight shines at";
+        PointAt "point_at" statement built "the point a parallel light or a spotlight shines at: <0, 0, 0>; in a `.pov` z";
         ProjectedThrough "projected_through" statement later "only light through this object counts";
         Radius "radius" statement built "the bright middle of a spotlight, in degrees: 30; of a `cylinder` light, in units: 0.75";
         Shadowless "shadowless" statement built "no object casts a shadow from this light";
@@ -369,7 +369,7 @@ vocabulary! {
     }
     Atmosphere {
         ArcAngle "arc_angle" statement later "the part of a rainbow that is seen";
-        Background "background" statement built "`background { color }`: what is seen where nothing is: black";
+        Background "background" statement built "`background { color }`: what is seen where nothing is, darker by its `transmit`: black";
         Distance "distance" statement later "the distance at which fog has covered two thirds";
         Fog "fog" statement later "haze over distance";
         FogAlt "fog_alt" statement later "the height over which ground fog thins";
@@ -385,7 +385,7 @@ vocabulary! {
         Altitude "altitude" statement later "reserved by version 3.7, without a documented meaning";
         AlwaysSample "always_sample" statement later "radiosity is refined in the final pass";
         AmbientLight "ambient_light" statement built "multiplies every `ambient`: 1";
-        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours; `srgb` too: 1";
+        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours, or `srgb` for that curve: 1";
         Autostop "autostop" statement later "when photons stop";
         Brightness "brightness" statement later "how bright radiosity is";
         Charset "charset" statement inert "the encoding of strings; they are UTF-8, which holds all of ASCII";

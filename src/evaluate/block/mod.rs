@@ -6,17 +6,22 @@
 mod camera;
 mod color;
 mod finish;
+mod habit;
 mod inert;
 mod interior;
 mod light;
+mod modifier;
 mod object;
 mod part;
 mod pigment;
 mod place;
 mod settings;
+mod skip;
 mod texture;
 mod transform;
 mod unexpected;
+
+pub(super) use habit::color_of_string;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
@@ -166,35 +171,6 @@ impl Evaluator<'_> {
                 Err(reported)
             }
         }
-    }
-
-    /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
-    fn skip_missing_block(&mut self, token: &Token) {
-        let before = self.diagnostics.len();
-        self.skip_values();
-        self.skip_color(token);
-        while let Some(Token { kind: TokenKind::Entry(_), .. }) = self.peek() {
-            self.next();
-        }
-        match self.peek().map(|next| &next.kind) {
-            Some(TokenKind::Block(_)) => self.skip_arguments(Word::Union),
-            // `camera location … look_at …`
-            Some(TokenKind::Word(next)) if matches!(token.kind, TokenKind::Word(word) if place::home(*next) == Some(word)) => {
-                while let Some(&Token { kind: TokenKind::Word(next), .. }) = self.peek()
-                    && matches!(token.kind, TokenKind::Word(word) if place::home(next) == Some(word))
-                {
-                    self.next();
-                    self.skip_arguments(next);
-                }
-            }
-            Some(TokenKind::Word(next)) if next.family() == Family::FinishItem => {
-                let next = *next;
-                self.next();
-                self.skip_arguments(next);
-            }
-            _ => {}
-        }
-        self.diagnostics.forget_after(before);
     }
 
     /// Enters the block after `token`.

@@ -99,7 +99,7 @@ impl Place {
     pub const SKY_SPHERE: Self = Self {
         word: Some(Word::SkySphere),
         families: &[Family::Texture, Family::Transform, Family::FinishItem],
-        others: &[],
+        others: &[Word::Emission],
     };
     pub const SETTINGS: Self = Self {
         word: Some(Word::GlobalSettings),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::color::Gamma;
 use crate::scene::{Background, SkySphere};
 use crate::vocabulary::Word;
 
@@ -29,10 +30,9 @@ impl Evaluator<'_> {
                     self.color_after(token, "a number or a colour")?.value.rgb;
             }
             TokenKind::Word(Word::AssumedGamma) => {
-                // `srgb` stands for the curve of a usual display, whose mean exponent is 2.2.
                 let gamma = match self.take_word(Word::Srgb) {
-                    Some(_) => 2.2,
-                    None => self.more_than_zero(token, Word::AssumedGamma)?,
+                    Some(_) => Gamma::Srgb,
+                    None => Gamma::Power(self.more_than_zero(token, Word::AssumedGamma)?),
                 };
                 // Said twice, the first counts, as in POV-Ray.
                 if !std::mem::replace(&mut self.says_gamma, true) {

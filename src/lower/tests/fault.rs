@@ -76,6 +76,16 @@ fn things_without_size_are_reported() {
 }
 
 #[test]
+fn what_transforms_bring_to_nothing_is_reported() {
+    let ball = sphere(0.0, 0.0, 0.0, 1.0);
+    assert_eq!(codes(ball.clone(), vec![scale(0.0, 0.0, 0.0)]), [Code::ZeroScale]);
+    let tiny = vec![scale(1e-150, 1e-150, 1e-150)];
+    assert_eq!(codes(sphere(0.0, 0.0, 0.0, 1e-200), tiny.clone()), [Code::ZeroSize]);
+    let cube = box_(Vector::ZERO, v(1e-200, 1e-200, 1.0));
+    assert_eq!(codes(cube, tiny), [Code::ZeroSize]);
+}
+
+#[test]
 fn a_box_without_thickness_is_a_sheet() {
     let world = spend(box_(v(0.0, 2.0, 0.0), v(1.0, 2.0, 1.0)), vec![]);
     assert_eq!(world.boxes[0].half_widths, [0.5, 0.0, 0.5]);
