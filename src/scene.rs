@@ -117,6 +117,12 @@ pub enum ModifierKind {
     /// Replaces the interior.
     Interior(InteriorId),
     NoShadow,
+    /// True: the camera does not see it. False undoes it for a declared object.
+    NoImage(bool),
+    /// Likewise, mirrors do not.
+    NoReflection(bool),
+    /// Likewise, it is lit on both sides by light on either.
+    DoubleIlluminate(bool),
     Inverse,
 }
 
@@ -126,6 +132,17 @@ pub struct LightSource {
     pub color: Rgb,
     pub kind: LightKind,
     pub shadowless: bool,
+    /// `None`: as bright at any distance.
+    pub fade: Option<Fade>,
+}
+
+/// How light loses strength with the distance d: it is 2/(1 + (d/distance)^power) of its colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fade {
+    /// Where it is all of its colour: more than 0. No transform changes it (measured on POV-Ray 3.7).
+    pub distance: f64,
+    /// More than 0.
+    pub power: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -142,6 +159,30 @@ pub enum LightKind {
     Direction {
         to_light: Vector,
     },
+    /// A cone of light around the line from `location` to `point_at`.
+    Spotlight {
+        location: Vector,
+        point_at: Vector,
+        beam: Beam,
+    },
+    /// Parallel rays, only near the line from `location` through `point_at`.
+    Cylinder {
+        location: Vector,
+        point_at: Vector,
+        beam: Beam,
+    },
+}
+
+/// How a light falls off around its axis: in degrees for a spotlight, in units, which no transform
+/// changes (measured on POV-Ray 3.7), for a cylinder of light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// The bright middle.
+    pub radius: f64,
+    /// The edge, where it is dark.
+    pub falloff: f64,
+    /// How fast it fades already in the middle.
+    pub tightness: f64,
 }
 
 /// A pigment and a finish; a transform moves what precedes it.

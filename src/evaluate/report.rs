@@ -320,6 +320,8 @@ fn what_is_not_built(word: Word) -> String {
         Word::Diffuse => "light that a surface scatters from behind is".to_owned(),
         Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),
+        Word::Object => "the pattern `object` is".to_owned(),
+        Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
         Word::Fopen => format!("`#{name}` is"),
         _ if word.family() == Family::Pattern && word.is_built() => {
             format!("a `{name}` of textures is")
@@ -332,6 +334,7 @@ fn what_is_not_built(word: Word) -> String {
 fn built_beside(word: Word) -> Vec<String> {
     let fits = |other: &&Word| {
         other.is_built()
+            && !other.is_inert()
             && other.family() == word.family()
             && other.block() == word.block()
             && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())

@@ -75,6 +75,7 @@ pub enum Value {
     ColorMap(Arc<ColorMap>),
     Object(ObjectId),
     Camera(Arc<crate::scene::Camera>),
+    SkySphere(Arc<crate::scene::SkySphere>),
     Macro(super::scope::MacroId),
     /// Of a kind that this version does not build: fatal only where it reaches the scene.
     Poison(Poison),
@@ -134,6 +135,7 @@ impl Value {
             Self::ColorMap(_) => "a color_map",
             Self::Object(_) => "an object",
             Self::Camera(_) => "a camera",
+            Self::SkySphere(_) => "a sky_sphere",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",
             Self::Broken => "a faulty value",

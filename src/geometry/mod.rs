@@ -22,7 +22,7 @@ use crate::math::Vector;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
-use crate::world::World;
+use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use tree::Tree;
 
@@ -45,6 +45,10 @@ pub struct Geometry {
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
     manner: Manner,
+    /// What the camera's rays meet, where that is not all.
+    in_image: Option<Box<Geometry>>,
+    /// What mirrored rays meet, likewise.
+    in_reflections: Option<Box<Geometry>>,
 }
 
 /// How rays and shapes meet, and whether it is counted what that takes. A single byte, so that the
@@ -93,8 +97,32 @@ enum Sides {
 
 impl Geometry {
     pub fn build(world: &World) -> Self {
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..world.objects.len() as u32).partition(|&object| bounds(world, object).is_some());
+        let part = |holds: fn(&Object) -> bool| {
+            let is_part = !world.objects.iter().all(holds);
+            is_part.then(|| Box::new(Self::of(world, holds)))
+        };
+        Self {
+            in_image: part(|object| object.in_image),
+            in_reflections: part(|object| object.in_reflections),
+            ..Self::of(world, |_| true)
+        }
+    }
+
+    /// What the camera's rays meet, as long as nothing has mirrored them.
+    pub fn in_image(&self) -> &Self {
+        self.in_image.as_deref().unwrap_or(self)
+    }
+
+    /// What mirrored rays meet.
+    pub fn in_reflections(&self) -> &Self {
+        self.in_reflections.as_deref().unwrap_or(self)
+    }
+
+    /// Of those of the World's objects that it `holds`.
+    fn of(world: &World, holds: fn(&Object) -> bool) -> Self {
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = (0..world.objects.len() as u32)
+            .filter(|&object| holds(&world.objects[object as usize]))
+            .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
             (None, bounded)
         } else {
@@ -110,6 +138,8 @@ impl Geometry {
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             manner: Manner::Double,
+            in_image: None,
+            in_reflections: None,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -128,7 +158,7 @@ impl Geometry {
             true => Manner::SingleCounted,
             false => Manner::Single,
         };
-        self
+        self.parts(Self::in_single_precision)
     }
 
     /// The same geometry, which counts what its searches take.
@@ -137,6 +167,13 @@ impl Geometry {
             Manner::Double | Manner::DoubleCounted => Manner::DoubleCounted,
             Manner::Single | Manner::SingleCounted => Manner::SingleCounted,
         };
+        self.parts(Self::counting)
+    }
+
+    fn parts(mut self, change: fn(Self) -> Self) -> Self {
+        for part in [&mut self.in_image, &mut self.in_reflections] {
+            *part = part.take().map(|part| Box::new(change(*part)));
+        }
         self
     }
 

@@ -185,15 +185,7 @@ mod tests {
             normals: [UnitVector::X, UnitVector::Y, UnitVector::Z],
             half_widths: [0.5, 1.0, 0.3],
         });
-        let object = |shape| Object {
-            interior: None,
-            shape,
-            material: 0,
-            texture_from_world: None,
-            faces: None,
-            casts_shadow: true,
-            inverse: false,
-        };
+        let object = |shape| Object::plain(shape);
         world.objects = [Shape::Sphere(0), Shape::Plane(0), Shape::Box(0)].map(object).to_vec();
         world
     }

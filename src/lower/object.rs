@@ -22,6 +22,9 @@ struct Inherited {
     /// For whatever has no interior of its own.
     interior: Option<InteriorId>,
     casts_shadow: bool,
+    in_image: bool,
+    in_reflections: bool,
+    double_illuminate: bool,
     inverse: bool,
     /// The innermost of those above that could be taken out of the text.
     item: Option<Site>,
@@ -37,6 +40,9 @@ struct Modified {
     surface: Option<Surface>,
     interior: Option<InteriorId>,
     casts_shadow: bool,
+    in_image: bool,
+    in_reflections: bool,
+    double_illuminate: bool,
     inverse: bool,
     strained: bool,
 }
@@ -70,6 +76,9 @@ impl<'s> Lowering<'s, '_> {
                 surface,
                 interior: None,
                 casts_shadow: true,
+                in_image: true,
+                in_reflections: true,
+                double_illuminate: false,
                 inverse: false,
                 item: None,
                 strained: false,
@@ -130,6 +139,9 @@ impl<'s> Lowering<'s, '_> {
             surface,
             interior: modified.interior.or(inherited.interior),
             casts_shadow: inherited.casts_shadow && modified.casts_shadow,
+            in_image: inherited.in_image && modified.in_image,
+            in_reflections: inherited.in_reflections && modified.in_reflections,
+            double_illuminate: inherited.double_illuminate || modified.double_illuminate,
             inverse: inherited.inverse != modified.inverse,
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
@@ -162,6 +174,9 @@ impl<'s> Lowering<'s, '_> {
             surface: None,
             interior: None,
             casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
             inverse: false,
             strained: false,
         };
@@ -191,6 +206,9 @@ impl<'s> Lowering<'s, '_> {
                 }
                 ModifierKind::Interior(id) => modified.interior = Some(id),
                 ModifierKind::NoShadow => modified.casts_shadow = false,
+                ModifierKind::NoImage(on) => modified.in_image = !on,
+                ModifierKind::NoReflection(on) => modified.in_reflections = !on,
+                ModifierKind::DoubleIlluminate(on) => modified.double_illuminate = on,
                 ModifierKind::Inverse => modified.inverse = !modified.inverse,
             }
         }
@@ -267,9 +285,19 @@ impl<'s> Lowering<'s, '_> {
         };
         self.note_near_singular(here, site);
         let interior = self.interior(here.interior, surface.finish, site);
-        let casts_shadow = here.casts_shadow;
-        let object =
-            Object { shape, material, texture_from_world, faces, interior, casts_shadow, inverse };
+        let &Inherited { casts_shadow, in_image, in_reflections, double_illuminate, .. } = here;
+        let object = Object {
+            shape,
+            material,
+            texture_from_world,
+            faces,
+            interior,
+            casts_shadow,
+            in_image,
+            in_reflections,
+            double_illuminate,
+            inverse,
+        };
         self.world.objects.push(object);
         self.origins.objects.push(site);
         Ok(())

@@ -5,6 +5,7 @@
 //! the Plan leaves out costs nothing per ray.
 
 mod antialias;
+mod attenuation;
 mod camera;
 mod highlight;
 mod media;

@@ -11,6 +11,7 @@ use crate::shape::Ray;
 use crate::world::LightKind;
 
 /// From a point toward a light.
+#[derive(Clone, Copy)]
 pub(super) struct Aim {
     /// Of length 1.
     pub to_light: Vector,

@@ -7,6 +7,7 @@ mod camera;
 mod color;
 mod finish;
 mod habit;
+mod inert;
 mod interior;
 mod light;
 mod modifier;
@@ -26,7 +27,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -56,8 +57,21 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::Background) => self.background(token),
             TokenKind::Word(Word::SkySphere) => {
-                self.sky_sphere(token)?;
+                if let Value::SkySphere(sky) = self.sky_sphere(token)? {
+                    self.place_sky(sky.as_ref().clone(), token);
+                    return Ok(());
+                }
                 self.needs_poison()
+            }
+            // After another directive the `#` may be left out, as in POV-Ray.
+            TokenKind::Word(Word::Default)
+                if self.options.dialect == Dialect::Pov
+                    && matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) =>
+            {
+                self.block(token, Word::Default, |evaluator| {
+                    evaluator.default_items();
+                    Ok(())
+                })
             }
             TokenKind::Word(Word::GlobalSettings) => {
                 self.global_settings(token)?;
@@ -135,11 +149,12 @@ impl Evaluator<'_> {
             Word::ColorMap => self.color_map(token),
             Word::TransformWord => self.transform_block(token).map(Value::Transform),
             Word::Camera => self.camera(token),
+            Word::SkySphere => self.sky_sphere(token),
             _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
                 self.object(token, word)
             }
-            _ if !word.is_built() || word == Word::SkySphere || word == Word::Background => {
+            _ if !word.is_built() || word == Word::Background => {
                 let poison = Poison { word, site: token.here.site(token.span) };
                 self.skip_arguments(word);
                 Ok(Value::Poison(poison))

@@ -31,11 +31,15 @@ impl Evaluator<'_> {
                     }
                 }
                 Some(Err(Reported)) => failed = true,
-                None => {
-                    self.unexpected(&token, place);
-                    let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
-                    failed |= !harmless && before.is_none() && self.poison.is_none();
-                }
+                None => match self.inert(&token, place) {
+                    Some(outcome) => failed |= outcome.is_err(),
+                    None => {
+                        self.unexpected(&token, place);
+                        let harmless =
+                            matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                        failed |= !harmless && before.is_none() && self.poison.is_none();
+                    }
+                },
             }
         }
         if failed { Err(Reported) } else { Ok(()) }
@@ -116,6 +120,13 @@ impl Evaluator<'_> {
             }
             Word::NoShadow => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))
+            }
+            Word::NoImage => self.optional_flag(token).map(|on| Some(ModifierKind::NoImage(on))),
+            Word::NoReflection => {
+                self.optional_flag(token).map(|on| Some(ModifierKind::NoReflection(on)))
+            }
+            Word::DoubleIlluminate => {
+                self.optional_flag(token).map(|on| Some(ModifierKind::DoubleIlluminate(on)))
             }
             // It tells where fog and media are, and there are none yet.
             Word::Hollow => self.optional_flag(token).map(|_| None),

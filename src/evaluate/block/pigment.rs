@@ -177,6 +177,9 @@ impl Evaluator<'_> {
                 }
             }
             _ => {
+                if let Some(outcome) = self.inert(token, Place::PIGMENT) {
+                    return outcome;
+                }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::PIGMENT);
                 if !poisoned

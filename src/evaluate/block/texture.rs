@@ -63,6 +63,9 @@ impl Evaluator<'_> {
                 }
             },
             _ => {
+                if let Some(outcome) = self.inert(token, Place::TEXTURE) {
+                    return outcome;
+                }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::TEXTURE);
                 let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);

@@ -128,6 +128,7 @@ impl Evaluator<'_> {
             Value::Transform(_) if place.families.contains(&Family::Transform) => Some("transform"),
             Value::Object(_) if place.families.contains(&Family::Shape) => Some("object"),
             Value::Camera(_) if place.word.is_none() => Some("camera"),
+            Value::SkySphere(_) if place.word.is_none() => Some("sky_sphere"),
             Value::Color(_) if of_texture => Some("pigment"),
             _ => None,
         };

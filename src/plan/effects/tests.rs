@@ -36,20 +36,13 @@ fn lit_mirror() -> (World, Origins) {
     };
     let world = World {
         spheres: vec![Sphere { centre: Vector::ZERO, radius: 1.0 }],
-        objects: vec![Object {
-            interior: None,
-            shape: Shape::Sphere(0),
-            material: 0,
-            texture_from_world: None,
-            faces: None,
-            casts_shadow: true,
-            inverse: false,
-        }],
+        objects: vec![Object::plain(Shape::Sphere(0))],
         materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
         lights: vec![Light {
             kind: LightKind::Point { position: Vector::Y },
             color: Rgb::WHITE,
             casts_shadows: true,
+            attenuation: None,
         }],
         ..World::default()
     };

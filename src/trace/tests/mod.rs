@@ -66,15 +66,9 @@ struct Built(World);
 
 impl Built {
     fn object(mut self, shape: Shape, material: Material) -> Self {
-        self.0.objects.push(Object {
-            interior: None,
-            shape,
-            material: self.0.materials.len() as u32,
-            texture_from_world: None,
-            faces: None,
-            casts_shadow: true,
-            inverse: false,
-        });
+        self.0
+            .objects
+            .push(Object { material: self.0.materials.len() as u32, ..Object::plain(shape) });
         self.0.materials.push(material);
         self
     }
@@ -103,7 +97,12 @@ impl Built {
 
     fn light(mut self, position: [f64; 3], intensity: f64) -> Self {
         let kind = LightKind::Point { position: Vector::from_array(position) };
-        self.0.lights.push(Light { kind, color: Rgb::gray(intensity), casts_shadows: true });
+        self.0.lights.push(Light {
+            kind,
+            color: Rgb::gray(intensity),
+            casts_shadows: true,
+            attenuation: None,
+        });
         self
     }
 
