@@ -205,6 +205,9 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
 ];
 
+/// "About 400": with what `rustfmt` makes of it.
+const LONGEST_FILE: usize = 430;
+
 const EMPTY_NAMES: &[&str] = &[
     "core", "base", "common", "util", "utils", "helper", "helpers", "misc", "types", "manager",
     "engine", "context",
@@ -423,6 +426,18 @@ fn has_extreme_number(line: &str) -> bool {
         .filter_map(|token| token.replace('_', "").replace('\u{2212}', "-").parse::<f64>().ok())
         .any(|number| number != 0.0 && !(1e-3..1e4).contains(&number));
     extreme || WORDS.iter().any(|word| line.contains(word))
+}
+
+#[test]
+fn files_stay_short() {
+    // Tables and tests are read by the row.
+    let long = files("src", &["rs"]).into_iter().filter(|(file, text)| {
+        let by_the_row = file.ends_with("tests.rs") || file.contains("tests/");
+        !by_the_row && file != "vocabulary/words.rs" && text.lines().count() > LONGEST_FILE
+    });
+    assert_none(
+        long.map(|(file, text)| format!("{file}: {} lines", text.lines().count())).collect(),
+    );
 }
 
 #[test]
