@@ -3,7 +3,7 @@
 //! **In:** the radiance the tracer gathered. **Out:** an [`Image`]. **Invariant:** the same bits for
 //! any number of threads; a pixel knows its samples; an unreached pixel is black.
 
-use crate::color::{Rgb, srgb_decode, srgb_encode};
+use crate::color::{Gamma, Rgb, srgb_decode, srgb_encode};
 use crate::math::elementary::pow;
 use crate::plan::{Frame, Region};
 
@@ -11,8 +11,8 @@ use crate::plan::{Frame, Region};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     pub frame: Frame,
-    /// The scene's `assumed_gamma`: `radiance ^ assumed_gamma` is linear light.
-    pub assumed_gamma: f64,
+    /// What turns radiance into linear light.
+    pub assumed_gamma: Gamma,
     /// `region.width × region.height` values, in the scene's working space.
     pub radiance: Vec<Rgb>,
     /// How many samples each pixel got; 0 for one that was not reached.
@@ -28,7 +28,7 @@ impl Film {
         (place + if traced > encoded { traced } else { encoded }) as u64
     };
 
-    pub fn new(frame: Frame, assumed_gamma: f64) -> Self {
+    pub fn new(frame: Frame, assumed_gamma: Gamma) -> Self {
         let pixels = frame.region.width as usize * frame.region.height as usize;
         Self { frame, assumed_gamma, radiance: vec![Rgb::BLACK; pixels], samples: vec![0; pixels] }
     }
@@ -90,7 +90,7 @@ pub enum Depth {
     Linear,
 }
 
-/// Shows a film: linear light is `radiance ^ assumed_gamma`; a display-referred number is the
+/// Shows a film: linear light is its `assumed_gamma` of the radiance; a display-referred number is the
 /// nearest to `255 · sRGB` (or `65535 · sRGB`) of it. Negative and undefined light is black.
 pub fn develop(film: &Film, depth: Depth) -> Image {
     let (width, height) = (film.frame.region.width, film.frame.region.height);
@@ -106,7 +106,7 @@ pub fn develop(film: &Film, depth: Depth) -> Image {
             let encode = |c| curve.code(c) as u16;
             Pixels::Sixteen(each(film, encode))
         }
-        Depth::Linear => Pixels::Linear(each(film, |c| linear(c, gamma) as f32)),
+        Depth::Linear => Pixels::Linear(each(film, |c| gamma.linear(c) as f32)),
     };
     Image { width, height, pixels }
 }
@@ -115,20 +115,9 @@ fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {
     film.radiance.iter().map(|c| [encode(c.red), encode(c.green), encode(c.blue)]).collect()
 }
 
-/// Linear light of a component in the scene's working space; none where it is undefined.
-pub fn linear(component: f64, gamma: f64) -> f64 {
-    if component.is_nan() || component <= 0.0 {
-        0.0
-    } else if gamma == 1.0 {
-        component
-    } else {
-        pow(component, gamma)
-    }
-}
-
 /// The number, 0 … `last`, that shows a component: the definition.
-fn code(component: f64, gamma: f64, last: u32) -> u32 {
-    (srgb_encode(linear(component, gamma)) * f64::from(last)).round() as u32
+fn code(component: f64, gamma: Gamma, last: u32) -> u32 {
+    (srgb_encode(gamma.linear(component)) * f64::from(last)).round() as u32
 }
 
 /// [`code`] by table: `steps[k]` is the least component whose code is above `k`.
@@ -137,7 +126,7 @@ fn code(component: f64, gamma: f64, last: u32) -> u32 {
 /// number, as the steps are found with the definition itself.
 struct Curve {
     last: u32,
-    gamma: f64,
+    gamma: Gamma,
     /// Empty where so few numbers are wanted that finding the steps costs more.
     steps: Vec<f64>,
     /// For each of `starts.len()` equal parts of 0 … 1: the code of its lower end.
@@ -145,7 +134,7 @@ struct Curve {
 }
 
 impl Curve {
-    fn new(last: u32, gamma: f64, wanted: usize) -> Self {
+    fn new(last: u32, gamma: Gamma, wanted: usize) -> Self {
         let mut curve = Self { last, gamma, steps: Vec::new(), starts: Vec::new() };
         // Each step costs about twenty evaluations.
         if wanted / 20 > last as usize {
@@ -181,10 +170,14 @@ impl Curve {
 
 /// The least component whose code is above `k`, by bisection over the bits of a float around
 /// the inverse formula.
-fn step_above(k: u32, gamma: f64, last: u32) -> f64 {
+fn step_above(k: u32, gamma: Gamma, last: u32) -> f64 {
     let above = |bits: u64| code(f64::from_bits(bits), gamma, last) > k;
-    let guess = srgb_decode((f64::from(k) + 0.5) / f64::from(last));
-    let guess = if gamma == 1.0 { guess } else { pow(guess, 1.0 / gamma) }.to_bits();
+    let shown = (f64::from(k) + 0.5) / f64::from(last);
+    let guess = match gamma {
+        Gamma::Power(exponent) => pow(srgb_decode(shown), 1.0 / exponent),
+        Gamma::Srgb => shown,
+    };
+    let guess = guess.to_bits();
     let mut width = 16;
     let (mut low, mut high) = (guess, guess);
     while above(low) {
@@ -207,14 +200,18 @@ fn step_above(k: u32, gamma: f64, last: u32) -> f64 {
 mod tests {
     use super::*;
 
-    fn film(radiance: Vec<Rgb>, assumed_gamma: f64) -> Film {
+    fn film(radiance: Vec<Rgb>, assumed_gamma: Gamma) -> Film {
         let frame = Frame::whole(radiance.len() as u32, 1);
         Film { frame, assumed_gamma, samples: vec![1; radiance.len()], radiance }
     }
 
     #[test]
     fn the_table_agrees_with_the_definition_at_and_around_every_step() {
-        for (last, gamma) in [(255, 1.0), (255, 2.2), (255, 0.4), (65_535, 1.0), (65_535, 2.2)] {
+        let powers = [1.0, 2.2, 0.4].map(Gamma::Power);
+        let curves = [255, 65_535].into_iter().flat_map(|last| {
+            powers.into_iter().chain([Gamma::Srgb]).map(move |gamma| (last, gamma))
+        });
+        for (last, gamma) in curves {
             let curve = Curve::new(last, gamma, usize::MAX);
             assert_eq!(curve.steps.len(), last as usize);
             assert!(curve.steps.windows(2).all(|pair| pair[0] < pair[1]));
@@ -238,9 +235,9 @@ mod tests {
     fn small_and_large_films_are_shown_alike() {
         let colors: Vec<Rgb> = (0..100).map(|i| Rgb::gray(f64::from(i) / 99.0)).collect();
         let many: Vec<Rgb> = colors.iter().copied().cycle().take(100 * 300).collect();
-        let small = develop(&film(colors, 1.0), Depth::Eight);
+        let small = develop(&film(colors, Gamma::LINEAR), Depth::Eight);
         let Pixels::Eight(small) = small.pixels else { panic!("not 8 bit") };
-        let Pixels::Eight(large) = develop(&film(many, 1.0), Depth::Eight).pixels else {
+        let Pixels::Eight(large) = develop(&film(many, Gamma::LINEAR), Depth::Eight).pixels else {
             panic!("not 8 bit")
         };
         assert_eq!(small, large[29_900..]);
@@ -249,7 +246,7 @@ mod tests {
     #[test]
     fn gamma_turns_the_working_space_into_linear_light() {
         let Pixels::Linear(pixels) =
-            develop(&film(vec![Rgb::new(0.5, -1.0, 4.0)], 2.0), Depth::Linear).pixels
+            develop(&film(vec![Rgb::new(0.5, -1.0, 4.0)], Gamma::Power(2.0)), Depth::Linear).pixels
         else {
             panic!("not linear")
         };
@@ -259,11 +256,14 @@ mod tests {
     #[test]
     fn known_colours_have_known_numbers() {
         let colors = vec![Rgb::new(0.0, 1.0, 0.5), Rgb::new(f64::NAN, 7.0, 0.215_860_5)];
-        let Pixels::Eight(eight) = develop(&film(colors.clone(), 1.0), Depth::Eight).pixels else {
+        let Pixels::Eight(eight) =
+            develop(&film(colors.clone(), Gamma::LINEAR), Depth::Eight).pixels
+        else {
             panic!("not 8 bit")
         };
         assert_eq!(eight, [[0, 255, 188], [0, 255, 128]]);
-        let Pixels::Sixteen(sixteen) = develop(&film(colors, 1.0), Depth::Sixteen).pixels else {
+        let Pixels::Sixteen(sixteen) = develop(&film(colors, Gamma::LINEAR), Depth::Sixteen).pixels
+        else {
             panic!("not 16 bit")
         };
         assert_eq!(sixteen[0], [0, 65_535, 48_192]);

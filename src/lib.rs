@@ -7,6 +7,9 @@
 //! ```
 #![forbid(unsafe_code)]
 
+// The code that pest makes of the grammar names it.
+extern crate alloc;
+
 pub mod accuracy;
 pub mod color;
 pub mod diagnostic;

@@ -14,7 +14,7 @@ const SIDE: u32 = 64;
 pub fn pilot(world: &World, plan: &mut Plan) {
     let frame = thinned(plan.frame);
     let small = Plan { frame, antialias: Antialias::Off, ..plan.clone() };
-    let options = TraceOptions { threads: Some(1) };
+    let options = TraceOptions::on_threads(1);
     let counters = trace(world, &small, &options, &Unwatched).counters;
     let camera = counters.camera.max(1) as f64;
     let mut all = 1.0;

@@ -3,7 +3,9 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+mod echo;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -89,45 +91,16 @@ impl<'a> Road<'a> {
         parse(self.sources.get(file), file, &options, &mut self.diagnostics)
     }
 
-    pub fn evaluate(&mut self, ast: &Ast) -> Scene {
+    pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
         let before = self.diagnostics.len();
+        // Only a tree with faults has echoes; others are large, and gone when they have run.
+        let faulty = self.diagnostics.has_errors().then(|| ast.clone());
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
-        self.drop_echoes(before);
-        scene
-    }
-
-    /// A bracket without its partner shifts everything after it: what evaluation then finds out of
-    /// place there is the same mistake once more. So is what it misses in a block that did not
-    /// parse, and after that on the same line.
-    fn drop_echoes(&mut self, parsed: usize) {
-        let line = |span: Span| {
-            (span.file, self.sources.get(span.file).position(span.start as usize).line)
-        };
-        let faults: Vec<(Code, Span)> = self
-            .diagnostics
-            .iter()
-            .take(parsed)
-            .filter(|fault| fault.severity == Severity::Error)
-            .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
-            .collect();
-        if faults.is_empty() {
-            return;
+        if let Some(ast) = &faulty {
+            echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
         }
-        let echoes = |at: Span| {
-            let reach = reach(&self.sources, at);
-            faults.iter().any(|&(code, fault)| {
-                let follows = at.start >= fault.start;
-                fault.file == at.file
-                    && (follows && code.shifts_what_follows()
-                        || (follows || fault.start <= reach) && line(fault) == line(at))
-            })
-        };
-        let keep = |later: &Diagnostic| {
-            let place = later.primary().map(|label| label.span);
-            !(later.code.is_about_place() && place.is_none_or(echoes))
-        };
-        self.diagnostics.retain_after(parsed, keep);
+        scene
     }
 
     /// Beyond a limit nothing is lowered: the scene is not whole, and its message was given.
@@ -144,25 +117,9 @@ impl<'a> Road<'a> {
     pub fn compile(&mut self, name: &str, bytes: Vec<u8>) -> (World, Origins) {
         let file = self.read(name, bytes);
         let ast = self.parse(file);
-        let scene = self.evaluate(&ast);
+        let scene = self.evaluate(ast);
         self.lower(scene)
     }
-}
-
-/// Where the block that begins at `at` ends, as far as its line shows it.
-fn reach(sources: &Sources, at: Span) -> u32 {
-    let text = &sources.get(at.file).text;
-    let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
-    let (line, mut depth) = (line.unwrap_or(""), 0);
-    let end = line.bytes().position(|byte| {
-        depth += match byte {
-            b'{' | b'(' | b'[' => 1,
-            b'}' | b')' | b']' => -1,
-            _ => return false,
-        };
-        depth <= 0
-    });
-    at.start + end.unwrap_or(line.len()) as u32
 }
 
 #[cfg(test)]

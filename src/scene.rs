@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
@@ -117,6 +117,12 @@ pub enum ModifierKind {
     /// Replaces the interior.
     Interior(InteriorId),
     NoShadow,
+    /// True: the camera does not see it. False undoes it for a declared object.
+    NoImage(bool),
+    /// Likewise, mirrors do not.
+    NoReflection(bool),
+    /// Likewise, it is lit on both sides by light on either.
+    DoubleIlluminate(bool),
     Inverse,
 }
 
@@ -126,6 +132,17 @@ pub struct LightSource {
     pub color: Rgb,
     pub kind: LightKind,
     pub shadowless: bool,
+    /// `None`: as bright at any distance.
+    pub fade: Option<Fade>,
+}
+
+/// How light loses strength with the distance d: it is 2/(1 + (d/distance)^power) of its colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fade {
+    /// Where it is all of its colour: more than 0. No transform changes it (measured on POV-Ray 3.7).
+    pub distance: f64,
+    /// More than 0.
+    pub power: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -142,6 +159,30 @@ pub enum LightKind {
     Direction {
         to_light: Vector,
     },
+    /// A cone of light around the line from `location` to `point_at`.
+    Spotlight {
+        location: Vector,
+        point_at: Vector,
+        beam: Beam,
+    },
+    /// Parallel rays, only near the line from `location` through `point_at`.
+    Cylinder {
+        location: Vector,
+        point_at: Vector,
+        beam: Beam,
+    },
+}
+
+/// How a light falls off around its axis: in degrees for a spotlight, in units, which no transform
+/// changes (measured on POV-Ray 3.7), for a cylinder of light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// The bright middle.
+    pub radius: f64,
+    /// The edge, where it is dark.
+    pub falloff: f64,
+    /// How fast it fades already in the middle.
+    pub tightness: f64,
 }
 
 /// A pigment and a finish; a transform moves what precedes it.
@@ -203,6 +244,9 @@ pub struct FinishOrigin {
     pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
+    /// The first word of the seed's, and of POV-Ray's.
+    pub seed: Option<(Word, Site)>,
+    pub classic: Option<(Word, Site)>,
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").
@@ -211,7 +255,6 @@ pub struct ClassicFinish {
     pub ambient: Rgb,
     pub emission: Rgb,
     pub diffuse: f64,
-    /// `diffuse albedo`: `diffuse` is then the reflectance over the hemisphere.
     pub brilliance: f64,
     pub phong: f64,
     pub phong_size: f64,
@@ -288,8 +331,8 @@ pub struct SkySphere {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     pub ambient_light: Rgb,
-    /// The exponent that turns the scene's colours into linear light; 1 for none.
-    pub assumed_gamma: f64,
+    /// What turns the scene's colours into linear light.
+    pub assumed_gamma: Gamma,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     /// Where `max_trace_level` was written.
@@ -300,7 +343,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             ambient_light: Rgb::WHITE,
-            assumed_gamma: 1.0,
+            assumed_gamma: Gamma::LINEAR,
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             max_trace_level_site: None,

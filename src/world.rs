@@ -6,7 +6,7 @@
 
 pub mod print;
 
-use crate::color::{Color, Rgb};
+use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
@@ -126,8 +126,32 @@ pub struct Object {
     /// Index into `World::interiors`; `None` is filled with air.
     pub interior: Option<u32>,
     pub casts_shadow: bool,
+    /// Rays that come from the camera, straight or through others, meet it.
+    pub in_image: bool,
+    /// Rays that have been mirrored meet it.
+    pub in_reflections: bool,
+    /// Light on one side of the surface lights the other, too.
+    pub double_illuminate: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
+}
+
+impl Object {
+    /// A shape of which nothing else is said: the first material, filled with air.
+    pub fn plain(shape: Shape) -> Self {
+        Self {
+            shape,
+            material: 0,
+            texture_from_world: None,
+            faces: None,
+            interior: None,
+            casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
+            inverse: false,
+        }
+    }
 }
 
 /// What a solid is filled with. It only matters where light goes into it.
@@ -234,6 +258,34 @@ pub struct Light {
     pub kind: LightKind,
     pub color: Rgb,
     pub casts_shadows: bool,
+    /// `None`: it shines everywhere in its colour.
+    pub attenuation: Option<Attenuation>,
+}
+
+/// Where a light is less than its colour: the product of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attenuation {
+    pub beam: Option<Beam>,
+    pub fade: Option<Fade>,
+}
+
+/// With s(a, b; v) = t²(3 − 2t), t = (v − a)/(b − a) kept within 0 … 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beam {
+    /// Of a point light: c^tightness · s(edge, core; c), c the cosine of the angle between `axis` and
+    /// the light's way; 0 where c ≤ 0.
+    Cone { axis: UnitVector, edge: f64, core: f64, tightness: f64 },
+    /// Of a parallel light, before its plane: d^tightness · s(0, core; d), d = 1 − r/radius, r the
+    /// distance from its axis; 0 where d ≤ 0.
+    Cylinder { radius: f64, core: f64, tightness: f64 },
+}
+
+/// 2/(1 + (d/distance)^power) at the distance d; before and behind a parallel light's plane, that from
+/// the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fade {
+    pub distance: f64,
+    pub power: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -295,12 +347,12 @@ pub struct Settings {
     pub max_trace_level: u32,
     /// A path whose weight falls below this in every component is not followed.
     pub adc_bailout: f64,
-    /// The exponent that turns the film's colours into linear light.
-    pub assumed_gamma: f64,
+    /// What turns the film's colours into linear light.
+    pub assumed_gamma: Gamma,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: 1.0 }
+        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: Gamma::LINEAR }
     }
 }

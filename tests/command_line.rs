@@ -173,8 +173,12 @@ fn stats_are_one_object_of_json_or_a_table() {
     assert_eq!((stats["objects"].as_u64(), stats["lights"].as_u64()), (Some(1), Some(1)));
     assert_eq!(stats["rays"]["camera"].as_u64(), Some(16 * 8));
     assert!(stats["rays"]["shadow"].is_u64() && stats["rays"]["reflection"].is_u64());
+    // One ball: no tree of boxes, and an equation for each ray that may meet it.
+    let solves = stats["work"]["root_solves"].as_u64().expect("a count");
+    assert!((1..=16 * 8 * 2).contains(&solves) && stats["work"]["box_visits"] == 0, "{stats}");
+    let words = ["peak memory", "camera rays", "box visits", "root solves"];
     let table = place.run("--stats a.scene --size 16x8").ends(0, &[]).stdout();
-    assert!(table.contains(" CPU s\n") && table.contains("peak memory"), "{table}");
+    assert!(table.contains(" CPU s\n") && words.iter().all(|word| table.contains(word)), "{table}");
 }
 
 #[test]
@@ -474,6 +478,10 @@ fn a_limit_is_four() {
     let place = Place::new();
     place.write("loop.scene", &format!("{SCENE}#while (1) #end\n"));
     place.run("check loop.scene --limit loop-turns=1000").ends(4, &["loop-limit"]);
+    let text = "#declare T = \"a\"; #for (I, 1, 30) #declare T = concat(T, T); #end";
+    place.write("text.scene", text);
+    place.run("check text.scene").ends(4, &["string-limit", "16 MiB", "--limit string=N"]);
+    place.run("check text.scene --limit string=1").ends(4, &["string-limit", "1 MiB"]);
     // Whatever else was wrong: it was the limit that stopped it.
     place.write("both.scene", "#include \"nowhere.inc\"\n#while (1) #end\n");
     let both = ["missing-include", "loop-limit"];
@@ -490,6 +498,45 @@ fn the_first_assumed_gamma_counts_as_in_pov_ray() {
     );
     let world = place.run("show twice.scene --stage world").ends(0, &[]).stdout();
     assert!(world.contains("assumed_gamma 1.8"), "{world}");
+}
+
+#[test]
+fn assumed_gamma_srgb_is_the_displays_own_curve_so_its_numbers_are_shown_as_written() {
+    let place = Place::new();
+    let scene = "global_settings { assumed_gamma srgb } background { rgb <0.5, 0.02, 0.8> }";
+    place.write("curve.scene", scene);
+    place.run("render curve.scene -o curve.ppm --size 1x1").ends(0, &[]);
+    // The numbers POV-Ray shows: 255 times what is written. With 2.2 they are 128, 0 and 205.
+    let image = place.read("curve.ppm");
+    assert_eq!(image[image.len() - 3..], [128, 5, 204]);
+}
+
+#[test]
+fn a_parallel_light_without_point_at_shines_at_z_in_a_pov_file_as_in_pov_ray() {
+    let place = Place::new();
+    let lamp = "#version 3.7; global_settings { assumed_gamma 1 } camera { location -9*z }
+        light_source { <-5, 6, 2>, rgb 1 parallel } sphere { 0, 1 }";
+    for (name, shown) in [("a.pov", "<0, 0, 1>"), ("b.scene", "<0, 0, 0>")] {
+        place.write(name, lamp);
+        let scene = place.run(&format!("show {name} --stage scene")).ends(0, &[]).stdout();
+        assert!(scene.contains(&format!("parallel point_at {shown}")), "{scene}");
+    }
+}
+
+#[test]
+fn a_background_is_darker_by_its_transmit_as_in_pov_ray() {
+    let place = Place::new();
+    for (written, shown) in [
+        ("rgbt <0.8, 0.6, 0.4, 0.5>", "<0.4, 0.3, 0.2>"),
+        ("rgbft <0.5, 1, 0, 0.3, 0.75>", "<0.125, 0.25, 0>"),
+        ("rgbf <0.8, 0.6, 0.4, 0.5>", "<0.8, 0.6, 0.4>"),
+        ("rgbt <0.8, 0.6, 0.4, 1>", "<0, 0, 0>"),
+        ("color 0.5", "<0.25, 0.25, 0.25>"),
+    ] {
+        place.write("sky.scene", &format!("background {{ {written} }} {SCENE}"));
+        let world = place.run("show sky.scene --stage world").ends(0, &[]).stdout();
+        assert!(world.contains(&format!("\nbackground {shown}\n")), "{written}: {world}");
+    }
 }
 
 // ── check ──
@@ -675,6 +722,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let table = run.stdout();
     assert!(table.starts_with("a.scene 48×36: 1728 audited pixels (seed 1), "), "{table}");
     assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
+    assert!(table.contains("  rays/px  boxes/px  roots/px "), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
     // Nothing reflects.
     assert!(!table.contains("depth"), "{table}");
@@ -694,6 +742,9 @@ fn accuracy_writes_json_and_a_diagram() {
     assert_eq!(report["knobs"][0]["settings"][0]["flag"], "--antialias off");
     let rays = report["rows"][1]["rays"]["camera"].as_u64();
     assert_eq!(rays, Some(32 * 24));
+    let work = &report["rows"][1]["work"];
+    assert!(work["root_solves"].as_u64().is_some_and(|solves| solves > 0), "{work}");
+    assert_eq!(work["box_visits"], 0);
     let svg = String::from_utf8(place.read("d.svg")).expect("text");
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     assert!(svg.contains("prefers-color-scheme:dark"));

@@ -234,7 +234,10 @@ impl Case {
 /// Why a case fails; empty when it does not.
 fn failures(case: &Case) -> String {
     let (found, sources) = messages(case.name(), case.bytes(&case.scene), &case.files());
-    let mut found: Vec<Expected> = found.iter().map(|one| said(one, &sources)).collect();
+    // The cases leave pigments out where they are not about them.
+    let about_pigments = case.expected.iter().any(|wanted| wanted.code == Code::NoPigment.name());
+    let found = found.iter().filter(|one| one.code != Code::NoPigment || about_pigments);
+    let mut found: Vec<Expected> = found.map(|one| said(one, &sources)).collect();
     let mut wrong = String::new();
     for wanted in &case.expected {
         // The one that fits; else the one at the same place, or of the same code, is shown beside it.
@@ -316,7 +319,9 @@ fn bad_fixes(case: &Case) -> String {
             after.iter().filter(said_before).map(|other| other.message.as_str()).collect();
         // A missing closer may hide other mistakes, and they are told once it stands.
         // So may a name in other quotes: whether there is such a file.
+        // A misspelt directive hides what it does.
         let hides = one.code.shifts_what_follows()
+            || one.code == Code::UnknownDirective
             || after.iter().any(|other| other.code == Code::MissingInclude);
         // And the block of a misspelt word.
         let end = one.fixes.iter().map(|fix| fix.span.end as usize).max().unwrap_or(0);

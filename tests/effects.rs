@@ -1,7 +1,7 @@
 //! Only what is called for, over every scene of `scenes/`: counters are zero for what is off, every place
 //! that a line quotes can be taken out, and without them all the effect is gone.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -104,12 +104,13 @@ fn without(spans: &[Span], sources: &Sources) -> Changed {
 }
 
 fn traced(world: &World, plan: &Plan) -> Traced {
-    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+    trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
 }
 
 #[test]
 fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole() {
     let mut quoted = 0;
+    let mut called_for = BTreeSet::from([Effect::Antialiasing]);
     for name in scenes() {
         let seen = see(&name, &Changed::default());
         assert_eq!(seen.errors, "", "{name}");
@@ -117,6 +118,7 @@ fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole(
             let spans: Vec<Span> = called.by.iter().map(|site| site.span).collect();
             assert!(!spans.is_empty(), "{name}: nobody called for {:?}", called.effect);
             quoted += spans.len();
+            called_for.insert(called.effect);
             let text = |span: &Span| seen.sources.text(*span).to_owned();
             let pieces: Vec<String> = spans.iter().map(text).collect();
             let rest = see(&name, &without(&spans, &seen.sources));
@@ -130,6 +132,7 @@ fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole(
         }
     }
     assert!(quoted > 300, "{quoted} places");
+    assert_eq!(called_for, BTreeSet::from(Effect::ALL), "each effect in some scene");
 }
 
 #[test]
@@ -137,9 +140,15 @@ fn what_is_off_is_counted_zero() {
     for name in scenes() {
         let Seen { world, plan, .. } = see(&name, &Changed::default());
         let counters = traced(&world, &plan).counters;
-        for (effect, rays) in
-            [(Effect::Shadows, counters.shadow), (Effect::Reflection, counters.reflection)]
-        {
+        for (effect, rays) in [
+            (Effect::Shadows, counters.shadow),
+            // At a clear surface that lets nothing through all is reflected.
+            (
+                Effect::Reflection,
+                if plan.simulates(Effect::Transparency) { 0 } else { counters.reflection },
+            ),
+            (Effect::Transparency, counters.transmission),
+        ] {
             assert!(plan.simulates(effect) || rays == 0, "{name}: {effect:?} {rays}");
         }
     }
@@ -175,6 +184,14 @@ light_source { <4, 8, 6>, rgb 1 }
 sphere { 0, 1 pigment { rgb 1 } }
 ";
 
+/// A clear sheet under a lamp whose light it does not stop, and nothing else.
+const CLEAR: &str = "camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+plane { y, -3 pigment { rgb 1 } }
+#declare Window = texture { pigment { rgbt <1, 1, 1, 1> } finish { ambient 0 diffuse 0 } }
+box { -1, <1, -0.9, 1> texture { Window } no_shadow }
+";
+
 /// The lines of a plan: effects on with their places, but for antialiasing.
 fn lines(seen: &Seen) -> BTreeMap<&'static str, Vec<String>> {
     let effects = seen.plan.effects.iter().filter(|c| c.effect != Effect::Antialiasing);
@@ -184,7 +201,29 @@ fn lines(seen: &Seen) -> BTreeMap<&'static str, Vec<String>> {
 
 #[test]
 fn one_object_with_one_effect_changes_exactly_its_line() {
-    let cases: [(&str, &str, Effect, &str); 8] = [
+    let unlit = "sphere { 0, 1 }";
+    // An object that answers a light which throws no shadow of it: one that does is called for by the
+    // light.
+    let unshadowed = "camera { location 9*z look_at 0 } light_source { 9, rgb 1 }
+sphere { 0, 1 no_shadow }";
+    // Clear or not, a ray ends at the first surface.
+    let flat = "global_settings { max_trace_level 1 } light_source { 9, rgb 1 } sphere { 0, 1 }";
+    let dull = "finish { ambient 0 diffuse 0 }";
+    let window = format!("sphere {{ x, 1 pigment {{ rgbt <1, 1, 1, 0.5> }} {dull} }}");
+    let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
+    // Of the same window, so that no other piece of text calls for transparency.
+    let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
+    let cases: [(&str, &str, Effect, &str); 13] = [
+        (
+            unlit,
+            "light_source { 9, rgb 1 shadowless }",
+            Effect::Diffuse,
+            "light_source { 9, rgb 1 shadowless }",
+        ),
+        (unshadowed, "sphere { x, 1 }", Effect::Shadows, "light_source { 9, rgb 1 }"),
+        (BARE, &window, Effect::Transparency, "rgbt <1, 1, 1, 0.5>"),
+        (CLEAR, filled, Effect::Refraction, "interior { ior 1.5 }"),
+        (flat, &filter, Effect::ColoredShadows, "rgbf <1, 0, 0, 1>"),
         (
             BARE,
             "sphere { x, 1 finish { diffuse 0 reflection 0.3 } }",

@@ -41,11 +41,12 @@ fn codes(example: &Example) -> Vec<String> {
     fs::write(folder.path().join("elsewhere.inc"), "\n").expect("written");
     let name = format!("example.{}", example.extension);
     let mut bytes = Vec::new();
-    let mut parts = example.text.split("\\xE9");
+    let mut parts = example.text.split("\\x");
     bytes.extend(parts.next().unwrap_or_default().as_bytes());
     for part in parts {
-        bytes.push(0xe9);
-        bytes.extend(part.as_bytes());
+        let (byte, rest) = part.split_at(2);
+        bytes.push(u8::from_str_radix(byte, 16).expect("two digits"));
+        bytes.extend(rest.as_bytes());
     }
     fs::write(inside.join(&name), bytes).expect("written");
     let output = Command::new(env!("CARGO_BIN_EXE_lucarne"))

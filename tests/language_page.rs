@@ -52,17 +52,24 @@ fn words() -> String {
     for family in families {
         let words = || Word::ALL.iter().filter(move |word| word.family() == family);
         let _ = write!(page, "\n### {}\n\n", title(family));
+        let rows = |page: &mut String, wanted: fn(&Word) -> bool| {
+            for word in words().filter(|word| wanted(word)) {
+                let sentence = word.sentence().replace('|', "\\|");
+                let _ = writeln!(page, "| `{}` | {sentence} |", word.name());
+            }
+        };
         let built = words().any(|word| word.is_built());
         if built {
             page.push_str("| word | means |\n|---|---|\n");
-            for word in words().filter(|word| word.is_built()) {
-                let _ = writeln!(
-                    page,
-                    "| `{}` | {} |",
-                    word.name(),
-                    word.sentence().replace('|', "\\|")
-                );
-            }
+            rows(&mut page, |word| word.is_built() && !word.is_inert());
+        }
+        if words().any(|word| word.is_inert()) {
+            let gap = if built { "\n" } else { "" };
+            let _ = write!(
+                page,
+                "{gap}Read and checked, and without effect on any picture:\n\n| word | says |\n|---|---|\n"
+            );
+            rows(&mut page, |word| word.is_inert());
         }
         let later: Vec<String> = words()
             .filter(|word| !word.is_built())

@@ -25,7 +25,7 @@ fn stages(name: &str, text: &str) -> String {
     let file = road.read(name, text.as_bytes().to_vec());
     let ast = road.parse(file);
     let ast_text = lucarne::syntax::dump(&ast, road.sources.get(file));
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     let scene_text = lucarne::scene::print::dump(&scene, &road.sources);
     let (world, origins) = road.lower(scene);
     let plan = plan(&world, &origins, &PLAN);

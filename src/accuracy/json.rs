@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{Estimate, Metric, Report, Verdict};
+use crate::geometry;
 use crate::trace::Counters;
 
 /// What was measured where.
@@ -64,6 +65,7 @@ struct RowJson<'a> {
     cpu_s: &'a [f64],
     wall_s: &'a [f64],
     rays: Rays,
+    work: Work,
     errors: Errors,
     resolved: bool,
     #[serde(flatten)]
@@ -102,6 +104,12 @@ struct Rays {
     shadow: u64,
     reflection: u64,
     transmission: u64,
+}
+
+#[derive(Serialize)]
+struct Work {
+    box_visits: u64,
+    root_solves: u64,
 }
 
 #[derive(Serialize)]
@@ -145,12 +153,14 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
     });
     let rows = report.rows.iter().enumerate().map(|(place, row)| {
         let [rmse, p99, bad] = row.errors.map(Bounds::from);
-        let Counters { camera, shadow, reflection, transmission } = row.counters;
+        let Counters { camera, shadow, reflection, transmission, work } = row.counters;
+        let geometry::Work { box_visits, root_solves } = work;
         RowJson {
             name: &row.name,
             cpu_s: &row.times.cpu,
             wall_s: &row.times.wall,
             rays: Rays { camera, shadow, reflection, transmission },
+            work: Work { box_visits, root_solves },
             errors: Errors { rmse, p99, bad },
             resolved: report.is_resolved(place),
             verdict: row.verdict.into(),

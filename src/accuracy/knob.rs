@@ -143,7 +143,7 @@ impl Knob {
 
 /// What rays cost, in rays of the camera: fitted to CPU seconds of the gallery's scenes.
 pub fn cost(counters: &Counters) -> f64 {
-    let Counters { camera, shadow, reflection, transmission } = *counters;
+    let Counters { camera, shadow, reflection, transmission, work: _ } = *counters;
     camera as f64 + 0.6 * shadow as f64 + reflection as f64 + transmission as f64
 }
 

@@ -23,7 +23,7 @@ pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Spent, TooSmall, keep, spend};
 pub use statistics::{Estimate, Metric};
 
-use crate::plan::{Frame, Plan, PlanOptions, plan};
+use crate::plan::{Frame, Plan, PlanOptions, Region, plan};
 use crate::trace::{Counters, Sampling, TraceOptions, Watch};
 use crate::world::{Origins, World};
 use front::Point;
@@ -121,13 +121,10 @@ impl Report {
         self.error(row).value >= self.resolution()
     }
 
-    pub fn pixels(&self) -> f64 {
-        f64::from(self.frame.region.width) * f64::from(self.frame.region.height)
-    }
-
-    pub fn rays_a_pixel(&self, row: usize) -> f64 {
-        let Counters { camera, shadow, reflection, transmission } = self.rows[row].counters;
-        (camera + shadow + reflection + transmission) as f64 / self.pixels()
+    /// Of a count of the whole picture.
+    pub fn a_pixel(&self, count: u64) -> f64 {
+        let Region { width, height, .. } = self.frame.region;
+        count as f64 / (f64::from(width) * f64::from(height))
     }
 }
 
@@ -177,6 +174,8 @@ pub fn accuracy(
     let geometry = Geometries::new(world);
     let quiet = Quiet(watch);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
+    // All alike, so that their times compare.
+    let counted = TraceOptions { count_work: true, ..options.trace };
     let region = options.frame.region;
     let list = audit::sets(region, audit::WANTED, 1, options.seed).remove(0);
     watch.built();
@@ -186,7 +185,7 @@ pub fn accuracy(
     called.iter().for_each(|knob| (knob.set)(&mut cheapest, knob.settings[0]));
     let mut pilot = [Times::default(), Times::default()];
     let plans = [plan(world, origins, &cheapest), plan(world, origins, &own)];
-    measure::round(world, &plans, &options.trace, clock, &quiet, &mut pilot)?;
+    measure::round(world, &plans, &counted, clock, &quiet, &mut pilot)?;
     let most =
         dearest_that_fit(&called, &own, (pilot[0].wall[0], pilot[1].wall[0]), options.budget);
 
@@ -226,7 +225,7 @@ pub fn accuracy(
         watch.progress(colors.len(), steps);
     }
     let mut times = vec![Times::default(); rows.plans.len()];
-    let counters = measure::round(world, &rows.plans, &options.trace, clock, &quiet, &mut times)?;
+    let counters = measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
     watch.progress(2 * rows.plans.len(), steps);
     let a_round = elapsed();
 
@@ -255,7 +254,7 @@ pub fn accuracy(
     let mut round_takes = times.iter().map(|times| times.wall[0]).sum::<f64>();
     while runs < MOST_ROUNDS && elapsed() + round_takes < options.budget {
         let before = elapsed();
-        measure::round(world, &rows.plans, &options.trace, clock, &quiet, &mut times)?;
+        measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
         (runs, round_takes) = (runs + 1, elapsed() - before);
     }
     watch.progress(steps, steps);

@@ -6,8 +6,7 @@
 use std::sync::OnceLock;
 
 use super::statistics::{Deviation, Metric};
-use crate::color::Rgb;
-use crate::film::linear;
+use crate::color::{Gamma, Rgb};
 use crate::geometry::Geometry;
 use crate::plan::{Plan, Precision};
 use crate::trace::{self, Counters, Sampling, TraceOptions, Watch, pixels};
@@ -17,8 +16,8 @@ use crate::world::World;
 const SIDES: [u32; 7] = [8, 11, 16, 23, 32, 45, 64];
 
 /// A colour as errors are measured: linear, clamped to 0 … 1.
-pub fn clamped(radiance: Rgb, assumed_gamma: f64) -> [f64; 3] {
-    radiance.components().map(|c| linear(c, assumed_gamma).min(1.0))
+pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
+    radiance.components().map(|c| assumed_gamma.linear(c).min(1.0))
 }
 
 /// The same World in each arithmetic, the second made when it is first asked for.
@@ -53,7 +52,9 @@ impl Studio<'_> {
         let Self { world, geometry, options, watch } = *self;
         let geometry = match plan.precision {
             Precision::Double => &geometry.double,
-            Precision::Single => geometry.single.get_or_init(|| trace::geometry(world, plan)),
+            Precision::Single => {
+                geometry.single.get_or_init(|| trace::geometry(world, plan, &options))
+            }
         };
         let seen = pixels(world, geometry, plan, list, sampling, &options, watch)?;
         let gamma = world.settings.assumed_gamma;

@@ -33,11 +33,13 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
     )?;
     writeln!(
         out,
-        "  {:22} {:>15} {:>8} {:>9}  {:>9} {:21} worth it?",
+        "  {:22} {:>15} {:>8} {:>9} {:>9} {:>9}  {:>9} {:21} worth it?",
         "setting",
         "CPU min..median",
         "wall",
         "rays/px",
+        "boxes/px",
+        "roots/px",
         heading(report.metric),
         "95 % interval"
     )?;
@@ -48,12 +50,14 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
             let (cpu, wall) = (Span::of(&row.times.cpu), Span::of(&row.times.wall));
             writeln!(
                 out,
-                "{} {:22} {:>15} {:>8} {:>9.2}  {:>9} {:21} {}",
+                "{} {:22} {:>15} {:>8} {:>9.2} {:>9.2} {:>9.2}  {:>9} {:21} {}",
                 if setting.is_own { '*' } else { ' ' },
                 setting.label,
                 format!("{}..{}", seconds(cpu.min), seconds(cpu.median)),
                 seconds(wall.min),
-                report.rays_a_pixel(setting.row),
+                report.a_pixel(row.counters.rays()),
+                report.a_pixel(row.counters.work.box_visits),
+                report.a_pixel(row.counters.work.root_solves),
                 error(report, setting.row),
                 bounds(report, report.error(setting.row)),
                 verdict(report, knob, setting)

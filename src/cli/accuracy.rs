@@ -61,7 +61,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         metric: arguments.metric.into(),
         budget: (arguments.budget - clock.wall_seconds()).max(0.0),
         seed: arguments.seed,
-        trace: TraceOptions { threads: Some(threads) },
+        trace: TraceOptions::on_threads(threads),
     };
     let progress = Progress::start();
     let report = accuracy(&world, &origins, &options, &clock, &progress);

@@ -86,7 +86,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     #[arg(allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Print times, memory and rays, as a table or as JSON
+    /// Print times, memory, rays and what they took, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
     pub stats: Option<Option<StatsFormat>>,
     /// Overwrite OUT even where it is not a picture. (A picture is always overwritten; a file the scene
@@ -267,7 +267,7 @@ pub struct SceneArguments {
     #[arg(short = 'D', long = "declare", value_name = "NAME=VALUE", value_parser = declare)]
     declares: Vec<(String, f64)>,
     /// Raise or lower a limit: loop-turns, macro-depth, include-depth, nesting, objects, memory
-    /// (in MiB), pixels
+    /// and string (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
     /// Warn about what is probably a mistake, in `.pov` files too
@@ -330,6 +330,7 @@ impl SceneArguments {
                 Limit::Nesting => options.evaluate.limits.nesting = small,
                 Limit::Objects => options.evaluate.limits.objects = n,
                 Limit::Memory => options.evaluate.limits.memory = n,
+                Limit::String => options.evaluate.limits.string = n,
                 Limit::Pixels => {}
             }
         }

@@ -51,7 +51,7 @@ fn compiled<T>(
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
     if !arguments.syntax_only {
-        let scene = road.evaluate(&ast);
+        let scene = road.evaluate(ast);
         road.lower(scene);
     }
     then(&road)

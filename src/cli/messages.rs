@@ -131,6 +131,7 @@ fn is_limit(code: Code) -> bool {
             | Code::IncludeLimit
             | Code::ObjectLimit
             | Code::MemoryLimit
+            | Code::StringLimit
             | Code::NestingLimit
     )
 }

@@ -1,7 +1,7 @@
 //! `lucarne plan`: what will be simulated, what called for it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, plan, print};
+use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, Precision, plan, print};
 use lucarne::road::Road;
 use lucarne::source::{Position, Site, Sources};
 use serde::Serialize;
@@ -45,6 +45,7 @@ struct Report<'a> {
     antialias: Smoothing,
     max_trace_level: u32,
     adc_bailout: f64,
+    precision: &'a str,
     kernel: &'a str,
     kernels_compiled: Vec<&'a str>,
     effects: Vec<Row<'a>>,
@@ -71,6 +72,9 @@ struct Row<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     cost: Option<&'a str>,
     called_for_by: Vec<Place<'a>>,
+    /// Where it is said that it is off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<Place<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rays_per_camera_ray: Option<f64>,
 }
@@ -99,6 +103,7 @@ struct Number<'a> {
 #[derive(Serialize)]
 struct Rays {
     per_camera_ray: f64,
+    camera_per_pixel: f64,
     camera: f64,
     all: f64,
     pilot: [u32; 2],
@@ -127,6 +132,7 @@ impl<'a> Report<'a> {
                 why: None,
                 cost: Some(&called.cost),
                 called_for_by: called.by.iter().copied().map(place).collect(),
+                place: None,
                 rays_per_camera_ray: called.rays,
             }));
             let left_out = plan.left_out.iter().filter(|left| left.effect == effect);
@@ -136,6 +142,7 @@ impl<'a> Report<'a> {
                 why: Some(&left.why),
                 cost: None,
                 called_for_by: Vec::new(),
+                place: left.site.map(place),
                 rays_per_camera_ray: None,
             }));
         }
@@ -154,6 +161,10 @@ impl<'a> Report<'a> {
             },
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
+            precision: match plan.precision {
+                Precision::Single => "single",
+                Precision::Double => "double",
+            },
             kernel: plan.kernel.name(),
             kernels_compiled: Kernel::ALL
                 .into_iter()
@@ -179,6 +190,7 @@ impl<'a> Report<'a> {
             },
             rays: plan.pilot.map(|pilot| Rays {
                 per_camera_ray: pilot.rays,
+                camera_per_pixel: plan.camera_rays_a_pixel(),
                 camera: plan.camera_rays(),
                 all: pilot.rays * plan.camera_rays(),
                 pilot: [pilot.width, pilot.height],

@@ -41,7 +41,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let file = road.read(&name_of(&arguments.file), bytes);
     let ast = road.parse(file);
     stats.parse_cpu_s = watch.lap();
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     stats.evaluate_cpu_s = watch.lap();
     let (world, origins) = road.lower(scene);
     stats.lower_cpu_s = watch.lap();
@@ -61,7 +61,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     watch.lap();
     let progress = Progress::start();
     let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
-    let threads = TraceOptions { threads };
+    let threads = TraceOptions { threads, count_work: arguments.stats.is_some() };
     let made = promise::make(arguments, (&world, &origins), &options, threads, &watch, &progress);
     progress.end();
     let Made { traced, said, exit } = made?;
@@ -82,7 +82,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     stats.wall_s = watch.wall_seconds();
     stats.peak_rss_bytes = peak_rss_bytes();
     (stats.objects, stats.lights) = (world.objects.len(), world.lights.len());
-    stats.rays = (&traced.counters).into();
+    stats.count(&traced.counters);
 
     if !traced.complete && exit == Exit::Interrupted {
         messages::eprint(&match written {

@@ -29,7 +29,7 @@ pub fn show(
     let text = if stage == Stage::Ast {
         syntax::dump(&ast, road.sources.get(file))
     } else {
-        let scene = road.evaluate(&ast);
+        let scene = road.evaluate(ast);
         if stage == Stage::Scene {
             scene::print::dump(&scene, &road.sources)
         } else {

@@ -1,8 +1,9 @@
-//! What a render took: CPU seconds of each stage, memory, rays.
+//! What a render took: CPU seconds of each stage, memory, rays, and what finding what they meet took.
 
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use lucarne::geometry;
 use lucarne::trace::Counters;
 use serde::Serialize;
 
@@ -26,6 +27,7 @@ pub struct Stats {
     pub objects: usize,
     pub lights: usize,
     pub rays: Rays,
+    pub work: Work,
 }
 
 /// Rays by what sent them.
@@ -37,14 +39,22 @@ pub struct Rays {
     pub transmission: u64,
 }
 
-impl From<&Counters> for Rays {
-    fn from(counters: &Counters) -> Self {
-        let Counters { camera, shadow, reflection, transmission } = *counters;
-        Self { camera, shadow, reflection, transmission }
-    }
+/// What it took to find what they meet: visits to nodes of the tree of boxes (four boxes each), and
+/// equations of shapes solved.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Work {
+    pub box_visits: u64,
+    pub root_solves: u64,
 }
 
 impl Stats {
+    pub fn count(&mut self, counters: &Counters) {
+        let Counters { camera, shadow, reflection, transmission, work } = *counters;
+        let geometry::Work { box_visits, root_solves } = work;
+        self.rays = Rays { camera, shadow, reflection, transmission };
+        self.work = Work { box_visits, root_solves };
+    }
+
     /// As one line of JSON, or as a table (`CPU s`: of all threads together); on standard error where a picture takes the other.
     pub fn print(&self, format: Option<StatsFormat>, to_stderr: bool) -> Result<(), Failure> {
         let text = match format {
@@ -78,6 +88,8 @@ impl Stats {
             count("shadow rays", self.rays.shadow),
             count("mirrored", self.rays.reflection),
             count("let through", self.rays.transmission),
+            count("box visits", self.work.box_visits),
+            count("root solves", self.work.root_solves),
         ]
         .concat()
     }

@@ -13,6 +13,7 @@ pub enum Limit {
     Nesting,
     Objects,
     Memory,
+    String,
     Pixels,
 }
 
@@ -113,7 +114,7 @@ pub fn limit(text: &str) -> Result<(Limit, u64), String> {
     let (name, value) =
         text.split_once('=').ok_or("expected NAME=N, such as objects=10000000".to_owned())?;
     let limit = Limit::from_str(name, true).map_err(|_| {
-        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, memory, pixels"
+        "the limits are loop-turns, macro-depth, include-depth, nesting, objects, memory, string, pixels"
             .to_owned()
     })?;
     let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;

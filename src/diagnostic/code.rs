@@ -64,6 +64,7 @@ codes! {
     MalformedNumber "malformed-number" error "a number is not written as a number";
     ExpectedExpression "expected-expression" error "a value was expected here";
     NestingLimit "nesting-limit" error "brackets are nested deeper than the limit";
+    ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
     BadEncoding "bad-encoding" warning "the file is not UTF-8 and was read as Latin-1";
     // words and names
     UnknownWord "unknown-word" error "a word is not known in this place";
@@ -96,6 +97,9 @@ codes! {
     EmptyScene "empty-scene" lint "the scene shows nothing";
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
+    NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
+    NoPigment "no-pigment" lint "an object has no pigment, and is black";
+    MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
     SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant";
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
     UnlikelyFinish "unlikely-finish" lint "a surface takes light away, or mirrors more than it gets";
@@ -115,6 +119,7 @@ codes! {
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";
     IncludeLimit "include-limit" error "files include each other deeper than the limit";
+    StringLimit "string-limit" error "a string is longer than the limit";
     MemoryLimit "memory-limit" error "what the scene has to remember is larger than the limit";
     ObjectLimit "object-limit" error "the scene has more objects than the limit";
     // the author's own

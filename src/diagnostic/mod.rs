@@ -7,6 +7,7 @@ mod code;
 mod excerpt;
 pub mod json;
 pub mod mend;
+mod quote;
 pub mod render;
 pub mod suggest;
 
@@ -143,10 +144,11 @@ impl Diagnostics {
         Self { list: Vec::new(), lints }
     }
 
-    pub fn push(&mut self, diagnostic: Diagnostic) {
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if diagnostic.code.is_lint() && !self.lints {
             return;
         }
+        diagnostic.shorten();
         // Loop turns and repeated calls say the same thing again: once is enough.
         let same = |other: &Diagnostic| {
             other.code == diagnostic.code

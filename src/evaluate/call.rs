@@ -5,6 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
+use super::builtin::CallErrorKind;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
@@ -139,17 +140,25 @@ impl Evaluator<'_> {
         if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
             return Ok(poison.clone());
         }
-        builtin::call(word, &values, &mut self.streams).map_err(|error| {
+        let longest = usize::try_from(self.options.limits.string.saturating_mul(1 << 20))
+            .unwrap_or(usize::MAX);
+        builtin::call(word, &values, &mut self.streams, longest).map_err(|error| {
             let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
                 match *argument {
                     Argument::Expression(id) => unit.expression(id).span,
                     Argument::Items(_) => span,
                 }
             });
-            let mut diagnostic =
-                Diagnostic::new(error.kind.code(), error.message).at(at, "expected another value");
+            let too_long = error.kind == CallErrorKind::TooLong;
+            let label = if too_long { "too much with this" } else { "expected another value" };
+            let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, label);
             diagnostic.help.extend(error.help);
-            self.report(here, diagnostic)
+            // As at every limit, nothing further is evaluated.
+            if too_long {
+                self.halt(here.expansion, diagnostic)
+            } else {
+                self.report(here, diagnostic)
+            }
         })
     }
 }

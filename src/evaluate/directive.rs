@@ -7,6 +7,7 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::Word;
 
+use super::scope::Owner;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
@@ -58,7 +59,7 @@ impl Evaluator<'_> {
                     return Err(self.report(here, diagnostic));
                 }
                 let symbol = here.symbol(*name);
-                self.scopes.note_declaration(symbol, here.site(*name_span), false);
+                self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                 self.push_for(here, symbol, [from, to, step], *body, id);
                 Ok(())
             }
@@ -177,7 +178,12 @@ impl Evaluator<'_> {
         if !target.indices.is_empty() {
             return self.assign_element(here, target, indices, value);
         }
-        self.scopes.note_declaration(symbol, here.site(target.span), in_main && !local);
+        let owner = match in_main {
+            true => Owner::Main,
+            false if local && self.in_macro_of_main(here) => Owner::Macro,
+            false => Owner::Other,
+        };
+        self.scopes.note_declaration(symbol, here.site(target.span), owner);
         self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
     }

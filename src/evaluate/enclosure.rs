@@ -156,7 +156,6 @@ impl Evaluator<'_> {
         let diagnostic = Diagnostic::new(Code::NestingLimit, message)
             .at(opened.span, "opened here once more")
             .help("`--limit nesting=N` raises the limit");
-        self.report_in(opened.expansion, diagnostic);
-        self.halted = true;
+        self.halt(opened.expansion, diagnostic);
     }
 }

@@ -4,6 +4,7 @@
 //! parameter that a call leaves out, at its end or empty between commas, is not declared inside
 //! (`optional` is version 3.8's; 3.7 has no such word).
 
+use std::collections::HashSet;
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -12,8 +13,10 @@ use crate::syntax::ast::{
     Argument, Arguments, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
 };
 
+use crate::vocabulary::Word;
+
 use super::report::count;
-use super::scope::{MacroId, Slot, Symbol};
+use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
@@ -34,6 +37,17 @@ enum MacroBody {
     Items(Items),
     /// Its parentheses do not pair where they are written.
     Raw,
+}
+
+impl Macro {
+    /// Its body, where it is written.
+    fn text(&self) -> Option<Span> {
+        let MacroBody::Items(body) = self.body else { return None };
+        match self.unit.ast.items(body) {
+            [] => None,
+            [first, .., last] | [first @ last] => Some(first.span.to(last.span)),
+        }
+    }
 }
 
 /// What a parameter is bound to.
@@ -66,8 +80,8 @@ impl Evaluator<'_> {
             unit: here.unit.clone(),
             defined: name_span,
         }));
-        let in_main = self.in_main();
-        self.scopes.note_declaration(symbol, here.site(name_span), in_main);
+        let owner = if self.in_main() { Owner::Main } else { Owner::Other };
+        self.scopes.note_declaration(symbol, here.site(name_span), owner);
         self.scopes.assign(symbol, Value::Macro(id));
     }
 
@@ -203,13 +217,33 @@ impl Evaluator<'_> {
         message: String,
         help: &str,
     ) -> Reported {
-        self.halted = true;
+        self.forget_echoes_of_calls(here.expansion);
         let name = self.scopes.name(definition.name);
         let diagnostic = Diagnostic::new(Code::MacroLimit, message)
             .at(span, format!("this call of `{name}` is one too many"))
             .also(definition.defined, "defined here")
             .help(help);
-        self.report(here, diagnostic)
+        self.halt(here.expansion, diagnostic)
+    }
+
+    /// What the calls that never ended were found to lack, they might have given at their end.
+    fn forget_echoes_of_calls(&mut self, innermost: ExpansionId) {
+        let expansions = &self.scene.expansions;
+        let names: HashSet<&str> =
+            expansions.chain(innermost).map(|expansion| expansions.name(expansion)).collect();
+        let called = |definition: &&Rc<Macro>| names.contains(self.scopes.name(definition.name));
+        let bodies: Vec<Span> =
+            self.macros.iter().filter(called).filter_map(|definition| definition.text()).collect();
+        let sources = &self.sources;
+        self.diagnostics.retain_after(0, |told| {
+            let Some(place) = told.primary().map(|label| label.span) else { return true };
+            let is_name =
+                told.code == Code::UnknownWord && Word::from_name(sources.text(place)).is_none();
+            let inside = bodies.iter().any(|body| {
+                body.file == place.file && body.range().contains(&(place.start as usize))
+            });
+            !(inside && told.code.is_about_place() && !is_name)
+        });
     }
 
     /// A lone name or `A[i]` is passed by reference, all else by value.

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::stream::TokenKind;
@@ -113,27 +113,37 @@ impl Evaluator<'_> {
         leftmost: ExpressionId,
     ) -> Outcome<Value> {
         let mut operations = Vec::new();
-        let mut first = id;
-        while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
-            operations.push((operator, left, right, here.unit.expression(first).span));
-            first = left;
+        let mut innermost = id;
+        while let ExpressionKind::Binary(_, left, _) = here.unit.expression(innermost).kind
+            && matches!(here.unit.expression(left).kind, ExpressionKind::Binary(..))
+        {
+            operations.push(innermost);
+            innermost = left;
         }
-        let mut value = self.expression(here, leftmost);
-        for (operator, left, right, span) in operations.into_iter().rev() {
-            // Both sides are evaluated before either fails: each may report, and both draw from streams.
-            let operand = self.expression(here, right);
-            value = match (value, operand) {
-                (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
-                (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => {
-                    Ok(poison)
-                }
-                (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
-                    let symbol = format!("`{}`", operator.symbol());
-                    self.operation_error(here, error, &symbol, span, [left, right], [&a, &b])
-                }),
-            };
+        let value = self.expression(here, leftmost);
+        let value = self.operation(here, innermost, value);
+        operations.into_iter().rev().fold(value, |value, id| self.operation(here, id, value))
+    }
+
+    /// One operation, whose left operand came to `value`.
+    fn operation(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        value: Outcome<Value>,
+    ) -> Outcome<Value> {
+        let expression = *here.unit.expression(id);
+        let ExpressionKind::Binary(operator, left, right) = expression.kind else { return value };
+        // Both sides are evaluated before either fails: each may report, and both draw from streams.
+        let operand = self.expression(here, right);
+        match (value, operand) {
+            (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
+            (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
+            (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
+                let symbol = format!("`{}`", operator.symbol());
+                self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
+            }),
         }
-        value
     }
 
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {
@@ -158,16 +168,15 @@ impl Evaluator<'_> {
 
     fn word_value(&mut self, here: &Here, word: Word, span: Span) -> Outcome<Value> {
         let axis = |v| Ok(Value::vector3(v));
+        let axis_of = |v| Ok(Components::new(v).map_or(Value::Broken, Value::Vector));
         let number = |n| Ok(Value::Number(n));
         match word {
             Word::X => axis(Vector::X),
             Word::Y => axis(Vector::Y),
             Word::Z => axis(Vector::Z),
-            Word::U => Ok(self.plane_axis([1.0, 0.0])),
-            Word::V => Ok(self.plane_axis([0.0, 1.0])),
-            Word::T => {
-                Ok(Components::new(&[0.0, 0.0, 0.0, 1.0]).map_or(Value::Broken, Value::Vector))
-            }
+            Word::U => axis_of(&[1.0, 0.0]),
+            Word::V => axis_of(&[0.0, 1.0]),
+            Word::T => axis_of(&[0.0, 0.0, 0.0, 1.0]),
             Word::Pi => number(std::f64::consts::PI),
             Word::True | Word::On | Word::Yes => number(1.0),
             Word::False | Word::Off | Word::No => number(0.0),
@@ -176,10 +185,6 @@ impl Evaluator<'_> {
             Word::Version => number(self.version),
             _ => Ok(Value::Poison(Poison { word, site: here.site(span) })),
         }
-    }
-
-    fn plane_axis(&self, components: [f64; 2]) -> Value {
-        Components::new(&components).map_or(Value::Broken, Value::Vector)
     }
 
     fn string_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
@@ -206,109 +211,6 @@ impl Evaluator<'_> {
         let text = self.sources.text(span);
         let text = text.strip_prefix('"').unwrap_or(text);
         text.strip_suffix('"').unwrap_or(text).to_owned()
-    }
-
-    fn vector_value(&mut self, here: &Here, components: Arguments, span: Span) -> Outcome<Value> {
-        let unit = here.unit.clone();
-        let arguments = unit.ast.arguments(components);
-        let mut numbers = Vec::with_capacity(arguments.len().min(8));
-        let mut failed = false;
-        let mut poison = None;
-        for argument in arguments {
-            let Argument::Expression(id) = *argument else {
-                failed = true;
-                continue;
-            };
-            match self.expression(here, id) {
-                Ok(Value::Number(number)) => numbers.push(number),
-                Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
-                Ok(other) => {
-                    let span = unit.expression(id).span;
-                    let diagnostic = Diagnostic::new(
-                        Code::WrongType,
-                        format!("a component of a vector is a number, this is {}", other.kind()),
-                    )
-                    .at(span, "expected a number");
-                    let text = self.sources.text(span);
-                    let diagnostic = match (&other, unit.expression(id).kind) {
-                        (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
-                            .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
-                        _ => diagnostic,
-                    };
-                    self.report(here, diagnostic);
-                    failed = true;
-                }
-                Err(Reported) => failed = true,
-            }
-        }
-        if failed {
-            return Err(Reported);
-        }
-        if let Some(poison) = poison {
-            return Ok(Value::Poison(poison));
-        }
-        match (Components::new(&numbers), numbers.as_slice()) {
-            (Some(components), _) => Ok(Value::Vector(components)),
-            // `<1>` is one number in brackets; POV-Ray takes it so too.
-            (None, [number]) => Ok(Value::Number(*number)),
-            (None, []) => {
-                let diagnostic = Diagnostic::new(Code::WrongArity, "this vector has no components")
-                    .at(span, "expected two to five numbers");
-                Err(self.report(here, diagnostic))
-            }
-            (None, many) => {
-                let message =
-                    format!("a vector has two to five components, this one has {}", many.len());
-                let diagnostic = Diagnostic::new(Code::WrongArity, message)
-                    .at(span, "too many components")
-                    .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
-                Err(self.report(here, diagnostic))
-            }
-        }
-    }
-
-    fn component_value(
-        &mut self,
-        here: &Here,
-        value: &Value,
-        component: Component,
-        base: Span,
-    ) -> Outcome<Value> {
-        if let Value::Poison(_) = value {
-            return Ok(value.clone());
-        }
-        let (index, span) = match component {
-            Component::Word(Word::Gray, span) => {
-                let Some(color) = value.as_color() else {
-                    return Err(self.wrong_type(here, base, "a colour before `.gray`", value));
-                };
-                let gray = 0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue;
-                let _ = span;
-                return Ok(Value::Number(gray));
-            }
-            Component::Word(word, span) => (component_index(word), span),
-            Component::Name(_, span) => (None, span),
-        };
-        let numbers = match value {
-            Value::Vector(_) | Value::Color(_) => value.numbers(),
-            _ => None,
-        };
-        let Some(numbers) = numbers else {
-            return Err(self.wrong_type(here, base, "a vector or a colour before the dot", value));
-        };
-        match index.and_then(|index| numbers.as_slice().get(index)) {
-            Some(number) => Ok(Value::Number(*number)),
-            None => {
-                let text = self.sources.text(span).to_owned();
-                let diagnostic = Diagnostic::new(
-                    Code::WrongArity,
-                    format!("`.{text}` is no component of {} with {} components", value.kind(), numbers.len()),
-                )
-                .at(span, "no such component")
-                .help("vectors have `.x .y .z .t`, or `.u .v`; colours have `.red .green .blue .filter .transmit .gray`");
-                Err(self.report(here, diagnostic))
-            }
-        }
     }
 
     fn operation_error(
@@ -395,17 +297,5 @@ impl Evaluator<'_> {
             return Err(self.report(&extra.here, diagnostic));
         }
         Ok(value)
-    }
-}
-
-/// Which number of a vector or colour a word after a dot means.
-pub(super) fn component_index(word: Word) -> Option<usize> {
-    match word {
-        Word::X | Word::U | Word::Red => Some(0),
-        Word::Y | Word::V | Word::Green => Some(1),
-        Word::Z | Word::Blue => Some(2),
-        Word::T | Word::Filter => Some(3),
-        Word::Transmit => Some(4),
-        _ => None,
     }
 }

@@ -201,7 +201,7 @@ impl Evaluator<'_> {
         let span = here.unit.expression(base).span;
         let (wanted, components) = self.signature(function);
         let index = match component {
-            Component::Word(word, _) => super::expression::component_index(word),
+            Component::Word(word, _) => super::vector::component_index(word),
             Component::Name(..) => None,
         };
         let Some(index) = index.filter(|index| *index < components && components > 1) else {

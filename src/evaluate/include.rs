@@ -102,7 +102,6 @@ impl Evaluator<'_> {
     }
 
     fn include_limit(&mut self, here: &Here, name: &str, span: Span) -> Reported {
-        self.halted = true;
         let innermost = self.including.last().cloned().unwrap_or_default();
         // The files between this one and the last time it was included.
         let since = |file: &&String| file.as_str() != name && **file != innermost;
@@ -130,7 +129,7 @@ impl Evaluator<'_> {
             .at(span, "this include is one too many")
             .help("raise the limit with `--limit include-depth=N`")
         };
-        self.report(here, diagnostic)
+        self.halt(here.expansion, diagnostic)
     }
 }
 

@@ -7,6 +7,8 @@ use crate::scene::Dialect;
 use crate::source::{FileId, Site, Span};
 use crate::vocabulary::{PREDECLARED, Word};
 
+use super::scope::Owner;
+use super::stream::Token;
 use super::value::Value;
 use super::{Evaluator, Here, Unit};
 
@@ -25,10 +27,16 @@ const RADIANS: [f64; 8] = [
 impl Evaluator<'_> {
     /// Names that were declared in the main file and never used: the scene knows them, and there is
     /// a lint for each.
-    pub(super) fn lint_declarations(&mut self) {
+    pub(super) fn lint_declarations(&mut self, main: &Unit) {
         let mut unused: Vec<(String, Site, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
-            if declared.used || !declared.global_in_main || name.starts_with('_') {
+            let theirs = match declared.of {
+                Owner::Main => true,
+                // A branch that was not run may use it, or a macro that this one calls.
+                Owner::Macro => self.is_only_declared(name, main),
+                Owner::Other => false,
+            };
+            if declared.used || !theirs || name.starts_with('_') {
                 continue;
             }
             // A word of the language cannot be declared; that has been told.
@@ -37,6 +45,11 @@ impl Evaluator<'_> {
             }
             let site = declared.site;
             let diagnostic = match value {
+                None if declared.of == Owner::Macro => Diagnostic::new(
+                    Code::UnusedDeclaration,
+                    format!("`{name}` is declared in a macro, and never used"),
+                )
+                .at(site.span, "declared here"),
                 Some(Value::Broken) | None => continue,
                 Some(Value::Object(_)) => Diagnostic::new(
                     Code::NeverPlaced,
@@ -57,6 +70,15 @@ impl Evaluator<'_> {
             self.scene.unused.push((name, site));
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// Whether the main file has this name only where it declares it. A comment that has it counts for
+    /// a use: better silent than wrong.
+    fn is_only_declared(&self, name: &str, main: &Unit) -> bool {
+        let declared = main.declarations().filter(|(other, _)| main.ast.name(*other) == name);
+        let text = &self.sources.get(main.ast.file).text;
+        let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+        words.filter(|word| *word == name).count() == declared.count()
     }
 
     /// Names given from outside that no file of the scene has.
@@ -124,30 +146,70 @@ impl Evaluator<'_> {
         }
     }
 
+    /// A camera's angle in degrees. Of less than π, and with a fraction, it is rather one in radians than
+    /// that of a telescope.
+    pub(super) fn lint_camera_angle(&mut self, here: &Here, span: Span, degrees: f64) {
+        let text = self.sources.text(span);
+        let literal = text.chars().all(|c| c.is_ascii_digit() || c == '.');
+        if !(literal && degrees.fract() != 0.0 && (0.2..3.2).contains(&degrees)) {
+            return self.lint_degrees(here, span, &[degrees]);
+        }
+        let meant = degrees.to_degrees();
+        let diagnostic = Diagnostic::new(
+            Code::SuspiciousUnit,
+            "this angle looks like radians, and is taken as degrees",
+        )
+        .at(span, format!("{degrees} degrees: the view of a telescope"))
+        .help(format!("write degrees, or `degrees({text})`, which is {meant:.1}"));
+        self.report(here, diagnostic);
+    }
+
     /// A colour is 0 to 1; this one looks like 0 to 255.
     pub(super) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: [f64; 3]) {
         let whole = rgb.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
         let largest = rgb.iter().fold(0.0f64, |most, c| most.max(*c));
-        // Lights may be brighter than 1; a grey of whole numbers may be meant so.
+        // Lights may be brighter than 1, and a grey of whole numbers may be meant so; not on a surface.
         let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
-        if whole && largest >= 16.0 && (!gray || largest == 255.0) {
-            let [red, green, blue] = rgb;
-            let diagnostic = Diagnostic::new(
-                Code::ColorRange,
-                "this colour looks as if written as 0 to 255; colours are 0 to 1",
-            )
-            .at(span, "far brighter than white")
-            .help(format!("write `<{red}, {green}, {blue}>/255`"));
-            let text = self.sources.text(span);
-            let diagnostic = match text.starts_with('<') && text.ends_with('>') {
-                true => {
-                    let text = format!("{text}/255");
-                    diagnostic.fix(span, text)
-                }
-                false => diagnostic,
-            };
-            self.report(here, diagnostic);
+        if !(whole && largest >= 16.0) || gray && largest != 255.0 && !self.in_pigment() {
+            return;
         }
+        let text = self.sources.text(span);
+        let literal = |c: char| c.is_ascii_digit() || c == '.';
+        let vector = text.starts_with('<') && text.ends_with('>');
+        let written = match vector || text.chars().all(literal) {
+            true => text.to_owned(),
+            false => format!("<{}, {}, {}>", rgb[0], rgb[1], rgb[2]),
+        };
+        let divided = format!("{written}/255");
+        let mut diagnostic = Diagnostic::new(
+            Code::ColorRange,
+            "this colour looks as if written as 0 to 255; colours are 0 to 1",
+        )
+        .at(span, "far brighter than white")
+        .help(format!("write `{divided}`"));
+        if written == text {
+            diagnostic = diagnostic.fix(span, divided);
+        }
+        self.report(here, diagnostic);
+    }
+
+    /// Whether what is read now is the colour of a surface.
+    fn in_pigment(&self) -> bool {
+        let word = |span: &Span| self.sources.text(*span);
+        self.openers
+            .last()
+            .is_some_and(|span| matches!(word(span), "pigment" | "color_map" | "colour_map"))
+    }
+
+    /// A `checker` with one of its two colours.
+    pub(super) fn lint_missing_color(&mut self, token: &Token) {
+        let diagnostic = Diagnostic::new(
+            Code::MissingColor,
+            "this `checker` has one colour; the other is green by default",
+        )
+        .at(token.span, "expected two colours after it")
+        .help("write both: `checker rgb 1, rgb 0`");
+        self.report(&token.here, diagnostic);
     }
 
     /// A surface that takes light away, or mirrors more than it gets.

@@ -27,6 +27,7 @@ mod stream;
 mod tests;
 mod turn;
 pub mod value;
+mod vector;
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -93,6 +94,8 @@ pub struct Limits {
     pub objects: u64,
     /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
     pub memory: u64,
+    /// MiB of one string.
+    pub string: u64,
 }
 
 impl Limits {
@@ -108,13 +111,14 @@ impl Default for Limits {
             nesting: 1_000,
             objects: 5_000_000,
             memory: 2_048,
+            string: 16,
         }
     }
 }
 
-/// Runs `main`; whatever is wrong goes to `diagnostics`.
+/// Runs `main`, which is gone then: of a big scene it is the larger half. Whatever is wrong goes to `diagnostics`.
 pub fn evaluate(
-    main: &Ast,
+    main: Ast,
     sources: &mut Sources,
     files: &dyn Files,
     options: &EvaluateOptions,
@@ -332,9 +336,10 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn run(&mut self, main: &Ast) {
-        let unit = self.unit(main.clone());
-        let main_name = self.sources.get(main.file).name.clone();
+    fn run(&mut self, main: Ast) {
+        let file = main.file;
+        let unit = self.unit(main);
+        let main_name = self.sources.get(file).name.clone();
         self.including.push(main_name);
         self.misread = self.diagnostics.has_errors();
         let root = unit.ast.root;
@@ -346,9 +351,9 @@ impl<'a> Evaluator<'a> {
         }
         // What a mistake kept from being run may be the use that is missing.
         if !self.halted && !self.diagnostics.has_errors() {
-            self.lint_declarations();
+            self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
-            self.warn_of_old_version(main.file);
+            self.warn_of_old_version(file);
         }
     }
 

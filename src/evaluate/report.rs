@@ -7,6 +7,7 @@ use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
 use crate::vocabulary::{Family, Role, Word};
 
+use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, Symbol};
@@ -21,6 +22,10 @@ impl Evaluator<'_> {
         expansion: ExpansionId,
         mut diagnostic: Diagnostic,
     ) -> Reported {
+        if self.halted {
+            // What is missing now is missing because nothing more is read.
+            return Reported;
+        }
         if let Some(span) = diagnostic.primary().map(|label| label.span) {
             let site = crate::source::Site { span, expansion };
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
@@ -28,6 +33,13 @@ impl Evaluator<'_> {
         self.reports += 1;
         self.diagnostics.push(diagnostic);
         Reported
+    }
+
+    /// A limit is reached: nothing further is evaluated.
+    pub(super) fn halt(&mut self, expansion: ExpansionId, diagnostic: Diagnostic) -> Reported {
+        let reported = self.report_in(expansion, diagnostic);
+        self.halted = true;
+        reported
     }
 
     pub(super) fn wrong_type(
@@ -60,7 +72,17 @@ impl Evaluator<'_> {
             )
             .at(span, format!("{subject} is {}", found.kind())),
         };
-        let diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        if let Value::String(found) = found
+            && matches!(wanted, "a colour" | "a vector")
+            && let Some(color) = color_of_string(found)
+        {
+            let color = if wanted == "a colour" { format!("rgb {color}") } else { color };
+            diagnostic = diagnostic.help(format!("write `{color}`"));
+            if name.is_none() {
+                diagnostic = diagnostic.fix(span, color);
+            }
+        }
         let diagnostic = match name.and_then(|symbol| self.scopes.declared(symbol)) {
             Some(declared) if declared.site.span != span => {
                 let site = declared.site;
@@ -210,8 +232,7 @@ impl Evaluator<'_> {
             _ => diagnostic,
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
-        self.halted = true;
-        Err(self.report(here, diagnostic))
+        Err(self.halt(here.expansion, diagnostic))
     }
 
     /// Whether more has to be remembered than the limit: then nothing further is evaluated.
@@ -236,8 +257,7 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::MemoryLimit, message).at(span, "reached before this").help(
                 "strings, maps, arrays and lists of transforms count; `--limit memory=N` raises the limit",
             );
-        self.halted = true;
-        self.report(here, diagnostic)
+        self.halt(here.expansion, diagnostic)
     }
 
     /// Something stands where a value should.
@@ -307,7 +327,11 @@ fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {
         Word::Texture => "layered textures are".to_owned(),
+        Word::Diffuse => "light that a surface scatters from behind is".to_owned(),
+        Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),
+        Word::Object => "the pattern `object` is".to_owned(),
+        Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
         Word::Fopen => format!("`#{name}` is"),
         _ if word.family() == Family::Pattern && word.is_built() => {
             format!("a `{name}` of textures is")
@@ -320,6 +344,7 @@ fn what_is_not_built(word: Word) -> String {
 fn built_beside(word: Word) -> Vec<String> {
     let fits = |other: &&Word| {
         other.is_built()
+            && !other.is_inert()
             && other.family() == word.family()
             && other.block() == word.block()
             && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())

@@ -28,13 +28,23 @@ impl Slot {
     const NONE: Self = Self(u32::MAX);
 }
 
+/// Whose a name is, where it was first declared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// The main file itself.
+    Main,
+    /// A macro of the main file, by `#local`.
+    Macro,
+    /// An include, a loop, or whoever reads what a macro has set by `#declare`.
+    Other,
+}
+
 /// What is known of a declared name: for messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Declared {
     pub site: Site,
     pub used: bool,
-    /// Declared in the main file itself, not in an include or a macro.
-    pub global_in_main: bool,
+    pub of: Owner,
     /// Where `#undef` forgot it last.
     pub undone: Option<Site>,
 }
@@ -266,9 +276,9 @@ impl Scopes {
     }
 
     /// Remembers where a name was first declared, for messages and lints.
-    pub fn note_declaration(&mut self, symbol: Symbol, site: Site, global_in_main: bool) {
+    pub fn note_declaration(&mut self, symbol: Symbol, site: Site, of: Owner) {
         let state = &mut self.states[symbol.0 as usize];
-        state.declared.get_or_insert(Declared { site, used: false, global_in_main, undone: None });
+        state.declared.get_or_insert(Declared { site, used: false, of, undone: None });
     }
 
     /// Remembers where a name was forgotten, for messages.

@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use crate::source::{ExpansionId, Span};
+use crate::source::{ExpansionId, ExpansionKind, FileId, Span};
 use crate::syntax::ast::{DirectiveId, ExpressionId, ExpressionKind, ItemKind, Items};
 use crate::vocabulary::Word;
 
@@ -199,6 +199,13 @@ impl Evaluator<'_> {
     /// Whether the next statement stands in the main file itself, outside of macros.
     pub(super) fn in_main(&self) -> bool {
         self.scopes.depth() == 1
+    }
+
+    /// Whether `here` is a macro of the main file being run.
+    pub(super) fn in_macro_of_main(&self, here: &Here) -> bool {
+        let innermost = self.scene.expansions.chain(here.expansion).next();
+        here.unit.ast.file == FileId(0)
+            && innermost.is_some_and(|expansion| expansion.kind == ExpansionKind::Macro)
     }
 
     /// The next item, not taken.

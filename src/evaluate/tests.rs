@@ -30,7 +30,7 @@ fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
     let mut road = Road::new(&Shadowing, options);
     let file = road.read("a.pov", format!("{head}{text}").into_bytes());
     let ast = road.parse(file);
-    road.evaluate(&ast);
+    road.evaluate(ast);
     let told =
         road.diagnostics.iter().filter(|one| one.severity != crate::diagnostic::Severity::Warning);
     told.map(|one| one.message.as_str()).collect::<String>().trim_end().to_owned()
@@ -224,7 +224,7 @@ fn finish(text: &str) -> Finish {
     let mut road = Road::new(&Shadowing, Options::new(Dialect::Scene));
     let file = road.read("a.scene", text.as_bytes().to_vec());
     let ast = road.parse(file);
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     assert!(road.diagnostics.is_empty(), "{:?}", road.diagnostics.iter().collect::<Vec<_>>());
     scene.finishes.last().cloned().unwrap_or_else(|| panic!("no finish"))
 }
@@ -281,4 +281,127 @@ fn a_long_sum_needs_no_deep_stack() {
     assert_eq!(printed(&chain), "7.000");
     let chain = format!("#if (0) {} #else P(8) #end", "#elseif (0) ".repeat(5_000));
     assert_eq!(printed(&chain), "8.000");
+}
+
+/// The World of a `.pov` text, and what was said of it.
+fn world(text: &str) -> (crate::world::World, String) {
+    let mut road = Road::new(&Shadowing, Options::new(Dialect::Pov));
+    let (world, _) = road.compile("a.pov", text.as_bytes().to_vec());
+    let messages: Vec<&str> = road.diagnostics.iter().map(|d| d.message.as_str()).collect();
+    (world, messages.join("; "))
+}
+
+const VERSION: &str = "#version 3.7; global_settings { assumed_gamma 1 } ";
+
+/// Two texts without a mistake that come to the same World.
+fn assert_alike(a: &str, b: &str) {
+    let [a, b] = [a, b].map(|text| world(&format!("{VERSION} {text}")));
+    assert_eq!(a.1, "");
+    assert_eq!(a, b);
+}
+
+#[test]
+fn inert_words_are_read_and_leave_no_trace() {
+    assert_alike(
+        "global_settings { max_intersections 9 number_of_waves 3 noise_generator 2 hf_gray_16
+           irid_wavelength rgb <.7, .5, .4> mm_per_unit 10 charset utf8 }
+         camera { location -5*z focal_point 0 blur_samples 4, 9 confidence .9 variance 1/99 }
+         light_source { 9, rgb 1 media_interaction off media_attenuation }
+         union { sphere { 0, 1 sturm hierarchy off no_radiosity bounded_by { box { -1, 1 } } }
+           box { 1, 2 pigment { rgb 1 quick_color rgb x } } split_union off
+           bounded_by { clipped_by } interior { dispersion_samples 7 } }",
+        "camera { location -5*z } light_source { 9, rgb 1 }
+         union { sphere { 0, 1 } box { 1, 2 pigment { rgb 1 } } }",
+    );
+}
+
+#[test]
+fn what_bounds_an_object_may_be_of_a_kind_that_is_not_built() {
+    assert_alike("sphere { 0, 1 bounded_by { cylinder { -y, y, 1 } } }", "sphere { 0, 1 }");
+    let said = |text: &str| world(&format!("{VERSION} {text}")).1;
+    assert_eq!(
+        said("sphere { 0, 1 bounded_by { pigment { rgb 1 } } }"),
+        "`pigment` cannot stand in `bounded_by`"
+    );
+    assert_eq!(
+        said("sphere { 0, 1 bounded_by { sphere { 0, 0 } } }"),
+        "a sphere of radius 0 is nothing"
+    );
+}
+
+#[test]
+fn what_belongs_to_an_inert_word_is_of_its_kind() {
+    let said = |text: &str| world(&format!("{VERSION} global_settings {{ {text} }}")).1;
+    assert_eq!(said("max_intersections \"64\""), "expected a number, found a string");
+    assert_eq!(said("charset latin"), "expected `ascii`, `utf8` or `sys`, found `latin`");
+}
+
+#[test]
+fn a_word_of_visibility_holds_for_all_below_and_off_undoes_it_for_the_object_itself() {
+    let flags = |text: &str| {
+        let (world, said) =
+            world(&format!("{VERSION} #declare Ball = sphere {{ 0, 1 no_image }} {text}"));
+        assert_eq!(said, "");
+        let object = world.objects[0];
+        (object.in_image, object.in_reflections, object.double_illuminate)
+    };
+    assert_eq!(flags("object { Ball }"), (false, true, false));
+    assert_eq!(flags("object { Ball no_image off }"), (true, true, false));
+    assert_eq!(flags("union { object { Ball } no_image off }"), (false, true, false));
+    assert_eq!(
+        flags(
+            "union { sphere { 0, 1 no_reflection off double_illuminate off } no_reflection double_illuminate }"
+        ),
+        (true, false, true)
+    );
+}
+
+#[test]
+fn a_lights_words_may_stand_in_any_order() {
+    let light = |words: &str| format!("light_source {{ <0, 5, 0>, rgb 1 {words} }}");
+    assert_alike(
+        &light(
+            "spotlight point_at 0 radius 10 falloff 20 tightness 2 fade_distance 3 fade_power 2",
+        ),
+        &light(
+            "fade_power 2 tightness 2 falloff 20 fade_distance -3 radius 10 point_at 0 spotlight",
+        ),
+    );
+    assert_alike(
+        &light("spotlight point_at 0"),
+        &light("spotlight radius 30 falloff 45 point_at 0"),
+    );
+    assert_alike(
+        &light("spotlight radius 30 falloff 5 point_at 0"),
+        &light("spotlight radius 30 falloff 30 point_at 0"),
+    );
+    assert_alike(&light("spotlight parallel point_at 0"), &light("parallel point_at 0"));
+    assert_alike(
+        &light("cylinder parallel point_at 0"),
+        &light("cylinder radius 0.75 falloff 1 point_at 0"),
+    );
+    assert_alike(&light("parallel"), &light("parallel point_at z"));
+    assert_alike(&light("fade_power 2"), &light("fade_distance 2"));
+    assert_alike(
+        "#declare Lamp = light_source { 5*y, rgb 1 spotlight radius 9 point_at 0 }
+         light_source { Lamp falloff 60 translate x }",
+        "light_source { <1, 5, 0>, rgb 1 spotlight radius 9 falloff 60 point_at x }",
+    );
+    assert_alike(&light("cylinder falloff 0 point_at 0"), "");
+}
+
+#[test]
+fn a_declared_sky_is_the_sky_where_it_is_used() {
+    assert_alike(
+        "#declare Sky = sky_sphere { pigment { gradient y } rotate 90*x } sky_sphere { Sky scale 2 }",
+        "sky_sphere { pigment { gradient y } rotate 90*x scale 2 }",
+    );
+}
+
+#[test]
+fn default_needs_no_sign_in_a_pov_file() {
+    assert_alike(
+        "#if (1) default { finish { ambient 1 } } #end sphere { 0, 1 }",
+        "#default { finish { ambient 1 } } sphere { 0, 1 }",
+    );
 }

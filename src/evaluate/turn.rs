@@ -44,7 +44,12 @@ impl Evaluator<'_> {
                     }
                     let ast = &here.unit.ast;
                     let constant = turns == 1 && endless::is_constant(ast, condition);
+                    let word = self.sources.text(ast.directive(directive).head);
                     if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
+                        // A misspelt word may have meant another directive.
+                        if !word.ends_with("while") {
+                            return self.pop_frame();
+                        }
                         // Nothing can change: this would only run into the limit.
                         let message = "this loop does not end".to_owned();
                         let label = "its condition is always true";

@@ -82,6 +82,7 @@ pub enum Value {
     Array(Arc<Array>),
     Spline(Arc<SplineValue>),
     Function(FunctionId),
+    SkySphere(Arc<crate::scene::SkySphere>),
     Macro(super::scope::MacroId),
     /// Of a kind that this version does not build: fatal only where it reaches the scene.
     Poison(Poison),
@@ -146,6 +147,7 @@ impl Value {
             Self::Array(_) => "an array",
             Self::Spline(_) => "a spline",
             Self::Function(_) => "a function",
+            Self::SkySphere(_) => "a sky_sphere",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",
             Self::Broken => "a faulty value",

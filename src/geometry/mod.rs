@@ -12,14 +12,17 @@ mod search;
 mod single;
 mod through;
 mod tree;
+mod work;
 
 pub use nearest::Hit;
 pub use occluder::Occluder;
+pub use work::Work;
 
+use crate::math::Vector;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
 };
-use crate::world::World;
+use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use tree::Tree;
 
@@ -41,8 +44,21 @@ pub struct Geometry {
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
-    /// Shapes are met in single precision.
-    single: bool,
+    manner: Manner,
+    /// What the camera's rays meet, where that is not all.
+    in_image: Option<Box<Geometry>>,
+    /// What mirrored rays meet, likewise.
+    in_reflections: Option<Box<Geometry>>,
+}
+
+/// How rays and shapes meet, and whether it is counted what that takes. A single byte, so that the
+/// common manner is told in one comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    Double,
+    DoubleCounted,
+    Single,
+    SingleCounted,
 }
 
 /// An object, as far as rays ask.
@@ -81,8 +97,32 @@ enum Sides {
 
 impl Geometry {
     pub fn build(world: &World) -> Self {
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..world.objects.len() as u32).partition(|&object| bounds(world, object).is_some());
+        let part = |holds: fn(&Object) -> bool| {
+            let is_part = !world.objects.iter().all(holds);
+            is_part.then(|| Box::new(Self::of(world, holds)))
+        };
+        Self {
+            in_image: part(|object| object.in_image),
+            in_reflections: part(|object| object.in_reflections),
+            ..Self::of(world, |_| true)
+        }
+    }
+
+    /// What the camera's rays meet, as long as nothing has mirrored them.
+    pub fn in_image(&self) -> &Self {
+        self.in_image.as_deref().unwrap_or(self)
+    }
+
+    /// What mirrored rays meet.
+    pub fn in_reflections(&self) -> &Self {
+        self.in_reflections.as_deref().unwrap_or(self)
+    }
+
+    /// Of those of the World's objects that it `holds`.
+    fn of(world: &World, holds: fn(&Object) -> bool) -> Self {
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = (0..world.objects.len() as u32)
+            .filter(|&object| holds(&world.objects[object as usize]))
+            .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
             (None, bounded)
         } else {
@@ -97,7 +137,9 @@ impl Geometry {
             balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
-            single: false,
+            manner: Manner::Double,
+            in_image: None,
+            in_reflections: None,
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
@@ -108,6 +150,38 @@ impl Geometry {
             geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
         }
         geometry
+    }
+
+    /// The same geometry, its shapes met in single precision where they have such a kernel.
+    pub fn in_single_precision(mut self) -> Self {
+        self.manner = match self.counts() {
+            true => Manner::SingleCounted,
+            false => Manner::Single,
+        };
+        self.parts(Self::in_single_precision)
+    }
+
+    /// The same geometry, which counts what its searches take.
+    pub fn counting(mut self) -> Self {
+        self.manner = match self.manner {
+            Manner::Double | Manner::DoubleCounted => Manner::DoubleCounted,
+            Manner::Single | Manner::SingleCounted => Manner::SingleCounted,
+        };
+        self.parts(Self::counting)
+    }
+
+    fn parts(mut self, change: fn(Self) -> Self) -> Self {
+        for part in [&mut self.in_image, &mut self.in_reflections] {
+            *part = part.take().map(|part| Box::new(change(*part)));
+        }
+        self
+    }
+
+    fn counts(&self) -> bool {
+        match self.manner {
+            Manner::Double | Manner::Single => false,
+            Manner::DoubleCounted | Manner::SingleCounted => true,
+        }
     }
 
     fn append(&mut self, world: &World, number: u32) {
@@ -249,6 +323,22 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
         Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
     }
+}
+
+/// How far a surface's point may be along each axis from where the ray was meant to meet it; no
+/// distance where that is not known.
+#[inline(never)]
+pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
+    let chord = match world.objects[hit.object as usize].shape {
+        Shape::Sphere(i) => world.spheres[i as usize].chord(ray),
+        Shape::Plane(i) => world.planes[i as usize].chord(ray),
+        Shape::Box(i) => world.boxes[i as usize].chord(ray),
+        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].chord(ray),
+    };
+    // In single precision a ray may meet what it truly misses.
+    chord.map_or(Vector::ZERO, |Chord { enter, leave }| {
+        surface.spread(ray, hit.t, if hit.leaving { &leave } else { &enter })
+    })
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 //! **Invariant:** the answer does not depend on the order of the search; only what error bounds cannot
 //! tell apart is decided by rank.
 
-use super::search::Seeker;
-use super::{EASY, Geometry, TIGHT};
+use super::search::{Each, Seeker};
+use super::work::{Tally, Uncounted};
+use super::{EASY, Geometry, Manner, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// The first surface a ray meets.
@@ -25,27 +26,50 @@ impl Geometry {
     /// tell apart, that of the first-declared object, the opaque before the clear: with U the least
     /// t + 2·error of all, the first of those with t ≤ U. So it does not depend on the order of
     /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
-    #[inline(always)]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        if self.single {
-            return self.nearest_in_single(ray);
+        self.nearest_counted(ray, &mut Work::default())
+    }
+
+    /// As [`Geometry::nearest`]; what it takes is added to `work` by a geometry that is
+    /// [`Geometry::counting`].
+    #[inline(always)]
+    pub fn nearest_counted(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
+        if self.manner != Manner::Double {
+            return self.nearest_in_its_manner(ray, work);
         }
-        let mut race = Race::new(self, ray);
+        self.nearest_in_double(ray, Uncounted)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
+        match self.manner {
+            Manner::Double => self.nearest_in_double(ray, Uncounted),
+            Manner::DoubleCounted => self.nearest_in_double(ray, work),
+            Manner::Single => self.nearest_in_single(ray, Uncounted),
+            Manner::SingleCounted => self.nearest_in_single(ray, work),
+        }
+    }
+
+    #[inline(always)]
+    fn nearest_in_double(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
+        let mut race = Race::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
-        if race.contested() { self.first_declared(ray) } else { race.winner() }
+        if race.contested() { self.first_declared(ray, race.tally) } else { race.winner() }
     }
 
     /// The same by definition, with the tightest error bounds: first U, then the first object.
     #[cold]
     #[inline(never)]
-    fn first_declared(&self, ray: &Ray) -> Option<Hit> {
-        let limit = self.end_of_first(ray);
+    fn first_declared<T: Tally>(&self, ray: &Ray, mut tally: T) -> Option<Hit> {
+        let limit = self.end_of_first(ray, &mut tally);
         let mut first: Option<((bool, u32), Hit)> = None;
-        self.search(ray, limit, &mut |place: usize| {
+        let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
             let object = entry.object;
             let rank = (entry.clear, object);
             if first.is_none_or(|first| rank < first.0) {
+                tally.root_solve();
                 let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
                 let hit = |(Crossing { t, .. }, leaving)| {
                     (rank, Hit { object, t, leaving, contested: true })
@@ -53,26 +77,29 @@ impl Geometry {
                 first = crossing.map(hit).or(first);
             }
             limit
-        });
+        };
+        self.search(ray, limit, &mut Each(tally, look));
         first.map(|(_, hit)| hit)
     }
 
     /// U: the least t + 2·error of all crossings.
-    pub(super) fn end_of_first(&self, ray: &Ray) -> f64 {
+    pub(super) fn end_of_first<T: Tally>(&self, ray: &Ray, tally: T) -> f64 {
         let mut limit = f64::INFINITY;
-        self.search(ray, limit, &mut |place: usize| {
+        let look = |place: usize, tally: &mut T| {
+            tally.root_solve();
             let crossing = self.first_crossing::<TIGHT>(&self.entries[place], ray, limit);
             if let Some((Crossing { t, error }, _)) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
             limit
-        });
+        };
+        self.search(ray, f64::INFINITY, &mut Each(tally, look));
         limit
     }
 }
 
 /// Looks for the nearest crossing, and for another that may be as near.
-struct Race<'a> {
+struct Race<'a, T> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     /// The entry whose crossing is nearest so far; none has this place before the first.
@@ -84,14 +111,14 @@ struct Race<'a> {
     limit: f64,
     /// The least t among the others.
     rival_t: f64,
+    tally: T,
 }
 
-impl<'a> Race<'a> {
+impl<'a, T: Tally> Race<'a, T> {
     #[inline(always)]
-    fn new(geometry: &'a Geometry, ray: &'a Ray) -> Self {
-        let beyond = f64::INFINITY;
-        let place = usize::MAX;
-        Self { geometry, ray, place, t: beyond, leaving: false, limit: beyond, rival_t: beyond }
+    fn new(geometry: &'a Geometry, ray: &'a Ray, tally: T) -> Self {
+        let (place, t, leaving) = (usize::MAX, f64::INFINITY, false);
+        Self { geometry, ray, place, t, leaving, limit: t, rival_t: t, tally }
     }
 
     #[inline(always)]
@@ -106,9 +133,17 @@ impl<'a> Race<'a> {
     }
 }
 
-impl Seeker for Race<'_> {
+impl<T: Tally> Seeker for Race<'_, T> {
+    type Tally = T;
+
+    #[inline(always)]
+    fn tally(&mut self) -> &mut T {
+        &mut self.tally
+    }
+
     #[inline(always)]
     fn look(&mut self, place: usize) -> f64 {
+        self.tally.root_solve();
         let entry = &self.geometry.entries[place];
         let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
         if let Some((Crossing { t, error }, leaving)) = crossing {

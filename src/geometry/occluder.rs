@@ -1,7 +1,8 @@
 //! Whether something stands between a place and a light.
 
 use super::search::Seeker;
-use super::{EASY, Entry, Geometry, TIGHT};
+use super::work::{Tally, Uncounted};
+use super::{EASY, Entry, Geometry, Manner, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// What shadows a ray: an entry of a [`Geometry`].
@@ -17,35 +18,80 @@ impl Geometry {
     /// Whether an opaque surface that casts shadows is certainly nearer than `distance` (which may be ∞).
     /// Surfaces seen from one side shadow from that side.
     pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
-        self.occluder(ray, distance, Occluder::NONE) != Occluder::NONE
+        let mut work = Work::default();
+        self.occluder(ray, distance, Occluder::NONE, &mut work) != Occluder::NONE
     }
 
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
-    /// is likely to shadow the next, and any answer but `NONE` is as good as another.
-    #[inline(never)]
-    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder) -> Occluder {
-        if self.single {
-            return self.occluder_in_single(ray, distance, guess);
+    /// is likely to shadow the next, and any answer but `NONE` is as good as another. What it takes
+    /// is added to `work` by a geometry that is [`Geometry::counting`].
+    #[inline(always)]
+    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder, work: &mut Work) -> Occluder {
+        if self.manner != Manner::Double {
+            return self.occluder_in_its_manner(ray, distance, guess, work);
         }
-        if self.entries.get(guess.0).is_some_and(|entry| self.shadows(entry, ray, distance)) {
+        self.occluder_in_double(ray, distance, guess, Uncounted)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn occluder_in_its_manner(
+        &self,
+        ray: &Ray,
+        distance: f64,
+        guess: Occluder,
+        work: &mut Work,
+    ) -> Occluder {
+        match self.manner {
+            Manner::Double => self.occluder_in_double(ray, distance, guess, Uncounted),
+            Manner::DoubleCounted => self.occluder_in_double(ray, distance, guess, work),
+            Manner::Single => self.occluder_in_single(ray, distance, guess, Uncounted),
+            Manner::SingleCounted => self.occluder_in_single(ray, distance, guess, work),
+        }
+    }
+
+    #[inline(never)]
+    fn occluder_in_double(
+        &self,
+        ray: &Ray,
+        distance: f64,
+        guess: Occluder,
+        tally: impl Tally,
+    ) -> Occluder {
+        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE, tally };
+        if self.entries.get(guess.0).is_some_and(|entry| shade.shadows(entry)) {
             return guess;
         }
-        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE };
         self.search(ray, distance, &mut shade);
         shade.found
     }
+}
 
+/// Looks for anything that shadows the ray.
+struct Shade<'a, T> {
+    geometry: &'a Geometry,
+    ray: &'a Ray,
+    distance: f64,
+    found: Occluder,
+    tally: T,
+}
+
+impl<T: Tally> Shade<'_, T> {
     #[inline(always)]
-    fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
+    fn shadows(&mut self, entry: &Entry) -> bool {
         if !entry.blocks {
             return false;
         }
-        let crossing = self.first_crossing::<EASY>(entry, ray, distance);
+        self.tally.root_solve();
+        let Self { geometry, ray, distance, .. } = *self;
+        let crossing = geometry.first_crossing::<EASY>(entry, ray, distance);
         crossing.is_some_and(|(Crossing { t, error }, _)| {
-            t + error < distance || self.barely_shadows(entry, ray, distance)
+            t + error < distance || geometry.barely_shadows(entry, ray, distance)
         })
     }
+}
 
+impl Geometry {
     #[cold]
     #[inline(never)]
     fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
@@ -54,18 +100,17 @@ impl Geometry {
     }
 }
 
-/// Looks for anything that shadows the ray.
-struct Shade<'a> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
-    distance: f64,
-    found: Occluder,
-}
+impl<T: Tally> Seeker for Shade<'_, T> {
+    type Tally = T;
 
-impl Seeker for Shade<'_> {
+    #[inline(always)]
+    fn tally(&mut self) -> &mut T {
+        &mut self.tally
+    }
+
     #[inline(always)]
     fn look(&mut self, place: usize) -> f64 {
-        if self.geometry.shadows(&self.geometry.entries[place], self.ray, self.distance) {
+        if self.shadows(&self.geometry.entries[place]) {
             self.found = Occluder(place);
             return f64::NEG_INFINITY;
         }

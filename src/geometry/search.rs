@@ -3,21 +3,36 @@
 //! **Invariant:** every entry that is met at the limit or before is shown; more may be.
 
 use super::tree::Tree;
+use super::work::Tally;
 use super::{Entry, Geometry, Solid, balls};
 use crate::shape::Ray;
 
 /// Who looks for something among the entries.
 ///
-/// A trait and not a closure: its one method is inlined into each of the search's loops.
+/// A trait and not a closure: its method is inlined into each of the search's loops.
 pub(super) trait Seeker {
+    type Tally: Tally;
+
     /// Looks at the entry of that place; returns the limit from then on (−∞ ends the search).
     fn look(&mut self, place: usize) -> f64;
+
+    fn tally(&mut self) -> &mut Self::Tally;
 }
 
-impl<F: FnMut(usize) -> f64> Seeker for F {
+/// Looks at each by a function of the place and the tally.
+pub(super) struct Each<T, F>(pub T, pub F);
+
+impl<T: Tally, F: FnMut(usize, &mut T) -> f64> Seeker for Each<T, F> {
+    type Tally = T;
+
     #[inline(always)]
     fn look(&mut self, place: usize) -> f64 {
-        self(place)
+        (self.1)(place, &mut self.0)
+    }
+
+    #[inline(always)]
+    fn tally(&mut self) -> &mut T {
+        &mut self.0
     }
 }
 
@@ -58,8 +73,8 @@ impl Geometry {
 
     /// Not inlined: a search without a tree stays short, and its numbers in registers.
     #[inline(never)]
-    fn search_tree(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut impl Seeker) {
-        tree.visit(ray, limit, |leaf, limit| {
+    fn search_tree<S: Seeker>(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut S) {
+        let visits = tree.visit::<S::Tally>(ray, limit, |leaf, limit| {
             let mut limit = limit;
             for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
                 limit = seeker.look(place);
@@ -69,6 +84,7 @@ impl Geometry {
             }
             limit
         });
+        seeker.tally().box_visits(visits);
     }
 }
 

@@ -22,15 +22,7 @@ fn empty() -> World {
 }
 
 fn add(world: &mut World, shape: Shape) {
-    let object = Object {
-        interior: None,
-        shape,
-        material: 0,
-        texture_from_world: None,
-        faces: None,
-        casts_shadow: true,
-        inverse: false,
-    };
+    let object = Object::plain(shape);
     world.objects.push(object);
 }
 

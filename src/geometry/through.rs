@@ -4,42 +4,62 @@
 //! **In:** a ray. **Out:** crossings, in a list of the caller's. **Invariant:** no allocation per
 //! ray once the list has grown; what is reported does not depend on the order of the search.
 
-use super::{Entry, Geometry, Hit, Solid};
+use super::search::Each;
+use super::work::{Tally, Uncounted};
+use super::{Entry, Geometry, Hit, Solid, Work};
 use crate::shape::{Chord, Crossing, Ray};
 
 impl Geometry {
     /// Adds to `hits` every crossing with a clear surface that casts shadows and is certainly nearer
-    /// than `distance` (which may be ∞), in no order.
-    pub fn filters(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>) {
-        self.search(ray, distance, &mut |place: usize| {
+    /// than `distance` (which may be ∞), in no order. What it takes is added to `work` by a geometry
+    /// that is [`Geometry::counting`].
+    pub fn filters(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>, work: &mut Work) {
+        match self.counts() {
+            true => self.filters_with(ray, distance, hits, work),
+            false => self.filters_with(ray, distance, hits, Uncounted),
+        }
+    }
+
+    fn filters_with<T: Tally>(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>, tally: T) {
+        let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
-            let chord = if entry.filters { self.chord(entry, ray) } else { None };
+            let chord = if entry.filters { self.chord(entry, ray, tally) } else { None };
             for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
                 if crossing.is_ahead() && crossing.t + crossing.error < distance {
                     hits.push(entry.hit(crossing.t, leaving));
                 }
             }
             distance
-        });
+        };
+        self.search(ray, distance, &mut Each(tally, look));
     }
 
     /// A ray went through the surface at `hit`, and others may coincide with that. Adds to `hits`
     /// those of other objects that a ray from `start`, which goes straight on from behind the
     /// surface, will not meet any more, in the order of the objects; one that it has gone through
-    /// in and out is there twice.
+    /// in and out is there twice. What it takes is added to `work` by a geometry that is
+    /// [`Geometry::counting`].
     #[cold]
     #[inline(never)]
-    pub fn coinciding(&self, ray: &Ray, hit: &Hit, start: &Ray, hits: &mut Vec<Hit>) {
-        let limit = self.end_of_first(ray);
+    pub fn coinciding(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        start: &Ray,
+        hits: &mut Vec<Hit>,
+        work: &mut Work,
+    ) {
+        let mut found = Work::default();
+        let limit = self.end_of_first(ray, &mut found);
         let first = hits.len();
-        self.search(ray, limit, &mut |place: usize| {
+        let look = |place: usize, tally: &mut &mut Work| {
             let entry = &self.entries[place];
             let other = entry.object != hit.object;
-            let chord = if other { self.chord(entry, ray) } else { None };
+            let chord = if other { self.chord(entry, ray, tally) } else { None };
             for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
                 // Its own bound may be wider than that of the surface that was hit.
                 if crossing.is_ahead() && crossing.t <= limit + 2.0 * crossing.error {
-                    let still_ahead = self.chord(entry, start).is_some_and(|chord| {
+                    let still_ahead = self.chord(entry, start, tally).is_some_and(|chord| {
                         if leaving { chord.leave.is_ahead() } else { chord.enter.is_ahead() }
                     });
                     if !still_ahead {
@@ -48,11 +68,16 @@ impl Geometry {
                 }
             }
             limit
-        });
+        };
+        self.search(ray, limit, &mut Each(&mut found, look));
+        if self.counts() {
+            *work += found;
+        }
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
     }
 
-    fn chord(&self, entry: &Entry, ray: &Ray) -> Option<Chord> {
+    fn chord(&self, entry: &Entry, ray: &Ray, tally: &mut impl Tally) -> Option<Chord> {
+        tally.root_solve();
         match &entry.solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),

@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use super::work::Tally;
 use crate::math::{Lanes, Vector};
 use crate::shape::{Bounds, Ray};
 
@@ -153,28 +154,35 @@ impl Space {
 impl Tree {
     /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before, and with
     /// the limit; it returns the limit from then on (−∞ ends the search). Near boxes come first.
+    /// Returns how many nodes were visited, as far as `T` counts.
     #[inline(always)]
-    pub fn visit(&self, ray: &Ray, limit: f64, leaf: impl FnMut(Range<usize>, f64) -> f64) {
+    pub fn visit<T: Tally>(
+        &self,
+        ray: &Ray,
+        limit: f64,
+        leaf: impl FnMut(Range<usize>, f64) -> f64,
+    ) -> u64 {
         // Of every node on the way down at most three siblings wait.
         if self.depth <= COMMON_DEPTH {
-            self.visit_with::<{ 3 * COMMON_DEPTH + 1 }>(ray, limit, leaf);
+            self.visit_with::<T, _, { 3 * COMMON_DEPTH + 1 }>(ray, limit, leaf)
         } else {
-            self.visit_with::<{ 3 * DEPTH + 1 }>(ray, limit, leaf);
+            self.visit_with::<T, _, { 3 * DEPTH + 1 }>(ray, limit, leaf)
         }
     }
 
     // However many kernels call it, it is the same code.
     #[inline(never)]
-    fn visit_with<const STACK: usize>(
+    fn visit_with<T: Tally, F: FnMut(Range<usize>, f64) -> f64, const STACK: usize>(
         &self,
         ray: &Ray,
         limit: f64,
-        mut leaf: impl FnMut(Range<usize>, f64) -> f64,
-    ) {
+        mut leaf: F,
+    ) -> u64 {
         let Some(slanted) = Slanted::new(ray, &self.space) else {
             leaf(0..self.count, limit);
-            return;
+            return 0;
         };
+        let mut visits = 0;
         let mut reach = limit;
         let mut limit = self.space.limit(reach);
         let mut stack = [(0.0f32, Child::default()); STACK];
@@ -182,6 +190,7 @@ impl Tree {
         let mut child = Child::node(0);
         loop {
             if child.0 & Child::IS_LEAF == 0 {
+                visits += u64::from(T::COUNTS);
                 let node = &self.nodes[child.0 as usize];
                 let (entry, mut mask) = node.entries(&slanted, limit);
                 if mask != 0 {
@@ -220,7 +229,7 @@ impl Tree {
             }
             child = loop {
                 if waiting == 0 {
-                    return;
+                    return visits;
                 }
                 waiting -= 1;
                 if stack[waiting].0 <= limit {

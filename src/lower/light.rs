@@ -2,18 +2,21 @@
 
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
-use crate::diagnostic::Code;
 use crate::math::UnitVector;
 use crate::math::double::DoubleVector;
+use crate::math::elementary::cos;
 use crate::scene::{LightKind, LightSource};
 use crate::source::Site;
-use crate::world::{self, Light};
+use crate::world::{self, Attenuation, Beam, Fade, Light};
 
 impl Lowering<'_, '_> {
     /// A black light gives nothing and is dropped. `item` is all of what it stands in.
     pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site, item: Site) {
         if light.color.is_black() {
             return self.drop_part(site, "light_source", "its colour is black");
+        }
+        if matches!(light.kind, LightKind::Cylinder { beam, .. } if beam.falloff <= 0.0) {
+            return self.drop_part(site, "light_source", "its cylinder has no width");
         }
         if let Some(light) = self.reporter.made(spend(light, map), site) {
             self.world.lights.push(light);
@@ -23,20 +26,15 @@ impl Lowering<'_, '_> {
 }
 
 fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
-    let unit = |to_light: DoubleVector| match to_light.normalized() {
-        Some(unit) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
-        Some(_) => Err(Fault::not_finite("this light's direction")),
-        None => Err(Fault::new(Code::ZeroVector, "this light's direction is the zero vector")
-            .label("expected the light to come from somewhere")),
-    };
     let kind = match light.kind {
-        LightKind::Point { location } => {
+        LightKind::Point { location } | LightKind::Spotlight { location, .. } => {
             world::LightKind::Point { position: map.point(exact(location)).round() }
         }
         LightKind::Direction { to_light } => {
             world::LightKind::Directional { to_light: unit(map.direction(exact(to_light)))? }
         }
-        LightKind::Parallel { location, point_at } => world::LightKind::Parallel {
+        LightKind::Parallel { location, point_at }
+        | LightKind::Cylinder { location, point_at, .. } => world::LightKind::Parallel {
             position: map.point(exact(location)).round(),
             to_light: unit(map.direction(exact(location) - exact(point_at)))?,
         },
@@ -50,5 +48,44 @@ fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
     if !finite || !light.color.is_finite() {
         return Err(Fault::not_finite("this light"));
     }
-    Ok(Light { kind, color: light.color, casts_shadows: !light.shadowless })
+    let attenuation = attenuation(light, map)?;
+    Ok(Light { kind, color: light.color, casts_shadows: !light.shadowless, attenuation })
+}
+
+fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {
+    match direction.normalized() {
+        Some(unit) if unit.is_finite() => Ok(UnitVector::from_unit(unit.round())),
+        Some(_) => Err(Fault::not_finite("this light's direction")),
+        None => Err(Fault::no_direction("this light's direction")),
+    }
+}
+
+/// A beam and a fade without effect are absent. Only the axis is moved: neither angles nor the width of
+/// a cylinder of light nor `fade_distance` go through transforms, as in POV-Ray 3.7 (measured).
+fn attenuation(light: &LightSource, map: &Affine) -> Result<Option<Attenuation>, Fault> {
+    let beam = match light.kind {
+        LightKind::Point { .. } | LightKind::Parallel { .. } | LightKind::Direction { .. } => None,
+        LightKind::Spotlight { location, point_at, beam } => {
+            let axis = unit(map.direction(exact(point_at) - exact(location)))?;
+            let cosine = |degrees: f64| cos(degrees.abs().min(180.0).to_radians());
+            let edge = cosine(beam.falloff.max(beam.radius));
+            Some(Beam::Cone { axis, edge, core: cosine(beam.radius), tightness: beam.tightness })
+        }
+        LightKind::Cylinder { beam, .. } => {
+            // Without a radius it does not fade toward its edge (measured).
+            let core = if beam.radius > 0.0 { 1.0 - beam.radius / beam.falloff } else { 0.0 };
+            Some(Beam::Cylinder { radius: beam.falloff, core, tightness: beam.tightness })
+        }
+    };
+    let numbers = match beam {
+        Some(Beam::Cone { tightness, edge, core, .. }) => [tightness, edge, core],
+        Some(Beam::Cylinder { radius, core, tightness }) => [radius, core, tightness],
+        None => [0.0; 3],
+    };
+    let fade = light.fade.map(|fade| Fade { distance: fade.distance, power: fade.power });
+    let fades = fade.map_or([0.0; 2], |fade| [fade.distance, fade.power]);
+    if numbers.iter().chain(&fades).any(|number| !number.is_finite()) {
+        return Err(Fault::not_finite("this light"));
+    }
+    Ok((beam.is_some() || fade.is_some()).then_some(Attenuation { beam, fade }))
 }

@@ -59,7 +59,27 @@ impl Lowering<'_, '_> {
                 diagnostic = diagnostic.at(dropped.site.span, "this light is black");
             }
             self.reporter.diagnostics.push(diagnostic);
+        } else {
+            self.lint_view();
+            self.lint_pigment();
         }
+    }
+
+    /// Objects that are black because nothing gives them a colour.
+    fn lint_pigment(&mut self) {
+        let sites: Vec<Site> = std::mem::take(&mut self.unpainted).into_values().collect();
+        let Some((&first, others)) = sites.split_first() else { return };
+        let message = match others.len() {
+            0 => "this object has no pigment, and is black".to_owned(),
+            n => format!("{} objects have no pigment, and are black", n + 1),
+        };
+        let mut diagnostic = Diagnostic::new(Code::NoPigment, message)
+            .at(first.span, "this one has none, nor does what holds it")
+            .help("write `pigment { rgb 1 }` in it, or `#default { pigment { rgb 1 } }` before it");
+        for other in others.iter().take(2) {
+            diagnostic = diagnostic.also(other.span, "nor does this one");
+        }
+        self.reporter.diagnostics.push(diagnostic.traced(first, self.reporter.expansions));
     }
 
     /// A picture of another shape than the camera sees is squashed.
@@ -92,10 +112,10 @@ impl Lowering<'_, '_> {
     /// Colours that let through more than comes in, and fresnel without the number it lives by.
     fn lint_clear(&mut self) {
         let (world, origins) = (&self.world, &self.origins);
-        let origin = |i: usize| origins.materials.get(i).cloned().unwrap_or_default();
+        let origin = |i: usize| origins.materials.get(i);
         let mut lints: Vec<(Site, Diagnostic)> = Vec::new();
         for (i, material) in world.materials.iter().enumerate() {
-            let Some(site) = origin(i).pigment else { continue };
+            let Some(site) = origin(i).and_then(|origin| origin.pigment) else { continue };
             let sums = material.pigment.colors().map(|color| color.filter + color.transmit);
             let most = sums.fold(0.0, f64::max);
             if most > 1.0 + ROUNDING {
@@ -110,7 +130,7 @@ impl Lowering<'_, '_> {
             let index = object.material as usize;
             let reflection = &world.materials[index].finish.reflection;
             if object.interior.is_none() && reflection.as_ref().is_some_and(|r| r.fresnel) {
-                let site = origin(index).finish.unwrap_or(*site);
+                let site = origin(index).and_then(|origin| origin.finish).unwrap_or(*site);
                 let message =
                     "`fresnel` goes by the `ior` of an interior, and this object has none";
                 let diagnostic = Diagnostic::new(Code::FresnelWithoutIor, message)

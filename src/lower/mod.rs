@@ -13,9 +13,11 @@ mod object;
 mod shape;
 mod texture;
 mod transform;
+mod view;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
+use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::{Scene, TransformId};
 use crate::source::{Expansions, Site, Span};
@@ -50,6 +52,7 @@ pub fn lower(
         transforms: transform::Transforms::new(&scene.transforms),
         dropped: HashSet::new(),
         noted_interiors: HashSet::new(),
+        unpainted: BTreeMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -79,6 +82,8 @@ struct Lowering<'s, 'd> {
     dropped: HashSet<(&'static str, Span)>,
     /// What called for each interior so far.
     noted_interiors: HashSet<(usize, Span)>,
+    /// Where solids stand that have no pigment and do not mirror.
+    unpainted: BTreeMap<Span, Site>,
 }
 
 impl Lowering<'_, '_> {
@@ -126,7 +131,8 @@ impl Lowering<'_, '_> {
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
-            let rgb = background.color.rgb;
+            let Color { rgb, transmit, .. } = background.color;
+            let rgb = rgb * (1.0 - transmit);
             let rgb = rgb.is_finite().then_some(rgb).ok_or(Fault::not_finite("the background"));
             self.world.background = self.reporter.made(rgb, background.site).unwrap_or_default();
         }
@@ -153,6 +159,12 @@ impl Fault {
 
     fn help(self, help: &'static str) -> Self {
         Self { help: Some(help), ..self }
+    }
+
+    /// Of `what` nothing is left that points anywhere: it was too short for what it went through.
+    fn no_direction(what: &str) -> Self {
+        Self::new(Code::ZeroVector, format!("{what} is the zero vector"))
+            .label("too short to point anywhere")
     }
 
     /// `what` has a number that is infinite or not a number.

@@ -22,6 +22,9 @@ struct Inherited {
     /// For whatever has no interior of its own.
     interior: Option<InteriorId>,
     casts_shadow: bool,
+    in_image: bool,
+    in_reflections: bool,
+    double_illuminate: bool,
     inverse: bool,
     /// The innermost of those above that could be taken out of the text.
     item: Option<Site>,
@@ -37,6 +40,9 @@ struct Modified {
     surface: Option<Surface>,
     interior: Option<InteriorId>,
     casts_shadow: bool,
+    in_image: bool,
+    in_reflections: bool,
+    double_illuminate: bool,
     inverse: bool,
     strained: bool,
 }
@@ -52,21 +58,33 @@ impl<'s> Lowering<'s, '_> {
         let scene = self.scene;
         let limit = self.options.objects;
         let mut visits = 0;
+        let mut stack = Vec::new();
+        // Most roots have the same default.
+        let mut last: Option<(TextureId, Surface)> = None;
         for Root { object, default_texture } in &scene.roots {
-            let default =
-                Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY);
+            let known = last.filter(|(texture, _)| texture == default_texture);
+            let default = match known {
+                Some((_, surface)) => Ok(surface),
+                None => {
+                    Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY)
+                }
+            };
             let Some(surface) = self.reporter.made_there(default) else { continue };
+            last = Some((*default_texture, surface));
             let inherited = Inherited {
                 world_from_here: Affine::IDENTITY,
                 surface,
                 interior: None,
                 casts_shadow: true,
+                in_image: true,
+                in_reflections: true,
+                double_illuminate: false,
                 inverse: false,
                 item: None,
                 strained: false,
             };
             let children = std::slice::from_ref(object).iter();
-            let mut stack = vec![Frame { children, inherited, default_texture: *default_texture }];
+            stack.push(Frame { children, inherited, default_texture: *default_texture });
             while let Some(frame) = stack.last_mut() {
                 let Some(&id) = frame.children.next() else {
                     stack.pop();
@@ -83,8 +101,10 @@ impl<'s> Lowering<'s, '_> {
                         .fault(fault.label("reached here"), scene.objects[id.index()].site);
                     return;
                 }
-                let (inherited, default_texture) = (frame.inherited, frame.default_texture);
-                if let Some((children, inherited)) = self.visit(id, &inherited, default_texture) {
+                let default_texture = frame.default_texture;
+                if let Some((children, inherited)) =
+                    self.visit(id, &frame.inherited, default_texture)
+                {
                     stack.push(Frame { children: children.iter(), inherited, default_texture });
                 }
             }
@@ -119,6 +139,9 @@ impl<'s> Lowering<'s, '_> {
             surface,
             interior: modified.interior.or(inherited.interior),
             casts_shadow: inherited.casts_shadow && modified.casts_shadow,
+            in_image: inherited.in_image && modified.in_image,
+            in_reflections: inherited.in_reflections && modified.in_reflections,
+            double_illuminate: inherited.double_illuminate || modified.double_illuminate,
             inverse: inherited.inverse != modified.inverse,
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
@@ -151,6 +174,9 @@ impl<'s> Lowering<'s, '_> {
             surface: None,
             interior: None,
             casts_shadow: true,
+            in_image: true,
+            in_reflections: true,
+            double_illuminate: false,
             inverse: false,
             strained: false,
         };
@@ -180,6 +206,9 @@ impl<'s> Lowering<'s, '_> {
                 }
                 ModifierKind::Interior(id) => modified.interior = Some(id),
                 ModifierKind::NoShadow => modified.casts_shadow = false,
+                ModifierKind::NoImage(on) => modified.in_image = !on,
+                ModifierKind::NoReflection(on) => modified.in_reflections = !on,
+                ModifierKind::DoubleIlluminate(on) => modified.double_illuminate = on,
                 ModifierKind::Inverse => modified.inverse = !modified.inverse,
             }
         }
@@ -244,6 +273,11 @@ impl<'s> Lowering<'s, '_> {
     ) -> Result<(), Fault> {
         let surface = &here.surface;
         let material = self.material(surface.pigment, surface.finish, site);
+        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        // What mirrors is seen by what it mirrors.
+        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+            self.unpainted.entry(site.span).or_insert(site);
+        }
         let texture_from_world = self.texture_map(surface, material)?;
         let faces = match faces {
             [] => None,
@@ -251,9 +285,19 @@ impl<'s> Lowering<'s, '_> {
         };
         self.note_near_singular(here, site);
         let interior = self.interior(here.interior, surface.finish, site);
-        let casts_shadow = here.casts_shadow;
-        let object =
-            Object { shape, material, texture_from_world, faces, interior, casts_shadow, inverse };
+        let &Inherited { casts_shadow, in_image, in_reflections, double_illuminate, .. } = here;
+        let object = Object {
+            shape,
+            material,
+            texture_from_world,
+            faces,
+            interior,
+            casts_shadow,
+            in_image,
+            in_reflections,
+            double_illuminate,
+            inverse,
+        };
         self.world.objects.push(object);
         self.origins.objects.push(site);
         Ok(())

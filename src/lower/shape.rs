@@ -26,9 +26,6 @@ pub struct LocalFace {
 
 /// A sphere under translations, rotations and uniform scales stays one; else it is an ellipsoid.
 pub fn sphere(centre: Vector, radius: f64, map: &Affine) -> Result<Round, Fault> {
-    if radius == 0.0 {
-        return Err(no_size("this sphere's radius is 0"));
-    }
     let radius = Double::from(radius).abs();
     let centre = map.point(exact(centre)).round();
     if let Some(scale) = map.uniform_scale() {
@@ -63,10 +60,8 @@ pub fn plane(
     inverse: bool,
     map: &Affine,
 ) -> Result<(Plane, LocalFace), Fault> {
-    let Some(local_normal) = exact(normal).normalized() else {
-        return Err(Fault::new(Code::ZeroVector, "this plane's normal is the zero vector")
-            .label("expected a direction, as in `plane { y, 0 }`"));
-    };
+    let local_normal =
+        exact(normal).normalized().ok_or_else(|| Fault::no_direction("this plane's normal"))?;
     let local = LocalFace { normal: local_normal, distance: Double::from(distance) };
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
     // The normal goes by the inverse transpose, here times |determinant|.
@@ -93,11 +88,6 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let half = Double::from(0.5);
     let centre = map.point((a + b) * half);
     let half_widths = ((b - a) * half).map(Double::abs).components();
-    match half_widths.iter().filter(|w| w.is_zero()).count() {
-        0 | 1 => {}
-        // Evaluation tells it, with the corners as written.
-        _ => return Err(no_size(FLAT)),
-    }
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
     let mut sides = Vec::with_capacity(3);
     for (axis, row) in rows.into_iter().enumerate() {
@@ -127,6 +117,9 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
         normals: sides.each_ref().map(|side| UnitVector::from_unit(side.normal.round())),
         half_widths: sides.each_ref().map(|side| side.half_width.round()),
     };
+    if solid.half_widths.iter().filter(|width| **width == 0.0).count() >= 2 {
+        return Err(no_size("this box is too small for a number"));
+    }
     let [x, y, z] = faces;
     Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
 }

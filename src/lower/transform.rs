@@ -6,6 +6,8 @@
 //! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay six digits
 //! below what an `f64` can tell.
 
+mod stretch;
+
 use std::collections::BTreeMap;
 
 use super::Fault;
@@ -66,9 +68,6 @@ impl Affine {
                 self.offset = self.offset + if undone { -by } else { by };
             }
             Step::Scale(by) => {
-                if by.to_array().contains(&0.0) {
-                    return Err(Fault::flat("a scale factor is 0"));
-                }
                 for axis in 0..3 {
                     let factor = Double::from(by[axis]);
                     self.scale_row(axis, if undone { Double::ONE / factor } else { factor });
@@ -195,6 +194,9 @@ impl Affine {
     pub fn cofactors(&self) -> Option<Cofactors> {
         // Brought near 1 first, so that the determinant of a huge or tiny map is a number.
         let size = self.size();
+        if size == 0.0 {
+            return None;
+        }
         let near_one = |v: DoubleVector| v.map(|c| c.times_power_of_two(1.0 / size));
         let [x, y, z] = self.columns().map(near_one);
         let determinant = x.dot(y.cross(z));
@@ -359,78 +361,4 @@ impl Fault {
 /// A vector of `f64`, exactly.
 pub fn exact(v: Vector) -> DoubleVector {
     DoubleVector::from(v)
-}
-
-impl Affine {
-    /// The linear part without the rotation that comes first in it, which no sphere about the
-    /// origin can tell: the symmetric positive matrix P of M = P·Q, and its inverse. `None` where
-    /// the map flattens space.
-    ///
-    /// Newton's iteration X ← ½(X + X⁻ᵀ) leads from M to Q, quadratically once near; it is exact
-    /// from the start where each row and column has but one number.
-    /// **Source:** Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 7 (1986).
-    pub fn stretch(&self) -> Option<(Self, Self)> {
-        let turn = if self.is_monomial() {
-            let sign = |c: Double| match c.round() {
-                c if c > 0.0 => Double::ONE,
-                c if c < 0.0 => -Double::ONE,
-                _ => Double::ZERO,
-            };
-            self.rows.map(|row| row.map(sign))
-        } else {
-            self.nearest_rotation()?
-        };
-        let inverse = self.checked().ok()?;
-        let stretch = self.rows.map(|row| {
-            let [x, y, z] = turn.map(|axis| row.dot(axis));
-            DoubleVector::new(x, y, z)
-        });
-        let columns = inverse.columns();
-        let unstretch = turn.map(|row| {
-            let [x, y, z] = columns.map(|column| row.dot(column));
-            DoubleVector::new(x, y, z)
-        });
-        let symmetric = |rows: [DoubleVector; 3]| {
-            let map = Self { rows, offset: DoubleVector::ZERO, rounding: self.bound() };
-            let half = Double::from(0.5);
-            let [x, y, z] = map.columns();
-            Self { rows: [(rows[0] + x) * half, (rows[1] + y) * half, (rows[2] + z) * half], ..map }
-        };
-        Some((symmetric(stretch), symmetric(unstretch)))
-    }
-
-    /// The rows of the rotation (or mirror) nearest to the linear part.
-    fn nearest_rotation(&self) -> Option<[DoubleVector; 3]> {
-        let half = Double::from(0.5);
-        let mut near = *self;
-        for _ in 0..100 {
-            let Cofactors { rows, determinant } = near.cofactors()?;
-            // The columns of the inverse transpose.
-            let [x, y, z] = rows.map(|row| row.map(|c| c / determinant));
-            let opposite = Self { rows: [x, y, z], ..near }.columns();
-            // A power of two that brings the two to one size makes the first steps quick.
-            let balance = (opposite.iter().map(|r| r.largest()).fold(0.0, f64::max)
-                / near.rows.iter().map(|r| r.largest()).fold(0.0, f64::max))
-            .sqrt();
-            let balance =
-                if (0.25..4.0).contains(&balance) { 1.0 } else { power_of_two_near(balance) };
-            let mut step: f64 = 0.0;
-            for (row, other) in near.rows.iter_mut().zip(opposite) {
-                let grown = row.map(|c| c.times_power_of_two(balance));
-                let mean = (grown + other.map(|c| c.times_power_of_two(1.0 / balance))) * half;
-                step = step.max((mean - *row).largest());
-                *row = mean;
-            }
-            if step < Self::STEP_ROUNDING {
-                break;
-            }
-        }
-        Some(near.rows)
-    }
-
-    /// Whether each row and each column has but one number that is not zero.
-    fn is_monomial(&self) -> bool {
-        let lone = |v: &DoubleVector| v.components().iter().filter(|c| !c.is_zero()).count() == 1;
-        self.rows.iter().all(lone) && self.columns().iter().all(lone)
-    }
 }

@@ -27,6 +27,18 @@ impl Map {
     pub fn direction(&self, d: Vector) -> Vector {
         self.matrix * d
     }
+
+    /// How far [`Map::point`] of `p` may be off along each axis, where `p` is by `error`.
+    ///
+    /// With M the matrix and c the centre: |M|·(error + u·|c| + u·|p − c|) for what comes in, the
+    /// centre's rounding and the difference's, and 4u·|M|·|p − c| for the matrix' and the sums.
+    pub fn point_error(&self, p: Vector, error: Vector) -> Vector {
+        let centre = self.centre.abs() * f64::EPSILON;
+        let difference = (p - self.centre).abs() * (4.0 * f64::EPSILON);
+        let [x, y, z] =
+            [self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis].map(Vector::abs);
+        Matrix::from_cols(x, y, z) * (error + centre + difference)
+    }
 }
 
 impl Default for Map {

@@ -2,24 +2,30 @@
 //!
 //! A cell is half-open: a point on a lattice plane belongs to the cell on its positive side.
 
+use super::settled;
 use crate::math::Vector;
 
 /// 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
 ///
 /// Exact for coordinates up to 2⁵³; beyond, every number is even and the value is constant.
 #[inline]
-pub fn value(point: Vector) -> f64 {
+pub fn value(point: Vector, error: Vector) -> f64 {
     // Parities are added, not indices: the sum of three large indices would round.
-    let parity = |c: f64| {
-        let half = c.floor() * 0.5;
+    let parity = |coordinate: f64, error: f64| {
+        let half = settled(coordinate, error).floor() * 0.5;
         half != half.floor()
     };
-    f64::from(parity(point.x) ^ parity(point.y) ^ parity(point.z))
+    let [x, y, z] = [(point.x, error.x), (point.y, error.y), (point.z, error.z)];
+    f64::from(parity(x.0, x.1) ^ parity(y.0, y.1) ^ parity(z.0, z.1))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn value(point: Vector) -> f64 {
+        super::value(point, Vector::ZERO)
+    }
 
     #[test]
     fn neighbours_differ_and_cells_are_half_open() {
@@ -34,5 +40,16 @@ mod tests {
         let far = 4_503_599_627_370_497.0; // 2^52 + 1
         assert_eq!(value(Vector::new(far, 0.0, 0.0)), 1.0);
         assert_eq!(value(Vector::new(far - 1.0, 0.0, 0.0)), 0.0);
+    }
+
+    #[test]
+    fn a_point_that_may_be_on_a_seam_is_in_the_cell_on_its_positive_side() {
+        let error = Vector::splat(1e-12);
+        for off in [-9e-13, 0.0, 9e-13] {
+            assert_eq!(super::value(Vector::new(2.0 + off, 0.5, 0.5), error), 0.0, "{off}");
+            assert_eq!(super::value(Vector::new(0.5, 0.5, -3.0 + off), error), 1.0, "{off}");
+        }
+        // Farther off it is where it is.
+        assert_eq!(super::value(Vector::new(2.0 - 2e-12, 0.5, 0.5), error), 1.0);
     }
 }

@@ -1,5 +1,6 @@
 //! `gradient <direction>`: the fractional part of the distance along a direction.
 
+use super::{Measured, settled};
 use crate::math::Vector;
 
 /// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded); `direction` has
@@ -7,11 +8,13 @@ use crate::math::Vector;
 ///
 /// **Source:** POV-Ray manual, section "Gradient".
 #[inline]
-pub fn value(direction: Vector, point: Vector) -> f64 {
-    let along = direction.dot(point);
+pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
+    // The direction and the sum are rounded, too.
+    let error = direction.abs().dot(error + point.abs() * (4.0 * f64::EPSILON));
+    let along = settled(direction.dot(point), error);
     let fraction = along - along.floor();
     // A tiny negative number rounds up to 1, which is outside of the half-open range.
-    if fraction < 1.0 { fraction } else { 0.0 }
+    Measured { value: if fraction < 1.0 { fraction } else { 0.0 }, error }
 }
 
 #[cfg(test)]
@@ -21,9 +24,21 @@ mod tests {
     #[test]
     fn it_rises_from_zero_to_one_in_each_unit() {
         let y = Vector::Y;
+        let value = |direction, point| value(direction, point, Vector::ZERO).value;
         assert_eq!(value(y, Vector::new(9.0, 0.25, 7.0)), 0.25);
         assert_eq!(value(y, Vector::new(0.0, -0.25, 0.0)), 0.75);
         assert_eq!(value(y, Vector::new(0.0, 3.0, 0.0)), 0.0);
         assert!(value(y, Vector::new(0.0, -1e-30, 0.0)) < 1.0);
+    }
+
+    #[test]
+    fn where_it_may_have_jumped_back_it_has() {
+        let slanted = Vector::new(0.6, 0.8, 0.0);
+        for off in [-1e-13, 0.0, 1e-13] {
+            let seen = value(slanted, slanted * (3.0 + off), Vector::splat(1e-12));
+            assert_eq!(seen.value, 0.0, "{off}");
+            assert!(seen.error > 1e-12 && seen.error < 2e-12);
+        }
+        assert!(value(slanted, slanted * (3.0 - 1e-11), Vector::splat(1e-12)).value > 0.9);
     }
 }

@@ -4,11 +4,11 @@
 //! effect is left out only when it could not change a bit of the film: its weight is exactly
 //! zero, or nothing by its own flags can take part in it. No guess about what is visible.
 
+use super::dropped::dropped;
 use super::numerics::numerics;
-use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions, Precision};
-use crate::shape::Shape;
+use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
-use crate::world::{Dropped, Light, Material, MaterialOrigin, Origins, Pigment, World};
+use crate::world::{Light, Material, MaterialOrigin, Origins, Pigment, World};
 
 /// Lists every effect the picture needs with what called for it, and every one it does not need
 /// with the reason.
@@ -25,7 +25,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         kernel: Kernel { shadows: false, secondary: false },
         effects: Vec::new(),
         left_out: Vec::new(),
-        dropped: census.dropped(),
+        dropped: dropped(world, origins, options.precision),
         numerics: numerics(world, origins),
         pilot: None,
     };
@@ -198,37 +198,6 @@ impl Census<'_> {
         }
     }
 
-    /// What lowering dropped, and what single lights lack.
-    fn dropped(&self) -> Vec<Dropped> {
-        let shadowless = self.world.lights.iter().zip(&self.origins.lights);
-        let shadowless = shadowless.filter(|(light, _)| !light.casts_shadows);
-        let mut dropped: Vec<_> = shadowless
-            .map(|(_, &site)| Dropped {
-                site,
-                what: "shadows and highlights of one light".to_owned(),
-                why: "it is shadowless".to_owned(),
-            })
-            .collect();
-        dropped.dedup_by_key(|part| part.site.span);
-        if self.options.precision == Precision::Single {
-            dropped.extend(self.without_single_precision());
-        }
-        dropped.extend(self.origins.dropped.iter().cloned());
-        dropped
-    }
-
-    /// The first shape that is met in double precision all the same.
-    fn without_single_precision(&self) -> Option<Dropped> {
-        let objects = self.world.objects.iter().zip(&self.origins.objects);
-        let mut ellipsoids =
-            objects.filter(|(object, _)| matches!(object.shape, Shape::Ellipsoid(_)));
-        ellipsoids.next().map(|(_, &site)| Dropped {
-            site,
-            what: "single precision of ellipsoids".to_owned(),
-            why: "they have no kernel for it".to_owned(),
-        })
-    }
-
     /// Where the lights that call stand.
     fn lights(&self, calls: impl Fn(&Light) -> bool) -> Vec<Site> {
         let lights = self.world.lights.iter().zip(&self.origins.lights);
@@ -277,197 +246,4 @@ fn count(n: usize, noun: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::color::{Color, Rgb};
-    use crate::math::Vector;
-    use crate::plan::Frame;
-    use crate::shape::{Shape, Sphere};
-    use crate::source::{ExpansionId, FileId, Span};
-    use crate::world::{Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky, SkyOrigin};
-
-    fn site(place: usize) -> Site {
-        Site { span: Span::new(FileId(0), place, place + 1), expansion: ExpansionId::MAIN }
-    }
-
-    /// A mirroring, shining sphere (material called for at 10) under a lamp (at 20).
-    fn lit_mirror() -> (World, Origins) {
-        let part = Rgb::gray(0.5);
-        let lobe = Lobe { kind: LobeKind::Phong, weight: 0.5, exponent: 9.0, metallic: 0.0 };
-        let finish = Finish {
-            conserve_energy: false,
-            glow: Rgb::BLACK,
-            diffuse: 0.5,
-            brilliance: 1.0,
-            lobes: vec![lobe],
-            reflection: Some(Reflection {
-                fresnel: false,
-                minimum: part,
-                maximum: part,
-                falloff: 1.0,
-                exponent: 1.0,
-                metallic: 0.0,
-            }),
-            seed: false,
-        };
-        let world = World {
-            spheres: vec![Sphere { centre: Vector::ZERO, radius: 1.0 }],
-            objects: vec![Object {
-                interior: None,
-                shape: Shape::Sphere(0),
-                material: 0,
-                texture_from_world: None,
-                faces: None,
-                casts_shadow: true,
-                inverse: false,
-            }],
-            materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
-            lights: vec![Light {
-                kind: LightKind::Point { position: Vector::Y },
-                color: Rgb::WHITE,
-                casts_shadows: true,
-            }],
-            ..World::default()
-        };
-        let origins = Origins {
-            objects: vec![site(1)],
-            lights: vec![site(20)],
-            materials: vec![MaterialOrigin {
-                clear: vec![],
-                pigment: Some(site(9)),
-                finish: Some(site(10)),
-                pattern: vec![],
-                highlights: vec![site(12), site(11), site(12)],
-                reflection: vec![site(13)],
-            }],
-            max_trace_level: Some(site(30)),
-            ..Origins::default()
-        };
-        (world, origins)
-    }
-
-    const OPTIONS: PlanOptions = PlanOptions {
-        frame: Frame::whole(4, 3),
-        antialias: Antialias::Off,
-        depth: None,
-        adc_bailout: None,
-        precision: Precision::Double,
-    };
-
-    /// Changes the lit mirror and asks why the effect is left out.
-    fn why_not(effect: Effect, change: impl FnOnce(&mut World)) -> (String, Option<Site>) {
-        let (mut world, origins) = lit_mirror();
-        change(&mut world);
-        let plan = plan(&world, &origins, &OPTIONS);
-        assert!(!plan.simulates(effect));
-        let left_out = plan.left_out.into_iter().find(|left| left.effect == effect);
-        left_out.map(|left| (left.why, left.site)).expect("named")
-    }
-
-    #[test]
-    fn every_effect_is_either_called_for_or_left_out_with_a_reason() {
-        let (world, origins) = lit_mirror();
-        let plan = plan(&world, &origins, &OPTIONS);
-        for effect in Effect::ALL {
-            let left_out = plan.left_out.iter().any(|left| left.effect == effect);
-            assert_ne!(plan.simulates(effect), left_out, "{effect:?}");
-        }
-        let called: Vec<_> = plan.effects.iter().map(|c| (c.effect, c.by.as_slice())).collect();
-        let expected: [(Effect, &[Site]); 4] = [
-            (Effect::Diffuse, &[site(20)]),
-            (Effect::Highlights, &[site(11), site(12)]),
-            (Effect::Shadows, &[site(20)]),
-            (Effect::Reflection, &[site(13)]),
-        ];
-        assert_eq!(called, expected);
-        assert_eq!(plan.kernel, Kernel::EVERYTHING);
-    }
-
-    #[test]
-    fn the_kernel_has_what_the_effects_need() {
-        let (mut world, origins) = lit_mirror();
-        world.lights[0].casts_shadows = false;
-        let kernel = plan(&world, &origins, &OPTIONS).kernel;
-        assert_eq!(kernel, Kernel { shadows: false, secondary: true });
-        world.materials[0].finish.reflection = None;
-        assert_eq!(plan(&world, &origins, &OPTIONS).kernel.name(), "bare");
-    }
-
-    #[test]
-    fn shadows_are_left_out_for_the_reason_that_holds() {
-        let why = |change: &dyn Fn(&mut World)| why_not(Effect::Shadows, change).0;
-        assert_eq!(why(&|w| w.lights.clear()), "no light");
-        assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "all lights are shadowless");
-        assert_eq!(why(&|w| w.objects[0].casts_shadow = false), "no object casts a shadow");
-        let dull = |w: &mut World| {
-            w.materials[0].finish.diffuse = 0.0;
-            w.materials[0].finish.lobes.clear();
-        };
-        assert_eq!(why(&dull), "no surface answers a light");
-    }
-
-    #[test]
-    fn highlights_need_a_lobe_and_a_light_that_makes_them() {
-        let why = |change: &dyn Fn(&mut World)| why_not(Effect::Highlights, change).0;
-        assert_eq!(why(&|w| w.materials[0].finish.lobes.clear()), "no surface has a highlight");
-        assert_eq!(
-            why(&|w| w.lights[0].casts_shadows = false),
-            "shadowless lights make no highlight"
-        );
-        let (mut world, origins) = lit_mirror();
-        world.lights[0].casts_shadows = false;
-        world.materials[0].finish.seed = true;
-        assert!(plan(&world, &origins, &OPTIONS).simulates(Effect::Highlights));
-    }
-
-    #[test]
-    fn reflection_needs_a_surface_that_reflects_and_a_second_level() {
-        let dull = |w: &mut World| w.materials[0].finish.reflection = None;
-        assert_eq!(why_not(Effect::Reflection, dull), ("no surface reflects".to_owned(), None));
-        let (why, at) = why_not(Effect::Reflection, |w| w.settings.max_trace_level = 0);
-        assert_eq!((why.contains("`max_trace_level` is 1"), at), (true, Some(site(30))));
-        // The caller's depth overrides the scene's, both ways, and then the scene is not to blame.
-        let (mut world, origins) = lit_mirror();
-        world.settings.max_trace_level = 1;
-        let deep = plan(&world, &origins, &PlanOptions { depth: Some(3), ..OPTIONS });
-        assert!(deep.simulates(Effect::Reflection) && deep.max_trace_level == 3);
-        let flat = plan(&world, &origins, &PlanOptions { depth: Some(0), ..OPTIONS });
-        assert_eq!(flat.max_trace_level, 1);
-        let reason = flat.left_out.iter().find(|left| left.effect == Effect::Reflection);
-        let reason = reason.expect("named");
-        assert_eq!(reason.site, None);
-    }
-
-    #[test]
-    fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
-        let (mut world, mut origins) = lit_mirror();
-        let (items, pattern) = (vec![site(40), site(42)], vec![site(43)]);
-        origins.sky = Some(SkyOrigin { site: site(41), items, pattern });
-        world.sky = Some(Sky {
-            pigments: vec![Pigment::Patterned {
-                pattern: crate::pattern::Pattern::Checker,
-                pattern_from_texture: crate::math::placement::Map::IDENTITY,
-                map: vec![(0.0, Color::WHITE)],
-            }],
-        });
-        let plan = plan(&world, &origins, &OPTIONS);
-        let by = |effect| plan.called(effect).map(|called| called.by.clone());
-        assert_eq!(by(Effect::Sky), Some(vec![site(40), site(42)]));
-        assert_eq!(by(Effect::Patterns), Some(vec![site(43)]));
-    }
-
-    #[test]
-    fn single_lights_and_what_lowering_dropped_are_listed_with_their_places() {
-        let (mut world, mut origins) = lit_mirror();
-        world.lights.push(Light { casts_shadows: false, ..world.lights[0] });
-        origins.lights.push(site(22));
-        origins.dropped.push(Dropped {
-            site: site(50),
-            what: "light_source".to_owned(),
-            why: "its colour is black".to_owned(),
-        });
-        let plan = plan(&world, &origins, &OPTIONS);
-        let sites: Vec<_> = plan.dropped.iter().map(|part| part.site).collect();
-        assert_eq!(sites, [site(22), site(50)]);
-    }
-}
+mod tests;

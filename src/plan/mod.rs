@@ -6,6 +6,7 @@
 //! decides by what is there. Shadows and secondary rays are hot: the tracer has a kernel for each
 //! combination. Patterns, lights and lobes are data: it evaluates those there are.
 
+mod dropped;
 mod effects;
 mod kernel;
 mod numerics;

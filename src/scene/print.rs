@@ -7,8 +7,8 @@
 use std::fmt::{self, Write};
 
 use super::{
-    CameraItemKind, CameraKind, Finish, LightKind, LightSource, Modifier, ModifierKind, ObjectId,
-    ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
+    Beam, CameraItemKind, CameraKind, Fade, Finish, LightKind, LightSource, Modifier, ModifierKind,
+    ObjectId, ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
 };
 use crate::math::transform::Step;
 use crate::math::vector::written as vector;
@@ -161,6 +161,11 @@ impl Printer<'_> {
                 writeln!(out, "{indent}interior ior {}", self.scene.interiors[id.index()].ior)
             }
             ModifierKind::NoShadow => writeln!(out, "{indent}no_shadow"),
+            ModifierKind::NoImage(on) => writeln!(out, "{indent}no_image{}", off(on)),
+            ModifierKind::NoReflection(on) => writeln!(out, "{indent}no_reflection{}", off(on)),
+            ModifierKind::DoubleIlluminate(on) => {
+                writeln!(out, "{indent}double_illuminate{}", off(on))
+            }
             ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
         }
     }
@@ -271,6 +276,16 @@ impl Printer<'_> {
     }
 }
 
+/// What follows a flag that is not set.
+fn off(on: bool) -> &'static str {
+    if on { "" } else { " off" }
+}
+
+fn write_beam(out: &mut String, beam: Beam) -> fmt::Result {
+    let Beam { radius, falloff, tightness } = beam;
+    write!(out, " radius {radius} falloff {falloff} tightness {tightness}")
+}
+
 fn light(out: &mut String, source: &LightSource) -> fmt::Result {
     write!(out, "light_source ")?;
     match source.kind {
@@ -279,6 +294,17 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
             write!(out, "{} parallel point_at {}", vector(location), vector(point_at))?;
         }
         LightKind::Direction { to_light } => write!(out, "direction {}", vector(to_light))?,
+        LightKind::Spotlight { location, point_at, beam } => {
+            write!(out, "{} spotlight point_at {}", vector(location), vector(point_at))?;
+            write_beam(out, beam)?;
+        }
+        LightKind::Cylinder { location, point_at, beam } => {
+            write!(out, "{} cylinder point_at {}", vector(location), vector(point_at))?;
+            write_beam(out, beam)?;
+        }
+    }
+    if let Some(Fade { distance, power }) = source.fade {
+        write!(out, " fade_distance {distance} fade_power {power}")?;
     }
     write!(out, " color {}", source.color)?;
     if source.shadowless {

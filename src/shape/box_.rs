@@ -32,9 +32,16 @@ pub struct Face {
 }
 
 impl Box_ {
+    /// The normals. Written out, as `map` on an array is a call.
+    #[inline(always)]
+    fn directions(&self) -> [Vector; 3] {
+        let [first, second, third] = self.normals;
+        [first.get(), second.get(), third.get()]
+    }
+
     #[inline(always)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
-        let slabs = slabs(self.centre, self.normals.map(UnitVector::get), self.half_widths, ray)?;
+        let slabs = slabs(self.centre, self.directions(), self.half_widths, ray)?;
         Some(Chord { enter: slabs.enter, leave: slabs.leave })
     }
 
@@ -44,7 +51,7 @@ impl Box_ {
     /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
-        let normals = self.normals.map(UnitVector::get);
+        let normals = self.directions();
         let face = match slabs(self.centre, normals, self.half_widths, ray) {
             Some(slabs) if leaving => slabs.leave_face,
             Some(slabs) => slabs.enter_face,

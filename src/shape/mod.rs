@@ -115,6 +115,21 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// How far `point`, which was found at `t`, may be along each axis from where `ray` was meant to
+    /// cross the surface; `crossing` is the kernel's.
+    ///
+    /// Along the ray it is the crossing's error, twice, as start and direction are no better than
+    /// that; and 4u·t/|N·D|, as the camera's or a mirror's vectors may nearly have cancelled in a
+    /// component: a direction is then off by its length's roundoffs, and not by its component's. The
+    /// rest is what rounding start, direction and point adds, and putting the point onto the surface.
+    pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing) -> Vector {
+        let along = (t - crossing.t).abs()
+            + 2.0 * crossing.error
+            + 4.0 * U * t / self.normal.dot(ray.direction).abs();
+        let across = ray.origin.abs() * (4.0 * U) + Vector::splat(8.0 * U * t);
+        ray.direction.abs() * along + across + self.normal.abs() * self.error
+    }
+
     /// Where the ray that goes on from here toward `direction` starts: moved along the normal, to
     /// the side on which it leaves, by the error bound and by nothing else. The bound has room for
     /// the rounding of this very sum.

@@ -52,7 +52,7 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
     }
 }
 
-/// Returns tokens that pair, and whether they end before the text does.
+/// Returns tokens that pair, and whether they end before the text does, which is as the author wrote it.
 pub(super) fn balance(
     mut tokens: Vec<Token>,
     text: &str,

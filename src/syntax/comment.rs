@@ -47,8 +47,17 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
                 .help("comments nest: each `/*` needs its own `*/`"),
         );
     }
+    for &stray in &scan.stray_closers {
+        let span = Span::new(file, stray, stray + 2);
+        diagnostics.push(
+            Diagnostic::new(Code::StrayCloser, "this `*/` ends no comment")
+                .at(span, "no `/*` is open here")
+                .help("comments nest: each `/*` has its own `*/`")
+                .fix(span, ""),
+        );
+    }
     let comments = scan.comments.iter().map(|&(start, end)| Span::new(file, start, end)).collect();
-    if scan.comments.is_empty() && scan.closers.is_empty() {
+    if scan.comments.is_empty() && scan.closers.is_empty() && scan.stray_closers.is_empty() {
         return Quiet { text: Cow::Borrowed(text), comments };
     }
     let mut bytes = text.as_bytes().to_vec();
@@ -60,6 +69,9 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
             }
         }
     }
+    for &stray in &scan.stray_closers {
+        bytes[stray..stray + 2].fill(b' ');
+    }
     for &place in &scan.closers {
         match bytes.get_mut(place) {
             Some(byte) => *byte = b'"',
@@ -70,12 +82,34 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
 }
 
+/// A string without its quote swallows the closers on its line: that what they would close is never closed
+/// is the same mistake. `found` is in the order of the text.
+pub(super) fn drop_swallowed(found: &mut Vec<Diagnostic>, text: &str) {
+    let place = |one: &Diagnostic| one.primary().map_or(0, |label| label.span.start as usize);
+    let Some(at) = found.iter().position(|one| one.code == Code::UnclosedString) else { return };
+    let start = place(&found[at]);
+    let line = text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
+    for (opener, closer) in [('{', '}'), ('(', ')'), ('[', ']'), ('<', '>')] {
+        let count = |sign: char| line.chars().filter(|c| *c == sign).count();
+        for _ in count(opener)..count(closer) {
+            let unclosed = |one: &Diagnostic| {
+                let opens = text.get(place(one)..).is_some_and(|rest| rest.starts_with(opener));
+                one.code == Code::UnclosedBlock && opens && place(one) < start
+            };
+            let Some(echo) = found.iter().rposition(unclosed) else { break };
+            found.remove(echo);
+        }
+    }
+}
+
 #[derive(Default)]
 struct Scan {
     comments: Vec<(usize, usize)>,
     unclosed_comment: Option<usize>,
     /// The first opening quote without an end.
     unclosed_string: Option<usize>,
+    /// Each `*/` outside of all comments.
+    stray_closers: Vec<usize>,
     /// Where a closing quote has to stand in for a line break, or for the end of the text.
     closers: Vec<usize>,
 }
@@ -95,6 +129,11 @@ impl Scan {
                     at = end;
                 }
                 (b'/', Some(b'*')) => at = scan.block_comment(bytes, at),
+                // `2 */* two */ 3` and `2 *// two` multiply.
+                (b'*', Some(b'/')) if !matches!(bytes.get(at + 2), Some(b'*' | b'/')) => {
+                    scan.stray_closers.push(at);
+                    at += 2;
+                }
                 _ => at += 1,
             }
         }
@@ -160,6 +199,13 @@ mod tests {
         let text = "/*".repeat(50_000) + &"*/".repeat(50_000) + "x";
         assert_eq!(text_of(&text).0.trim(), "x");
         assert_eq!(text_of(&"/*".repeat(50_000)).1, [Code::UnclosedComment]);
+    }
+
+    #[test]
+    fn an_end_without_a_beginning_is_told_once_and_left_out() {
+        assert_eq!(text_of("/*a*/ b */ c").0, "      b    c");
+        assert_eq!(text_of("b */").1, [Code::StrayCloser]);
+        assert_eq!(text_of("\"*/\" // */\n2 */*b*/ 3 *// c\n4").1, []);
     }
 
     #[test]

@@ -137,6 +137,10 @@ impl<'a> Nest<'a> {
 
     pub(super) fn stray_directive(&mut self, span: Span, expected: &str) {
         let text = self.slice(span);
+        // A misspelt word has been told.
+        if Head::from_word(text.trim_start_matches(['#', ' ', '\t'])) == Head::Unknown {
+            return;
+        }
         self.report(
             Diagnostic::new(Code::StrayDirective, format!("this `{text}` belongs to nothing"))
                 .at(span, format!("expected {expected} before it")),

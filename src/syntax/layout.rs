@@ -14,13 +14,14 @@ pub(super) struct Place {
 pub(super) struct Layout(Vec<Place>);
 
 impl Layout {
-    /// Measures each token of `text`.
+    /// Measures each token of `text`, which is as the author wrote it.
     pub fn of(tokens: &[Token], text: &str) -> Self {
         let bytes = text.as_bytes();
         let mut places = Vec::with_capacity(tokens.len());
-        let (mut end, mut indent) = (0, 0);
+        let (mut end, mut indent) = (0_usize, 0);
         for token in tokens {
-            let gap = bytes.get(end..token.start as usize).unwrap_or(&[]);
+            // A string without its quote ends with its line break.
+            let gap = bytes.get(end.saturating_sub(1)..token.start as usize).unwrap_or(&[]);
             let line = gap.iter().rposition(|byte| matches!(byte, b'\n' | b'\r'));
             let first = line.is_some() || places.is_empty();
             if first {

@@ -8,6 +8,7 @@ pub mod ast;
 mod balance;
 mod bracket;
 mod comment;
+mod control;
 mod directive;
 mod dump;
 mod expression;
@@ -19,10 +20,12 @@ mod loose;
 mod mark;
 mod nest;
 mod numbers;
+mod numeric;
 mod operand;
 mod print;
 mod repair;
 mod spelling;
+mod tally;
 mod target;
 mod token;
 
@@ -58,15 +61,18 @@ pub fn parse(
     diagnostics: &mut Diagnostics,
 ) -> Ast {
     let mut found = Diagnostics::new(true);
-    let quiet = comment::quiet(&source.text, file, &mut found);
+    let mut quiet = comment::quiet(&source.text, file, &mut found);
+    quiet.text = control::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
     let tokens = habits::translate(tokens, &quiet.text, file, &mut found);
-    let (tokens, cut) = balance::balance(tokens, &quiet.text, file, options, &mut found);
+    let (tokens, cut) = balance::balance(tokens, &source.text, file, options, &mut found);
     let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
     // Each pass found its own; the author reads from the top.
     let mut found: Vec<_> = found.iter().cloned().collect();
     found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
+    comment::drop_swallowed(&mut found, &source.text);
+    let found = tally::tally(found, &source.text);
     // A quote that was added behind the end is no place in the author's text.
     let end = source.text.len() as u32;
     let within = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };

@@ -121,11 +121,12 @@ pub(super) fn nest<'a>(
         diagnostics,
         ast: Ast {
             file,
-            items: Vec::new(),
+            // More than is needed, mostly: what is never written to is never had.
+            items: Vec::with_capacity(tokens.len() / 2),
             expressions: Vec::with_capacity(tokens.len() / 2),
             directives: Vec::new(),
             names: Vec::new(),
-            arguments: Vec::new(),
+            arguments: Vec::with_capacity(tokens.len() / 4),
             numbers: Vec::new(),
             comments: quiet.comments.clone(),
             root: Items::default(),

@@ -1,7 +1,7 @@
 //! Decodes runs of literals by hand: megabytes of mesh data without a node each.
 //!
 //! **In:** the text of a run. **Out:** correctly rounded numbers, in order.
-//! **Invariant:** a run holds only what the grammar's `numbers` or `vectors` lets in.
+//! **Invariant:** a run holds only what `numeric` takes for one.
 
 /// One literal, vector bracket or comma of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

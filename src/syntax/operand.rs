@@ -26,6 +26,10 @@ impl<'a> Nest<'a> {
 
     pub(super) fn named(&mut self, span: Span, after_contextual: bool) {
         let text = self.slice(span);
+        if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Brace))) {
+            // A misspelt word and its block: no component.
+            self.leave_vectors(span);
+        }
         let top = self.top();
         if let Some(block) = top.block
             && top.state != State::Wanting
@@ -86,6 +90,9 @@ impl<'a> Nest<'a> {
 
     pub(super) fn number(&mut self, token: Token) {
         let mut span = self.span(token);
+        if self.number_to_another_base(span) {
+            return;
+        }
         // `1.2.3` and `1e+` come as two tokens that touch.
         while let Some(&next) = self.tokens.get(self.at + 1) {
             let text = self.slice(self.span(next));
@@ -116,6 +123,34 @@ impl<'a> Nest<'a> {
                 self.operand(ExpressionKind::Missing, span, false);
             }
         }
+    }
+
+    /// `0x1F`, as other languages write numbers: a `0` and a name that touch.
+    fn number_to_another_base(&mut self, zero: Span) -> bool {
+        let Some(&next) = self.tokens.get(self.at + 1) else { return false };
+        let digits = self.span(next);
+        if self.slice(zero) != "0" || next.kind != TokenKind::Name || digits.start != zero.end {
+            return false;
+        }
+        let name = self.slice(digits);
+        let (base, what) = match name.as_bytes() {
+            [b'x' | b'X', _, ..] => (16, "hexadecimal"),
+            [b'b' | b'B', _, ..] => (2, "binary"),
+            [b'o' | b'O', _, ..] => (8, "octal"),
+            _ => return false,
+        };
+        let Ok(value) = u32::from_str_radix(&name[1..], base) else { return false };
+        let whole = zero.to(digits);
+        let text = self.slice(whole);
+        self.report(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(whole, format!("{what} numbers are of other languages"))
+                .help(format!("write `{value}`"))
+                .fix(whole, value.to_string()),
+        );
+        self.at += 1;
+        self.operand(ExpressionKind::Number(f64::from(value)), whole, false);
+        true
     }
 
     /// True where values stand side by side as items.

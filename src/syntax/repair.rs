@@ -6,12 +6,20 @@
 
 use std::collections::{HashMap, HashSet};
 
+mod blame;
+mod ends;
+mod outside;
+
+use self::ends::match_directives;
+use self::outside::Outside;
 use super::balance::{Opener, Turn, turn};
-use super::layout::{Layout, Place};
+use super::layout::Layout;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::source::{FileId, Span};
-use crate::vocabulary::{Role, Word};
+use crate::source::FileId;
+
+/// How many tokens a vector of plain values has at most.
+const LONGEST_VECTOR: usize = 12;
 
 /// Adds and drops closers until everything pairs.
 pub(super) fn repair(
@@ -55,8 +63,8 @@ struct Open {
     /// The indentation of its line, and of the first line inside.
     indent: u32,
     inner: Option<u32>,
-    /// The first token inside that looks as if it stood outside.
-    outside: Option<usize>,
+    /// Where it seems to have ended.
+    outside: Option<Outside>,
     /// Its closer stands in a branch; it is closed where the directive of that branch ends.
     closed_in_branch: bool,
     /// For a directive: that a branch does not pair has been told.
@@ -84,37 +92,6 @@ struct Repair<'a> {
     diagnostics: &'a mut Diagnostics,
 }
 
-/// Which directive each `#end` ends. Where `#end`s are missing, indentation says whose.
-fn match_directives(tokens: &[Token], layout: &Layout) -> HashMap<usize, usize> {
-    let count = |wanted: Turn| tokens.iter().filter(|t| turn(t.kind) == Some(wanted)).count();
-    let (opens, ends) =
-        (count(Turn::Open(Opener::Directive)), count(Turn::Close(Opener::Directive)));
-    let mut missing = opens.saturating_sub(ends);
-    let mut open: Vec<usize> = Vec::new();
-    let mut openers = HashMap::new();
-    for (at, token) in tokens.iter().enumerate() {
-        match turn(token.kind) {
-            Some(Turn::Open(Opener::Directive)) => open.push(at),
-            Some(Turn::Close(Opener::Directive)) => {
-                let place = layout.place(at);
-                let fits = |&opener: &usize| layout.place(opener).indent == place.indent;
-                if place.first && missing > 0 && open.last().is_some_and(|last| !fits(last)) {
-                    let skipped = open.iter().rev().position(fits);
-                    if let Some(skipped) = skipped.filter(|&skipped| skipped <= missing) {
-                        open.truncate(open.len() - skipped);
-                        missing -= skipped;
-                    }
-                }
-                if let Some(opener) = open.pop() {
-                    openers.insert(at, opener);
-                }
-            }
-            Some(_) | None => {}
-        }
-    }
-    openers
-}
-
 impl Repair<'_> {
     fn run(mut self) -> Vec<Token> {
         for at in 0..self.tokens.len() {
@@ -132,7 +109,7 @@ impl Repair<'_> {
                 }),
                 Some(Turn::Close(Opener::Bracket(bracket))) => self.close(bracket, at),
                 Some(Turn::Close(Opener::Directive)) => self.end(at),
-                Some(Turn::Divide) => self.close_since_directive(at),
+                Some(Turn::Divide) => self.divide(at),
             }
         }
         let end = self.tokens.len();
@@ -160,45 +137,6 @@ impl Repair<'_> {
         result
     }
 
-    /// Notes where the innermost bracket or directive seems to have ended, by its look.
-    fn look_for_outside(&mut self, at: usize) {
-        let Place { first, indent } = self.layout.place(at);
-        let begins = first && self.begins_statement(at);
-        let kind = self.tokens[at].kind;
-        let Some(top) = self.open.last_mut() else { return };
-        if top.outside.is_some() {
-            return;
-        }
-        let indented = top.inner.is_some_and(|inner| inner > top.indent);
-        let outside = match top.opener {
-            Opener::Bracket(Bracket::Brace) | Opener::Directive => {
-                begins && indented && indent <= top.indent
-            }
-            Opener::Bracket(Bracket::Round | Bracket::Square) => {
-                kind == TokenKind::Mark(Mark::Semicolon) || (begins && indent <= top.indent)
-            }
-        };
-        if outside {
-            top.outside = Some(at);
-        }
-        if first && top.inner.is_none() {
-            top.inner = Some(indent);
-        }
-    }
-
-    /// True for a directive, and for a word that opens a block.
-    fn begins_statement(&self, at: usize) -> bool {
-        let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
-        match self.tokens[at].kind {
-            TokenKind::Directive(head) => head != Head::End && !head.divides(),
-            TokenKind::Word(word) => {
-                word.role() == Role::Statement
-                    && self.tokens.get(at + 1).is_some_and(|next| next.kind == brace)
-            }
-            _ => false,
-        }
-    }
-
     fn close(&mut self, bracket: Bracket, at: usize) {
         loop {
             let Some(top) = self.open.last() else { return self.stray(bracket, at) };
@@ -222,7 +160,7 @@ impl Repair<'_> {
             };
             let Some(top) = self.open.pop() else { return };
             if !unclosed {
-                return;
+                return self.forget_outsides_since(&top);
             }
             self.never_closed(top, at);
         }
@@ -298,6 +236,16 @@ impl Repair<'_> {
                 .fix(self.span(at), "}");
             return self.tell(diagnostic);
         }
+        if let Some(open) = self.vector_before(at).filter(|_| bracket != Bracket::Brace) {
+            self.inserted.push((at, TokenKind::Mark(Mark::Greater)));
+            let message = format!("this `<` is closed by `{closer}`");
+            let diagnostic = Diagnostic::new(Code::StrayCloser, message)
+                .at(self.span(at), "expected `>` here")
+                .also(self.span(open), "the vector opened here")
+                .help("replace it with `>`")
+                .fix(self.span(at), ">");
+            return self.tell(diagnostic);
+        }
         let mut diagnostic =
             Diagnostic::new(Code::StrayCloser, format!("this `{closer}` closes nothing"))
                 .at(self.span(at), format!("no `{}` is open here", bracket.opener()));
@@ -305,6 +253,19 @@ impl Repair<'_> {
             diagnostic = diagnostic.also(self.span(top.token), "this is open instead");
         }
         self.tell(diagnostic.fix(self.span(at), ""));
+    }
+
+    /// The `<` of a vector of plain values that reaches up to token `at`.
+    fn vector_before(&self, at: usize) -> Option<usize> {
+        let before = self.tokens[..at].iter().rev().take(LONGEST_VECTOR);
+        let values = before.take_while(|token| match token.kind {
+            TokenKind::Number | TokenKind::Name => true,
+            TokenKind::Mark(mark) => matches!(mark, Mark::Comma | Mark::Dot | Mark::Minus),
+            _ => false,
+        });
+        let open = at.checked_sub(values.count() + 1)?;
+        let opens = self.tokens[open].kind == TokenKind::Mark(Mark::Less);
+        (opens && open + 1 < at).then_some(open)
     }
 
     /// `#end`.
@@ -315,11 +276,24 @@ impl Repair<'_> {
             self.never_closed(top, at);
             self.close_since_directive(at);
         }
-        self.open.pop();
+        if let Some(directive) = self.open.pop() {
+            self.forget_outsides_since(&directive);
+        }
         if let Some(top) = self.open.pop_if(|top| top.closed_in_branch)
             && let Opener::Bracket(bracket) = top.opener
         {
             self.inserted.push((at + 1, TokenKind::Mark(Mark::Close(bracket))));
+        }
+    }
+
+    /// `#else` and its like: the directive had not ended before.
+    fn divide(&mut self, at: usize) {
+        self.close_since_directive(at);
+        let directive = self.open.pop_if(|top| top.opener == Opener::Directive);
+        if let Some(mut directive) = directive {
+            self.forget_outsides_since(&directive);
+            directive.outside = None;
+            self.open.push(directive);
         }
     }
 
@@ -349,88 +323,65 @@ impl Repair<'_> {
             Opener::Bracket(bracket) => TokenKind::Mark(Mark::Close(bracket)),
             Opener::Directive => TokenKind::Directive(Head::End),
         };
-        self.inserted.push((open.outside.unwrap_or(at), kind));
+        // What ends at a closer needs no guess.
+        let ends_file = at == self.tokens.len();
+        let outside = open.outside.filter(|outside| outside.certain || ends_file);
+        self.inserted.push((outside.map_or(at, |outside| outside.token), kind));
     }
+}
 
-    /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
-    fn never_closed(&mut self, open: Open, at: usize) {
-        self.insert_closer(&open, at);
-        let place = self.span(open.outside.unwrap_or(at));
-        let shown = self.shown(open.token);
-        let found = match self.text.get(place.range()).and_then(|text| text.lines().next()) {
-            None | Some("") => "the file ends first".to_owned(),
-            Some(text) => text.to_owned(),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::syntax::balance::pairs;
+    use crate::syntax::token::tokens;
+
+    #[test]
+    fn whatever_is_missing_or_too_many_what_comes_back_pairs() {
+        const PARTS: [&str; 16] = [
+            "sphere {",
+            "union {",
+            "finish {",
+            "}",
+            "(",
+            ")",
+            "[",
+            "]",
+            "#if (1)",
+            "#else",
+            "#end",
+            "\n",
+            "\n  ",
+            "\n",
+            "; ",
+            "#declare A = 1;",
+        ];
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize
         };
-        let ends_file = at == self.tokens.len() && open.outside.is_none();
-        let (code, message, expected) = match open.opener {
-            Opener::Bracket(bracket) => {
-                let surplus = &mut self.surplus[bracket as usize];
-                if open.closed_in_branch
-                    || (at == self.tokens.len() && *surplus <= 0 && self.told > 0)
-                {
-                    return;
-                }
-                *surplus -= 1;
-                let closer = bracket.closer();
-                (Code::UnclosedBlock, format!("{shown} is never closed"), format!("`{closer}`"))
+        for _ in 0..3000 {
+            let length = random() % 30;
+            let text: Vec<&str> = (0..length).map(|_| PARTS[random() % PARTS.len()]).collect();
+            let text = text.join(" ");
+            let mut told = Diagnostics::new(true);
+            let repaired = repair(tokens(&text), &text, FileId(0), &mut told);
+            let stray = |token: &Token| {
+                matches!(turn(token.kind), Some(Turn::Divide | Turn::Close(Opener::Directive)))
+            };
+            // An `#end` or `#else` of nothing is told where the tree is built.
+            if !text.contains("#end") && !text.contains("#else") {
+                assert!(pairs(&repaired), "{text}");
             }
-            Opener::Directive => {
-                (Code::MissingEnd, format!("{shown} has no `#end`"), "`#end`".to_owned())
-            }
-        };
-        let label = match self.closed_by(at).filter(|_| open.outside.is_none()) {
-            _ if ends_file => found,
-            // "expected `}` before `}`" would tell nobody whose it is.
-            Some(outer) if expected == format!("`{found}`") => {
-                format!("this closes {}", self.shown(outer))
-            }
-            Some(_) | None => format!("expected {expected} before `{found}`"),
-        };
-        let diagnostic = Diagnostic::new(code, message)
-            .at(self.span(open.token), "opened here")
-            .also(place, label);
-        self.tell(diagnostic);
-    }
-
-    /// What of all that is open the closer at `at` closes.
-    fn closed_by(&self, at: usize) -> Option<usize> {
-        let innermost = |wanted: Opener| {
-            self.open.iter().rev().find(|open| open.opener == wanted).map(|open| open.token)
-        };
-        match turn(self.tokens.get(at)?.kind)? {
-            Turn::Close(Opener::Directive) => self.openers.get(&at).copied(),
-            Turn::Close(bracket @ Opener::Bracket(_)) => innermost(bracket),
-            Turn::Open(_) | Turn::Divide => None,
-        }
-    }
-
-    fn tell(&mut self, diagnostic: Diagnostic) {
-        self.told += 1;
-        self.diagnostics.push(diagnostic);
-    }
-
-    fn span(&self, at: usize) -> Span {
-        let end = self.text.len();
-        let (start, end) = self
-            .tokens
-            .get(at)
-            .map_or((end, end), |token| (token.start as usize, (token.end as usize).min(end)));
-        Span::new(self.file, start.min(end), end)
-    }
-
-    /// An opener with the word before it: "`sphere {`".
-    fn shown(&self, at: usize) -> String {
-        let text = |at: usize| self.text.get(self.span(at).range()).unwrap_or("");
-        let named = |at: &usize| {
-            matches!(self.tokens[*at].kind, TokenKind::Word(_) | TokenKind::Name)
-                && self.tokens[*at].kind != TokenKind::Word(Word::Array)
-        };
-        let opener = text(at);
-        match (at.checked_sub(1).filter(named), opener) {
-            (Some(word), "{") => format!("`{} {{`", text(word)),
-            (Some(word), "(") => format!("`{}(`", text(word)),
-            (_, "{" | "(" | "[") => format!("this `{opener}`"),
-            (_, directive) => format!("`{directive}`"),
+            let brackets: Vec<Token> = repaired.into_iter().filter(|t| !stray(t)).collect();
+            let opens = brackets
+                .iter()
+                .filter(|t| matches!(turn(t.kind), Some(Turn::Open(Opener::Bracket(_)))));
+            let closes = brackets
+                .iter()
+                .filter(|t| matches!(turn(t.kind), Some(Turn::Close(Opener::Bracket(_)))));
+            assert_eq!(opens.count(), closes.count(), "{text}");
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Puts right the misspelt words of directives, so that one letter does not unnest a file.
 
-use super::token::{Head, Token, TokenKind};
+use std::collections::HashSet;
+
+use super::habits::color_at;
+use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
 
@@ -18,17 +21,25 @@ const FOREIGN: &[(&str, &str)] = &[
 
 /// Reports every unknown directive, and takes it for the one that was meant if that is likely.
 pub(super) fn correct_heads(
-    tokens: &mut [Token],
+    tokens: &mut Vec<Token>,
     text: &str,
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) {
-    for token in tokens {
+    let mut before = None;
+    for at in 0..tokens.len() {
+        let next = tokens.get(at + 1).map(|next| next.kind);
+        let Some(token) = tokens.get_mut(at) else { continue };
+        let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
             continue;
         }
         let span = Span::new(file, token.start as usize, token.end as usize);
         let word = text.get(span.range()).unwrap_or("").trim_start_matches(['#', ' ', '\t']);
+        if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {
+            // A colour, as the web writes it (habits/web.rs).
+            continue;
+        }
         if word == "define" {
             // Told with what follows it, which is written otherwise too (habits/head.rs).
             token.kind = TokenKind::Directive(Head::Declare);
@@ -38,8 +49,8 @@ pub(super) fn correct_heads(
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
-        if let Some(near) = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()))
-        {
+        let near = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()));
+        if let Some(near) = near.filter(|near| fits(Head::from_word(near), next)) {
             let start = span.end - word.len() as u32;
             diagnostic = diagnostic
                 .help(format!("did you mean `#{near}`?"))
@@ -51,4 +62,50 @@ pub(super) fn correct_heads(
         }
         diagnostics.push(diagnostic);
     }
+    drop_their_ends(tokens);
+}
+
+/// Whether what follows can be a condition, where a directive has one.
+fn fits(head: Head, next: Option<TokenKind>) -> bool {
+    let has_condition = matches!(head, Head::Elseif | Head::Case | Head::Range)
+        || (head.opens() && head != Head::Macro);
+    let may_begin = matches!(
+        next,
+        Some(
+            TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Not)
+                | TokenKind::Name
+                | TokenKind::Number
+        )
+    );
+    !has_condition || may_begin
+}
+
+/// Where there are more `#end`s than directives to end, those of the unknown ones go with them.
+fn drop_their_ends(tokens: &mut Vec<Token>) {
+    let takes_parentheses = |at: usize| {
+        tokens
+            .get(at + 1)
+            .is_some_and(|next| next.kind == TokenKind::Mark(Mark::Open(Bracket::Round)))
+    };
+    let mut surplus: isize = 0;
+    let (mut open, mut ends) = (Vec::new(), Vec::new());
+    for (at, token) in tokens.iter().enumerate() {
+        match token.kind {
+            TokenKind::Directive(Head::Unknown) if takes_parentheses(at) => open.push(true),
+            TokenKind::Directive(Head::End) => {
+                surplus += 1;
+                if open.pop() == Some(true) {
+                    ends.push(at);
+                }
+            }
+            TokenKind::Directive(head) if head.opens() => {
+                surplus -= 1;
+                open.push(false);
+            }
+            _ => {}
+        }
+    }
+    let dropped: HashSet<usize> = ends.into_iter().rev().take(surplus.max(0) as usize).collect();
+    let mut at = 0..;
+    tokens.retain(|_| at.next().is_none_or(|at| !dropped.contains(&at)));
 }

@@ -6,6 +6,7 @@
 use pest::Parser;
 use pest_derive::Parser;
 
+use super::numeric;
 use crate::vocabulary::Word;
 
 #[derive(Parser)]
@@ -144,47 +145,54 @@ impl Head {
 
 /// All tokens of a text.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    // The grammar ends in `ANY`, so it takes every text.
-    let Some(file) = Grammar::parse(Rule::file, text).ok().and_then(|mut pairs| pairs.next())
-    else {
-        return Vec::new();
-    };
-    let mut tokens = Vec::with_capacity(text.len() / 5);
-    for pair in file.into_inner() {
-        let span = pair.as_span();
-        let (start, end) = (span.start(), span.end());
-        let token = span.as_str();
-        let kind = match pair.as_rule() {
-            Rule::word => match Word::from_name(token) {
-                Some(word) => TokenKind::Word(word),
-                None => TokenKind::Name,
-            },
-            Rule::number => TokenKind::Number,
-            Rule::numbers => TokenKind::Numbers,
-            Rule::vectors => TokenKind::Vectors,
-            Rule::mark => mark(token),
-            Rule::directive => {
-                TokenKind::Directive(Head::from_word(token[1..].trim_start_matches([' ', '\t'])))
+    let mut tokens = Vec::with_capacity(text.len() / 3);
+    // Where the next piece begins, and where the last token ends.
+    let (mut at, mut behind) = (0, 0);
+    while let Some(rest) = text.get(at..)
+        && let Some(piece) = Grammar::parse(Rule::piece, rest).ok().and_then(|mut p| p.next())
+    {
+        let length = piece.as_str().len();
+        if length == 0 {
+            // The grammar takes every character: this is the end.
+            break;
+        }
+        for pair in piece.into_inner() {
+            let start = at + pair.as_span().start();
+            let token = pair.as_str();
+            if start < behind {
+                continue;
             }
-            Rule::string => TokenKind::String,
-            Rule::stray => TokenKind::Stray,
-            Rule::EOI => break,
-            Rule::file
-            | Rule::blank
-            | Rule::token
-            | Rule::letter
-            | Rule::digit
-            | Rule::literal
-            | Rule::exponent
-            | Rule::triple
-            | Rule::signed
-            | Rule::comma => continue,
-        };
-        tokens.push(Token { kind, start: start as u32, end: end as u32 });
+            behind = match token.as_bytes() {
+                [b'+'..=b'9' | b'<' | b'>', ..] => {
+                    numeric::part(text, start, start + token.len(), &mut tokens)
+                }
+                bytes => {
+                    let kind = match bytes {
+                        [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => word(token),
+                        [b'#', _, ..] => {
+                            let word = token[1..].trim_start_matches([' ', '\t']);
+                            TokenKind::Directive(Head::from_word(word))
+                        }
+                        [b'"', _, ..] => TokenKind::String,
+                        _ => mark(token),
+                    };
+                    let end = start + token.len();
+                    tokens.push(Token { kind, start: start as u32, end: end as u32 });
+                    end
+                }
+            };
+        }
+        at += length;
     }
     tokens
 }
 
+/// A word of the language, or a name.
+pub(super) fn word(text: &str) -> TokenKind {
+    Word::from_name(text).map_or(TokenKind::Name, TokenKind::Word)
+}
+
+/// The marks that numeric text does not have.
 fn mark(text: &str) -> TokenKind {
     TokenKind::Mark(match text {
         "{" => Mark::Open(Bracket::Brace),
@@ -193,20 +201,11 @@ fn mark(text: &str) -> TokenKind {
         "]" => Mark::Close(Bracket::Square),
         "(" => Mark::Open(Bracket::Round),
         ")" => Mark::Close(Bracket::Round),
-        "," => Mark::Comma,
         ";" => Mark::Semicolon,
-        "." => Mark::Dot,
-        "+" => Mark::Plus,
-        "-" => Mark::Minus,
         "*" => Mark::Star,
-        "/" => Mark::Slash,
         "!" => Mark::Not,
-        "<" => Mark::Less,
-        "<=" => Mark::LessOrEqual,
         "=" => Mark::Equal,
         "!=" => Mark::NotEqual,
-        ">=" => Mark::GreaterOrEqual,
-        ">" => Mark::Greater,
         "&" => Mark::And,
         "|" => Mark::Or,
         "?" => Mark::Question,

@@ -4,9 +4,8 @@
 //! show and a region is an exact crop. Samples are averaged as they are, unclamped (as POV-Ray
 //! does): the film holds light, not what a display can show.
 
-use crate::color::{Rgb, srgb_encode};
+use crate::color::{Gamma, Rgb, srgb_encode};
 use crate::film::Film;
-use crate::math::elementary::pow;
 use crate::plan::Region;
 
 /// The mean of the `grid` × `grid` samples that `sample` gives, in a fixed order.
@@ -63,11 +62,8 @@ impl Shown {
     }
 }
 
-fn encode(radiance: Rgb, assumed_gamma: f64) -> [f64; 3] {
-    radiance.components().map(|c| {
-        let linear = if assumed_gamma == 1.0 { c } else { pow(c.max(0.0), assumed_gamma) };
-        srgb_encode(linear)
-    })
+fn encode(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
+    radiance.components().map(|c| srgb_encode(assumed_gamma.linear(c)))
 }
 
 #[cfg(test)]
@@ -76,7 +72,7 @@ mod tests {
     use crate::plan::Frame;
 
     /// A gray film three pixels wide and high.
-    fn film(assumed_gamma: f64, grays: [f64; 9]) -> Film {
+    fn film(assumed_gamma: Gamma, grays: [f64; 9]) -> Film {
         let mut film = Film::new(Frame::whole(3, 3), assumed_gamma);
         film.radiance = grays.map(Rgb::gray).to_vec();
         film
@@ -87,7 +83,7 @@ mod tests {
         for odd in 0..9 {
             let mut grays = [0.5; 9];
             grays[odd] = 0.6;
-            let film = film(1.0, grays);
+            let film = film(Gamma::LINEAR, grays);
             let shown = Shown::new(&film);
             assert!(shown.is_edge(1, 1, 0.05));
             assert_eq!(shown.is_edge(0, 0, 0.05), [0, 1, 3, 4].contains(&odd));
@@ -97,8 +93,8 @@ mod tests {
 
     #[test]
     fn differences_are_those_a_display_shows() {
-        let edge = |assumed_gamma: f64, a: f64, b: f64| {
-            let film = film(assumed_gamma, [a, a, a, a, a, a, a, a, b]);
+        let edge = |gamma: f64, a: f64, b: f64| {
+            let film = film(Gamma::Power(gamma), [a, a, a, a, a, a, a, a, b]);
             Shown::new(&film).is_edge(1, 1, 0.05)
         };
         assert!(edge(1.0, 0.0, 0.02) && !edge(1.0, 0.9, 0.92));

@@ -13,7 +13,7 @@ pub(super) struct Gloss {
     pub normal: Vector,
     pub to_viewer: Vector,
     pub to_light: Vector,
-    /// `normal · to_light`, ≥ 0.
+    /// `normal · to_light`; negative for a light behind a surface that is lit on both sides.
     pub cosine: f64,
 }
 

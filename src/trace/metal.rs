@@ -16,13 +16,14 @@ pub(super) fn tint(color: Rgb, metallic: f64, cosine: f64) -> Rgb {
 ///
 /// **Source:** P. Strauss, "A realistic lighting model for computer animators", IEEE Computer
 /// Graphics and Applications 10(6), 1990, with its constant 1.12. POV-Ray 3.7's `metallic` agrees
-/// within 1/10,000, for highlights at the angle of the light and for reflections at that of view.
+/// within 1/10,000, for highlights at the angle of the light and for reflections at that of view; so it
+/// does where the light is behind the surface (`cosine` < 0, measured to 1/1,000).
 fn fresnel(cosine: f64) -> f64 {
     const K: f64 = 1.12;
     const AT_ZERO: f64 = 1.0 / (K * K);
     const AT_ONE: f64 = 1.0 / ((1.0 - K) * (1.0 - K));
-    let x = acos(cosine.clamp(0.0, 1.0)) * std::f64::consts::FRAC_2_PI;
-    (1.0 / ((x - K) * (x - K)) - AT_ZERO) / (AT_ONE - AT_ZERO)
+    let x = acos(cosine.clamp(-1.0, 1.0)) * std::f64::consts::FRAC_2_PI;
+    ((1.0 / ((x - K) * (x - K)) - AT_ZERO) / (AT_ONE - AT_ZERO)).min(1.0)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! the Plan leaves out costs nothing per ray.
 
 mod antialias;
+mod attenuation;
 mod camera;
 mod highlight;
 mod media;
@@ -22,8 +23,9 @@ mod tiles;
 
 use std::ops::AddAssign;
 
+use crate::color::Gamma;
 use crate::film::Film;
-use crate::geometry::{Geometry, Hit, Occluder};
+use crate::geometry::{Geometry, Hit, Occluder, Work};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
 use crate::world::World;
 
@@ -40,6 +42,14 @@ pub use pixels::{Pixels, Sampling, pixels};
 pub struct TraceOptions {
     /// `None`: one for each processor.
     pub threads: Option<usize>,
+    /// Count the [`Work`], too. Some scenes take 1 % longer.
+    pub count_work: bool,
+}
+
+impl TraceOptions {
+    pub const fn on_threads(threads: usize) -> Self {
+        Self { threads: Some(threads), count_work: false }
+    }
 }
 
 /// Whoever waits for the film. Called from several threads at once.
@@ -74,6 +84,15 @@ pub struct Counters {
     pub reflection: u64,
     /// Rays that go on behind a clear surface.
     pub transmission: u64,
+    /// What it took to find what they meet; nothing where it was not to be counted.
+    pub work: Work,
+}
+
+impl Counters {
+    /// Of every kind.
+    pub fn rays(&self) -> u64 {
+        self.camera + self.shadow + self.reflection + self.transmission
+    }
 }
 
 impl AddAssign for Counters {
@@ -82,6 +101,7 @@ impl AddAssign for Counters {
         self.shadow += other.shadow;
         self.reflection += other.reflection;
         self.transmission += other.transmission;
+        self.work += other.work;
     }
 }
 
@@ -95,7 +115,7 @@ pub struct Traced {
 
 impl Traced {
     /// Before any ray: every pixel black.
-    pub fn unbegun(frame: Frame, assumed_gamma: f64) -> Self {
+    pub fn unbegun(frame: Frame, assumed_gamma: Gamma) -> Self {
         let film = Film::new(frame, assumed_gamma);
         Self { film, counters: Counters::default(), complete: false }
     }
@@ -111,7 +131,8 @@ pub(crate) struct Walk {
     /// Surfaces that coincide with the one at hand.
     coinciding: Vec<Hit>,
     filters: Filters,
-    /// For each light what last stood before it, or nothing: a guess, worth no more than time.
+    /// For each light what last stood before it, or nothing: a guess, worth no more than time, and
+    /// forgotten at each tile, so that no count depends on who takes it.
     occluders: Vec<Occluder>,
     counters: Counters,
 }
@@ -132,7 +153,7 @@ impl Walk {
 /// (and through those of a border one pixel wide around a region), then `grid` × `grid` samples
 /// instead in each pixel that differs from a neighbour.
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
-    let geometry = geometry(world, plan);
+    let geometry = geometry(world, plan, options);
     let tracer = Tracer::new(world, &geometry, plan);
     watch.built();
     let crew = Crew::new(options.threads, watch);
@@ -145,8 +166,9 @@ pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Wat
 }
 
 /// The World's geometry in the Plan's arithmetic.
-pub fn geometry(world: &World, plan: &Plan) -> Geometry {
+pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry {
     let geometry = Geometry::build(world);
+    let geometry = if options.count_work { geometry.counting() } else { geometry };
     match plan.precision {
         Precision::Double => geometry,
         Precision::Single => geometry.in_single_precision(),

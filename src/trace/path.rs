@@ -15,13 +15,18 @@ use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
 use crate::math::Vector;
 use crate::plan::{Effect, Plan};
-use crate::shape::Ray;
+use crate::shape::{Ray, SurfacePoint};
 use crate::world::{Finish, Material, Pigment, World};
 
 /// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
     pub world: &'a World,
+    /// Everything: what stands in the way of light.
     pub geometry: &'a Geometry,
+    /// What the camera's rays meet.
+    in_image: &'a Geometry,
+    /// What mirrored rays meet.
+    in_reflections: &'a Geometry,
     /// Rays go on behind clear surfaces.
     pub clear: bool,
     /// Interiors have indices of refraction.
@@ -40,6 +45,8 @@ struct Way {
     weight: f64,
     /// 1 for the camera's rays.
     level: u32,
+    /// Something has mirrored it, or one it goes on from.
+    mirrored: bool,
 }
 
 /// A surface on a path, waiting for what the ray that goes on from it sees.
@@ -66,6 +73,13 @@ pub(super) struct Fork {
     media: usize,
 }
 
+/// Where a ray meets a surface.
+struct Stand<'a> {
+    surface: SurfacePoint,
+    paint: Color,
+    place: Place<'a>,
+}
+
 /// A surface that a ray has met.
 struct Met<'a> {
     hit: Hit,
@@ -82,6 +96,8 @@ impl<'a> Tracer<'a> {
         Self {
             world,
             geometry,
+            in_image: geometry.in_image(),
+            in_reflections: geometry.in_reflections(),
             clear: plan.simulates(Effect::Transparency),
             bends: plan.simulates(Effect::Refraction),
             filters_shadows: plan.simulates(Effect::ColoredShadows),
@@ -93,52 +109,46 @@ impl<'a> Tracer<'a> {
     /// The radiance seen along `ray`.
     ///
     /// The weight that `adc_bailout` cuts at is the product of [`reflection::most`] of each surface
-    /// that mirrors, and of the brightness of what each surface lets through, as in POV-Ray; a seed
-    /// finish neither lowers it nor is cut by it.
+    /// that mirrors, and of the largest component of what each surface lets through; of a surface
+    /// that lets through less brightness than that, whatever the weight, nothing is followed either,
+    /// as in POV-Ray. A seed finish neither lowers the weight nor is cut by it.
     #[inline(never)]
     pub fn radiance<const SHADOWS: bool, const SECONDARY: bool>(
         &self,
         walk: &mut Walk,
         ray: Ray,
     ) -> Rgb {
-        let mut way = Way { ray, weight: 1.0, level: 1 };
+        let mut way = Way { ray, weight: 1.0, level: 1, mirrored: false };
+        let mut met_by = self.in_image;
         walk.chain.clear();
         if SECONDARY && self.bends {
             walk.media.start(ray.origin);
         }
         loop {
             let mut seen = loop {
-                let Some(hit) = self.geometry.nearest(&way.ray) else {
+                let Some(hit) = met_by.nearest_counted(&way.ray, &mut walk.counters.work) else {
                     break sky::seen(
                         self.world.sky.as_ref(),
                         self.world.background,
                         way.ray.direction,
                     );
                 };
-                let surface = geometry::surface(self.world, &way.ray, &hit);
-                let object = &self.world.objects[hit.object as usize];
-                let Material { pigment, finish } = &self.world.materials[object.material as usize];
-                let normal = if hit.leaving { -surface.normal } else { surface.normal };
-                let paint = pigment::on_surface(pigment, self.world, object, &surface);
-                let place = Place {
-                    finish,
-                    color: paint.rgb,
-                    body: paint.body(),
-                    point: surface.point,
-                    origin: surface.spawn(normal),
-                    normal,
-                    to_viewer: -way.ray.direction,
-                };
-                let local = shade::local::<SHADOWS>(self, walk, &place);
+                let Stand { surface, paint, place } = self.stand(&way.ray, &hit);
+                let finish = place.finish;
+                let mut local = shade::local::<SHADOWS>(self, walk, &place);
+                if self.world.objects[hit.object as usize].double_illuminate {
+                    local += self.lit_behind::<SHADOWS>(walk, way.ray, &hit);
+                }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
                     break clamped(local);
                 }
                 if self.parts(finish, &paint) {
-                    let behind = surface.spawn(-normal);
+                    let behind = surface.spawn(-place.normal);
                     let met = Met { hit, place, paint, behind, local };
                     let Some(next) = self.part(walk, way, &met) else { break clamped(local) };
                     way = next;
+                    met_by = self.met_by(&way);
                     continue;
                 }
                 let Some((weight, link)) = self.mirrored(way.weight, &place, 0.0, local) else {
@@ -147,6 +157,7 @@ impl<'a> Tracer<'a> {
                 walk.counters.reflection += 1;
                 walk.chain.push(link);
                 way = way.mirrored(&place, weight);
+                met_by = self.in_reflections;
             };
             let forked = 'fold: {
                 for (place, link) in walk.chain.iter().enumerate().rev() {
@@ -167,10 +178,46 @@ impl<'a> Tracer<'a> {
             walk.chain.truncate(forked);
             walk.chain.push(Link::behind(seen, fork.factor, seed));
             way = fork.way;
+            met_by = self.met_by(&way);
             if self.bends {
                 walk.media.go_on(fork.media);
             }
         }
+    }
+
+    /// What there is where a ray meets a surface, on the side it comes from.
+    #[inline(always)]
+    fn stand(&self, ray: &Ray, hit: &Hit) -> Stand<'a> {
+        let surface = geometry::surface(self.world, ray, hit);
+        let object = &self.world.objects[hit.object as usize];
+        let Material { pigment, finish } = &self.world.materials[object.material as usize];
+        let normal = if hit.leaving { -surface.normal } else { surface.normal };
+        let paint = pigment::on_surface(pigment, self.world, ray, hit, &surface);
+        let place = Place {
+            finish,
+            color: paint.rgb,
+            body: paint.body(),
+            point: surface.point,
+            origin: surface.spawn(normal),
+            normal,
+            to_viewer: -ray.direction,
+        };
+        Stand { surface, paint, place }
+    }
+
+    /// What the lights on the other side of a surface add that is lit from both. Such surfaces are
+    /// few: all is found once more, and nothing is kept at hand for it elsewhere.
+    #[cold]
+    #[inline(never)]
+    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: &Hit) -> Rgb {
+        let Stand { surface, place, .. } = self.stand(&ray, hit);
+        shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-place.normal))
+    }
+
+    /// What a ray under way can meet.
+    #[inline(always)]
+    fn met_by(&self, way: &Way) -> &'a Geometry {
+        if way.mirrored { self.in_reflections } else { self.in_image }
     }
 
     /// Whether what goes on from a surface may be more, or other, than a mirrored ray.
@@ -229,7 +276,9 @@ impl<'a> Tracer<'a> {
         walk.coinciding.clear();
         if clear && hit.contested {
             let straight = Ray { origin: met.behind, direction: way.ray.direction };
-            self.geometry.coinciding(&way.ray, hit, &straight, &mut walk.coinciding);
+            let Walk { coinciding, counters, .. } = walk;
+            let work = &mut counters.work;
+            self.met_by(&way).coinciding(&way.ray, hit, &straight, coinciding, work);
         }
         let Border { from, to } = match self.bends {
             true => walk.media.border(self.world, hit, &walk.coinciding),
@@ -251,7 +300,7 @@ impl<'a> Tracer<'a> {
                 walk.counters.transmission += 1;
                 let ray = Ray { origin: met.behind, direction: bent.direction };
                 let level = if from == to { way.level } else { way.level + 1 };
-                Some((Way { ray, weight, level }, factor))
+                Some((Way { ray, weight, level, ..way }, factor))
             }
             (None, _) => None,
         };
@@ -294,10 +343,9 @@ impl<'a> Tracer<'a> {
             let mirrored = reflection::reflectance(reflection, color, cosine, fresnel);
             factor = factor * mirrored.map(|part| 1.0 - part);
         }
-        // Cut by its brightness, it goes on with its largest component (measured).
-        self.weight(way.weight, finish, || factor.brightness())?;
-        let weight = if finish.seed { way.weight } else { way.weight * factor.largest() };
-        (!factor.is_black()).then_some((weight, factor))
+        let weight = self.weight(way.weight, finish, || factor.largest())?;
+        let too_dark = !finish.seed && factor.brightness().abs() < self.adc_bailout;
+        (!too_dark && !factor.is_black()).then_some((weight, factor))
     }
 
     /// What the surface at `hit` lets through of the light behind it.
@@ -307,7 +355,7 @@ impl<'a> Tracer<'a> {
             Pigment::Color(color) => *color,
             patterned @ Pigment::Patterned { .. } => {
                 let surface = geometry::surface(self.world, ray, hit);
-                pigment::on_surface(patterned, self.world, object, &surface)
+                pigment::on_surface(patterned, self.world, ray, hit, &surface)
             }
         };
         color.transmittance()
@@ -326,6 +374,11 @@ impl Way {
     #[inline(always)]
     fn mirrored(self, place: &Place, weight: f64) -> Self {
         let direction = reflection::mirrored(self.ray.direction, place.normal);
-        Self { ray: Ray { origin: place.origin, direction }, weight, level: self.level + 1 }
+        Self {
+            ray: Ray { origin: place.origin, direction },
+            weight,
+            level: self.level + 1,
+            mirrored: true,
+        }
     }
 }

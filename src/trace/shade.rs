@@ -2,10 +2,11 @@
 //! it mirrors and lets through.
 
 use super::Walk;
+use super::attenuation::attenuated;
 use super::highlight::{self, Gloss};
 use super::path::Tracer;
 use super::power::power;
-use super::shadow;
+use super::shadow::{self, Aim};
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::world::{Finish, Light};
@@ -50,21 +51,63 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         }
         let Some(aim) = shadow::aim(&light.kind, place.origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        let mut color = light.color;
-        if SHADOWS && light.casts_shadows {
-            if shadow::shadowed(tracer, walk, number, place.origin, &aim) {
-                continue;
-            }
-            if tracer.filters_shadows {
-                color = color * shadow::filtered(tracer, walk, place.origin, &aim);
-                if color.is_black() {
-                    continue;
-                }
-            }
-        }
+        let arriving = arriving::<SHADOWS>(tracer, walk, (number, light), place.origin, &aim);
+        let Some(color) = arriving else { continue };
         sum += color * answer(place, light, aim.to_light, cosine);
     }
     sum
+}
+
+/// What the lights behind a surface add that is lit on both sides. It answers them as those before it,
+/// but for its highlights, which know where the light is. `behind` is where rays start on that side.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
+pub(super) fn from_behind<const SHADOWS: bool>(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    place: &Place,
+    behind: Vector,
+) -> Rgb {
+    let mut sum = Rgb::BLACK;
+    for (number, light) in tracer.world.lights.iter().enumerate() {
+        let is_behind = shadow::height(&light.kind, place.point, place.normal) < 0.0;
+        if !is_behind || (place.finish.diffuse == 0.0 && place.finish.lobes.is_empty()) {
+            continue;
+        }
+        let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
+        let cosine = place.normal.dot(aim.to_light).min(0.0);
+        if let Some(color) = arriving::<SHADOWS>(tracer, walk, (number, light), behind, &aim) {
+            sum += color * answer(place, light, aim.to_light, cosine);
+        }
+    }
+    sum
+}
+
+/// What of a light, the `number`th, comes to `origin`; `None` where nothing does.
+#[inline(always)]
+fn arriving<const SHADOWS: bool>(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    (number, light): (usize, &Light),
+    origin: Vector,
+    aim: &Aim,
+) -> Option<Rgb> {
+    let mut color = light.color;
+    if let Some(attenuation) = &light.attenuation {
+        color = attenuated(color, attenuation, &light.kind, origin, *aim)?;
+    }
+    if SHADOWS && light.casts_shadows {
+        if shadow::shadowed(tracer, walk, number, origin, aim) {
+            return None;
+        }
+        if tracer.filters_shadows {
+            color = color * shadow::filtered(tracer, walk, origin, aim);
+            if color.is_black() {
+                return None;
+            }
+        }
+    }
+    Some(color)
 }
 
 /// What part of the light's intensity goes to the viewer. A shadowless light makes no highlight
@@ -74,8 +117,8 @@ fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
     let Place { finish, color, body, normal, to_viewer, .. } = *place;
     let mut sum = Rgb::BLACK;
     if finish.diffuse != 0.0 {
-        let slant =
-            if finish.brilliance == 1.0 { cosine } else { power(cosine, finish.brilliance) };
+        let slant = cosine.abs();
+        let slant = if finish.brilliance == 1.0 { slant } else { power(slant, finish.brilliance) };
         sum = body * (finish.diffuse * slant);
     }
     if !finish.lobes.is_empty() && (light.casts_shadows || finish.seed) {

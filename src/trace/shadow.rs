@@ -11,6 +11,7 @@ use crate::shape::Ray;
 use crate::world::LightKind;
 
 /// From a point toward a light.
+#[derive(Clone, Copy)]
 pub(super) struct Aim {
     /// Of length 1.
     pub to_light: Vector,
@@ -70,7 +71,7 @@ pub(super) fn shadowed(
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
     let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
-    let occluder = tracer.geometry.occluder(&ray, aim.reach, guess);
+    let occluder = tracer.geometry.occluder(&ray, aim.reach, guess, &mut walk.counters.work);
     if occluder != guess {
         walk.remember(light, occluder);
     }
@@ -89,7 +90,7 @@ pub(super) fn filtered(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &A
     let ray = Ray { origin, direction: aim.to_light };
     let Filters { hits, factors } = &mut walk.filters;
     hits.clear();
-    tracer.geometry.filters(&ray, aim.reach, hits);
+    tracer.geometry.filters(&ray, aim.reach, hits, &mut walk.counters.work);
     factors.clear();
     factors.extend(hits.iter().map(|hit| (hit.t, tracer.transmittance(&ray, hit))));
     factors.sort_by(|(a, x), (b, y)| {

@@ -5,6 +5,9 @@ use crate::color::Rgb;
 use crate::math::Vector;
 use crate::world::Sky;
 
+/// What rounding may add to the components of a direction of length 1.
+const ROUNDED: Vector = Vector::splat(4.0 * f64::EPSILON);
+
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
 /// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
 /// tinted through its `filter`.
@@ -14,7 +17,7 @@ use crate::world::Sky;
 pub(super) fn seen(sky: Option<&Sky>, background: Rgb, direction: Vector) -> Rgb {
     let pigments = sky.iter().flat_map(|sky| &sky.pigments);
     pigments.fold(background, |below, pigment| {
-        let top = pigment::at(pigment, direction);
+        let top = pigment::at(pigment, direction, ROUNDED);
         if top.filter == 0.0 && top.transmit == 0.0 {
             return top.rgb;
         }

@@ -80,6 +80,7 @@ impl<'a> Crew<'a> {
                 stopped.store(true, Ordering::Relaxed);
                 return;
             }
+            walk.occluders.clear();
             for (y, (radiance, samples)) in (tile.y..).zip(tile.rows) {
                 // A row may take long; what is done of the tile is kept.
                 if y > tile.y && self.watch.should_stop() {

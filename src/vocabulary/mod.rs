@@ -76,13 +76,26 @@ pub enum Role {
     },
 }
 
+/// What this version does with a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    Built,
+    /// Known; what it stands for is poison.
+    Later,
+    /// Read, its arguments checked, and without effect on any picture.
+    Inert {
+        /// Until one of these is built: then it is to be built, too.
+        until: &'static [Word],
+    },
+}
+
 /// One row of the table.
 struct Row {
     /// The spellings, the usual one first.
     names: &'static [&'static str],
     family: Family,
     role: Role,
-    built: bool,
+    standing: Standing,
     /// The opener of the only block it is a word in.
     block: Option<Word>,
     sentence: &'static str,
@@ -90,9 +103,9 @@ struct Row {
 
 macro_rules! vocabulary {
     ($($family:ident {
-        $($variant:ident $($name:literal)|+ $role:ident $built:ident $(in $block:ident)? $sentence:literal;)*
+        $($variant:ident $($name:literal)|+ $role:ident $standing:ident $(until [$($until:ident)+])? $(in $block:ident)? $sentence:literal;)*
     })*) => {
-        use super::{Family, Role, Row};
+        use super::{Family, Role, Row, Standing};
 
         /// A word of the language.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -108,7 +121,7 @@ macro_rules! vocabulary {
             names: &[$($name),+],
             family: Family::$family,
             role: vocabulary!(@role $role),
-            built: vocabulary!(@built $built),
+            standing: vocabulary!(@standing $standing $($($until)+)?),
             block: vocabulary!(@block $($block)?),
             sentence: $sentence,
         }),*),*];
@@ -117,8 +130,9 @@ macro_rules! vocabulary {
     (@role value) => { Role::Value };
     (@role function) => { Role::Function { one_argument: false } };
     (@role function1) => { Role::Function { one_argument: true } };
-    (@built built) => { true };
-    (@built later) => { false };
+    (@standing built) => { Standing::Built };
+    (@standing later) => { Standing::Later };
+    (@standing inert $($until:ident)*) => { Standing::Inert { until: &[$(Word::$until),*] } };
     (@block) => { None };
     (@block $block:ident) => { Some(Word::$block) };
 }
@@ -187,9 +201,18 @@ impl Word {
         self.row().role
     }
 
+    pub fn standing(self) -> Standing {
+        self.row().standing
+    }
+
     /// True if a scene may use it in this version; else its value is poison.
     pub fn is_built(self) -> bool {
-        self.row().built
+        self.standing() != Standing::Later
+    }
+
+    /// True if a scene may use it and it changes nothing.
+    pub fn is_inert(self) -> bool {
+        matches!(self.standing(), Standing::Inert { .. })
     }
 
     /// The opener of the only block it is a word in, for a contextual word.
@@ -331,6 +354,15 @@ mod tests {
     fn the_table_has_the_493_words_the_program_reserves_and_four_of_ours() {
         let spellings: usize = Word::ALL.iter().map(|word| word.names().len()).sum();
         assert_eq!(spellings, 493 + CONTEXTUAL.len());
+    }
+
+    #[test]
+    fn a_word_is_inert_only_until_what_it_is_about_is_built() {
+        for &word in Word::ALL {
+            let Standing::Inert { until } = word.standing() else { continue };
+            let built = until.iter().find(|until| until.is_built());
+            assert_eq!(built, None, "it is built, and `{}` changes it", word.name());
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The table of all words, by family. One row: variant, spelling (and older spellings), role, whether
-//! this version builds it, the block it is confined to where it is contextual, one sentence.
+//! this version builds it or it is inert (until what), the block it is confined to where it is
+//! contextual, one sentence.
 //!
 //! **Source:** POV-Ray 3.7 manual, section 3.3.1.2 "Keywords"; each was tried on the program with
 //! `#declare word = 1;`, which refuses exactly the words that are reserved.
@@ -80,7 +81,7 @@ vocabulary! {
         Evaluate "evaluate" statement later "lets an isosurface learn its gradient";
         FaceIndices "face_indices" statement later "the triangles of a mesh2, as indices of vertices";
         Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
-        Hierarchy "hierarchy" statement later "builds a tree over the parts of a mesh or blob";
+        Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
         InsideVector "inside_vector" statement later "gives a mesh an inside";
         LinearSpline "linear_spline" statement built "a spline of straight lines";
@@ -102,7 +103,7 @@ vocabulary! {
         Smooth "smooth" statement later "rounds a height_field by its normals";
         Spline "spline" statement built "a curve through points at given times";
         Strength "strength" statement later "how strongly a part of a blob pulls";
-        Sturm "sturm" statement later "asks for a slower, safer root finder";
+        Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
         TextureList "texture_list" statement later "the textures of a mesh2";
         Threshold "threshold" statement later "the value at which a blob or isosurface ends";
         Tolerance "tolerance" statement later "how exactly a sphere_sweep is found";
@@ -119,20 +120,20 @@ vocabulary! {
         Difference "difference" statement later "the first object without the others";
         Intersection "intersection" statement later "what all its objects share";
         Merge "merge" statement later "objects as one, without inner faces";
-        SplitUnion "split_union" statement later "whether a union may be taken apart";
         Union "union" statement built "`union { object … }`: objects treated as one";
     }
     Modifier {
-        BoundedBy "bounded_by" statement later "a shape that holds the object, to find it faster";
+        BoundedBy "bounded_by" statement inert "`bounded_by { shape … }` or `{ clipped_by }`: what holds the object, to find it faster; a tree finds it";
         ClippedBy "clipped_by" statement later "a shape outside which the object is cut away";
         CutawayTextures "cutaway_textures" statement later "cut faces keep the textures of what they cut";
-        DoubleIlluminate "double_illuminate" statement later "light shines on both sides";
+        DoubleIlluminate "double_illuminate" statement built "light that shines on one side of the surface lights the other, too";
         Hollow "hollow" statement built "the atmosphere fills the object, too; without fog and media it changes nothing";
         Inverse "inverse" statement built "swaps inside and outside";
-        NoImage "no_image" statement later "the camera does not see the object";
-        NoRadiosity "no_radiosity" statement later "the object is left out of radiosity";
-        NoReflection "no_reflection" statement later "mirrors do not show the object";
+        NoImage "no_image" statement built "the camera does not see the object, directly or through others; mirrors and lights do";
+        NoRadiosity "no_radiosity" statement inert until [Radiosity] "the object is left out of `radiosity`, which is not built yet";
+        NoReflection "no_reflection" statement built "mirrors do not show the object; the camera and lights see it";
         NoShadow "no_shadow" statement built "the object casts no shadow";
+        SplitUnion "split_union" statement inert "whether a union may be taken apart; it always is";
         Object "object" statement built "`object { Name … }`: a declared object, with more modifiers";
     }
     Transform {
@@ -151,7 +152,7 @@ vocabulary! {
         NormalMap "normal_map" statement later "bumps over a pattern's values";
         Pigment "pigment" statement built "`pigment { … }`: the colours of a surface";
         PigmentMap "pigment_map" statement later "pigments over a pattern's values";
-        QuickColor "quick_color" | "quick_colour" statement later "the colour in a quick preview";
+        QuickColor "quick_color" | "quick_colour" statement inert "the colour in a quick preview; every picture has its own colours";
         Texture "texture" statement built "`texture { pigment finish … }`: what a surface looks like";
         TextureMap "texture_map" statement later "textures over a pattern's values";
         UvMapping "uv_mapping" statement later "patterns follow the surface's own coordinates";
@@ -254,7 +255,7 @@ vocabulary! {
         Warp "warp" statement later "bends the space of a pattern";
     }
     FinishItem {
-        Albedo "albedo" statement later "measures brightness over the whole hemisphere";
+        Albedo "albedo" statement built "`diffuse albedo 0.7`: of all light that falls in, not in the brightest direction; `phong` and `specular` too";
         Ambient "ambient" statement built "light given off without any source, a number or a colour: 0.1";
         Brilliance "brilliance" statement built "how fast diffuse light falls off with the angle: 1";
         ConserveEnergy "conserve_energy" statement built "what is reflected is not let through as well";
@@ -263,7 +264,7 @@ vocabulary! {
         Emission "emission" statement built "light given off, a number or a colour: 0";
         Fresnel "fresnel" statement built "in `reflection { [minimum,] maximum fresnel }`: it grows with the angle as the interior's `ior` says";
         Irid "irid" statement later "colours of a thin film";
-        IridWavelength "irid_wavelength" statement later "the wavelengths behind red, green and blue";
+        IridWavelength "irid_wavelength" statement inert until [Irid] "the wavelengths behind red, green and blue for `irid`, which is not built yet";
         Kd "kd" statement built in Finish "the seed's diffuse coefficient; with `ks` and `phong_exponent`";
         Ks "ks" statement built in Finish "the seed's specular and mirror coefficient; with `kd` and `phong_exponent`";
         Metallic "metallic" statement built "highlights and reflection take the surface's colour, 0 to 1; alone it means 1";
@@ -300,13 +301,13 @@ vocabulary! {
     Camera {
         Angle "angle" statement built "the horizontal field of view in degrees, more than 0";
         Aperture "aperture" statement later "the width of the lens: blur";
-        BlurSamples "blur_samples" statement later "rays for each blurred pixel";
+        BlurSamples "blur_samples" statement inert until [Aperture] "`blur_samples [least,] most`: rays for an `aperture`, which is not built yet";
         Bokeh "bokeh" statement later "the form and colour of blur";
         Camera "camera" statement built "`camera { … }`: where the picture is seen from";
-        Confidence "confidence" statement later "how sure blur must be";
+        Confidence "confidence" statement inert until [Aperture] "how sure the blur of an `aperture` is to be, which is not built yet";
         Direction "direction" statement built "camera: the axis and length of the lens; light: the way to the light";
         Fisheye "fisheye" statement later "a camera with equal angles from the middle";
-        FocalPoint "focal_point" statement later "the point that is sharp";
+        FocalPoint "focal_point" statement inert until [Aperture] "the point that is sharp; without an `aperture`, which is not built yet, all are";
         Location "location" statement built "where the camera stands: <0, 0, 0>";
         LookAt "look_at" statement built "the point in the middle of the picture";
         MeshCamera "mesh_camera" statement later "a camera whose rays start on a mesh";
@@ -319,7 +320,7 @@ vocabulary! {
         Sky "sky" statement built "the direction that is up: y";
         UltraWideAngle "ultra_wide_angle" statement later "a camera that squeezes a wide view";
         Up "up" statement built "the height of the picture plane: y";
-        Variance "variance" statement later "how much a blurred pixel may vary";
+        Variance "variance" statement inert until [Aperture] "how much the blur of an `aperture` may vary, which is not built yet";
     }
     Light {
         Adaptive "adaptive" statement later "how finely an area light is sampled";
@@ -331,16 +332,16 @@ vocabulary! {
         LightGroup "light_group" statement later "objects with lights of their own";
         LightSource "light_source" statement built "`light_source { <place>, color … }`: a lamp without size";
         LooksLike "looks_like" statement later "the object a lamp is seen as";
-        MediaAttenuation "media_attenuation" statement later "media dim this light";
-        MediaInteraction "media_interaction" statement later "this light lights media";
+        MediaAttenuation "media_attenuation" statement inert until [Media] "`media` dim this light; they are not built yet";
+        MediaInteraction "media_interaction" statement inert until [Media] "this light lights `media`, which are not built yet";
         Parallel "parallel" statement built "all rays run from the place toward `point_at`";
-        PointAt "point_at" statement built "the point a parallel light shines at: <0, 0, 0>";
+        PointAt "point_at" statement built "the point a parallel light or a spotlight shines at: <0, 0, 0>; in a `.pov` z";
         ProjectedThrough "projected_through" statement later "only light through this object counts";
-        Radius "radius" statement later "the bright middle of a spotlight, in degrees";
+        Radius "radius" statement built "the bright middle of a spotlight, in degrees: 30; of a `cylinder` light, in units: 0.75";
         Shadowless "shadowless" statement built "no object casts a shadow from this light";
-        Spotlight "spotlight" statement later "a lamp with a cone of light";
-        Tightness "tightness" statement later "how a spotlight fades to its edge";
-        Falloff "falloff" statement built "the edge of a spotlight, in degrees; the power of a reflection's angle, 1";
+        Spotlight "spotlight" statement built "a lamp with a cone of light around the line to `point_at`";
+        Tightness "tightness" statement built "how fast a spotlight or `cylinder` light fades from its middle, 0 or more: 0";
+        Falloff "falloff" statement built "the edge of a spotlight, in degrees: 45, of a `cylinder` light, in units: 1; the power of a reflection's angle, 1";
     }
     Interior {
         Absorption "absorption" statement later "light that media swallow";
@@ -351,12 +352,12 @@ vocabulary! {
         Density "density" statement later "how thick media are";
         DensityMap "density_map" statement later "densities over a pattern's values";
         Dispersion "dispersion" statement later "how far colours are split";
-        DispersionSamples "dispersion_samples" statement later "how many colours are split";
+        DispersionSamples "dispersion_samples" statement inert until [Dispersion] "how many colours `dispersion` splits light into, which is not built yet";
         Eccentricity "eccentricity" statement later "the direction of scattering";
         Extinction "extinction" statement later "how scattering dims light";
         FadeColor "fade_color" | "fade_colour" statement later "the colour light takes inside";
-        FadeDistance "fade_distance" statement later "the distance at which light is halved";
-        FadePower "fade_power" statement later "how fast light fades";
+        FadeDistance "fade_distance" statement built "with `fade_power`: the distance at which a light has the strength of its colour";
+        FadePower "fade_power" statement built "how fast a light fades with the distance d: by 2/(1 + (d/fade_distance)^fade_power)";
         Interior "interior" statement built "`interior { ior n }`: what a clear object is filled with";
         Intervals "intervals" statement later "the pieces in which media are sampled";
         Ior "ior" statement built "how much slower light is inside, more than 0: water 1.33, glass 1.5, diamond 2.4; 1 bends nothing";
@@ -368,7 +369,7 @@ vocabulary! {
     }
     Atmosphere {
         ArcAngle "arc_angle" statement later "the part of a rainbow that is seen";
-        Background "background" statement built "`background { color }`: what is seen where nothing is: black";
+        Background "background" statement built "`background { color }`: what is seen where nothing is, darker by its `transmit`: black";
         Distance "distance" statement later "the distance at which fog has covered two thirds";
         Fog "fog" statement later "haze over distance";
         FogAlt "fog_alt" statement later "the height over which ground fog thins";
@@ -384,29 +385,29 @@ vocabulary! {
         Altitude "altitude" statement later "reserved by version 3.7, without a documented meaning";
         AlwaysSample "always_sample" statement later "radiosity is refined in the final pass";
         AmbientLight "ambient_light" statement built "multiplies every `ambient`: 1";
-        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours; `srgb` too: 1";
+        AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours, or `srgb` for that curve: 1";
         Autostop "autostop" statement later "when photons stop";
         Brightness "brightness" statement later "how bright radiosity is";
-        Charset "charset" statement later "how strings are encoded";
+        Charset "charset" statement inert "the encoding of strings; they are UTF-8, which holds all of ASCII";
         Count "count" statement later "how many rays or photons are sent";
         ErrorBound "error_bound" statement later "how exact radiosity is";
         ExpandThresholds "expand_thresholds" statement later "when photons are gathered more widely";
         Gather "gather" statement later "how many photons are gathered";
         GlobalSettings "global_settings" statement built "`global_settings { … }`: what holds for the whole scene";
         GrayThreshold "gray_threshold" statement later "how coloured radiosity is";
-        HfGray16 "hf_gray_16" statement later "old: writes a height_field picture";
+        HfGray16 "hf_gray_16" statement inert "old: the kind of file is chosen where the picture is written";
         Importance "importance" statement later "how carefully an object is sampled";
         LoadFile "load_file" statement later "reads photons or radiosity";
         LowErrorFactor "low_error_factor" statement later "how exact radiosity's first pass is";
-        MaxIntersections "max_intersections" statement later "old, and without effect";
+        MaxIntersections "max_intersections" statement inert "the room for the surfaces along a ray; it grows by itself";
         MaxSample "max_sample" statement later "the brightest sample radiosity takes";
         MaxTraceLevel "max_trace_level" statement built "how many surfaces in a row a path may meet: 5";
         MaximumReuse "maximum_reuse" statement later "how far radiosity samples reach";
         MinimumReuse "minimum_reuse" statement later "how near radiosity samples stand";
-        MmPerUnit "mm_per_unit" statement later "millimetres in one unit";
+        MmPerUnit "mm_per_unit" statement inert until [Subsurface] "millimetres in one unit for `subsurface`, which is not built yet";
         NearestCount "nearest_count" statement later "how many radiosity samples are mixed";
-        NoiseGenerator "noise_generator" statement later "which noise is used";
-        NumberOfWaves "number_of_waves" statement later "how many centres `waves` has";
+        NoiseGenerator "noise_generator" statement inert until [Agate Bozo Bumps Crackle Dents Function Granite Leopard Marble Spotted Turbulence Warp Wood Wrinkles] "which noise patterns are made of, 1 to 3; no such pattern is built yet";
+        NumberOfWaves "number_of_waves" statement inert until [Ripples Waves] "how many centres `waves` and `ripples` have, which are not built yet";
         PassThrough "pass_through" statement later "photons go through the object";
         Photons "photons" statement later "light followed from the lamps";
         PretraceEnd "pretrace_end" statement later "the block size radiosity's first pass ends with";

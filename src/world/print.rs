@@ -5,7 +5,10 @@
 
 use std::fmt::{self, Write};
 
-use super::{CameraKind, Finish, LightKind, LobeKind, Object, Origins, Pigment, World};
+use super::{
+    Attenuation, Beam, CameraKind, Fade, Finish, LightKind, LobeKind, Object, Origins, Pigment,
+    World,
+};
 use crate::math::placement::Map;
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
@@ -105,7 +108,8 @@ impl Printer<'_> {
             };
             let shadows = if light.casts_shadows { "" } else { " shadowless" };
             let site = self.at(self.origins.lights.get(i).copied());
-            writeln!(out, "  {i} {kind} color {}{shadows}{site}", light.color)?;
+            let attenuation = light.attenuation.as_ref().map_or(String::new(), attenuation);
+            writeln!(out, "  {i} {kind} color {}{attenuation}{shadows}{site}", light.color)?;
         }
         Ok(())
     }
@@ -143,6 +147,15 @@ impl Printer<'_> {
         }
         if !object.casts_shadow {
             write!(out, " no_shadow")?;
+        }
+        if !object.in_image {
+            write!(out, " no_image")?;
+        }
+        if !object.in_reflections {
+            write!(out, " no_reflection")?;
+        }
+        if object.double_illuminate {
+            write!(out, " double_illuminate")?;
         }
         if object.inverse {
             write!(out, " inverse")?;
@@ -260,6 +273,22 @@ fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
         true => writeln!(out, "    black"),
         false => writeln!(out, "    {}", parts.join(", ")),
     }
+}
+
+fn attenuation(attenuation: &Attenuation) -> String {
+    let beam = match attenuation.beam {
+        None => String::new(),
+        Some(Beam::Cone { axis, edge, core, tightness }) => {
+            format!(" cone {} edge {edge} core {core} tightness {tightness}", unit(axis))
+        }
+        Some(Beam::Cylinder { radius, core, tightness }) => {
+            format!(" cylinder radius {radius} core {core} tightness {tightness}")
+        }
+    };
+    let fade = attenuation.fade.map_or(String::new(), |Fade { distance, power }| {
+        format!(" fade distance {distance} power {power}")
+    });
+    beam + &fade
 }
 
 fn unit(v: UnitVector) -> String {

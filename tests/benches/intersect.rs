@@ -35,15 +35,7 @@ fn empty() -> World {
 }
 
 fn object(shape: Shape) -> Object {
-    Object {
-        interior: None,
-        shape,
-        material: 0,
-        texture_from_world: None,
-        faces: None,
-        casts_shadow: true,
-        inverse: false,
-    }
+    Object::plain(shape)
 }
 
 fn add_sphere(world: &mut World, centre: Vector, radius: f64) {

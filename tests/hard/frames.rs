@@ -1,7 +1,7 @@
 //! Pictures of hard shapes, deep paths, knife edges and the display's curve: rows 45, 62, 73, 74,
 //! 75 and 76.
 
-use lucarne::color::{Rgb, srgb_decode, srgb_encode};
+use lucarne::color::{Gamma, Rgb, srgb_decode, srgb_encode};
 use lucarne::film::{Depth, Film, Pixels, develop};
 use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
@@ -15,7 +15,7 @@ fn sampled(text: &str, (width, height): (u32, u32), antialias: Antialias) -> Fil
     let (world, origins) = compiled(text);
     let frame = Frame::whole(width, height);
     let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-    trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+    trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn row_62_the_displays_curve_is_monotone_and_keeps_its_numbers() {
     assert_eq!((srgb_encode(0.0), srgb_encode(1.0)), (0.0, 1.0));
     assert_eq!(srgb_encode(f64::NAN), 0.0);
     let shown = |radiance: Vec<Rgb>, depth: Depth| {
-        let mut film = Film::new(Frame::whole(radiance.len() as u32, 1), 1.0);
+        let mut film = Film::new(Frame::whole(radiance.len() as u32, 1), Gamma::LINEAR);
         film.radiance = radiance;
         develop(&film, depth).pixels
     };
@@ -121,7 +121,7 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
                     ..PlanOptions::new(frame)
                 };
                 let plan = plan(&world, &origins, &options);
-                trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+                trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
             })
             .expect("a thread")
             .join()

@@ -107,6 +107,40 @@ fn row_13_a_checker_does_not_flicker_on_its_own_lattice() {
 }
 
 #[test]
+fn row_13_a_seam_in_the_middle_of_pixels_is_one_colour_all_along() {
+    // From 1.5 above the floor, z = 2 is seen in the middle of the pixels of row 82.
+    let row = |turn: f64, away: &str, pigment: &str, nudge: f64| {
+        let text = format!(
+            "camera {{ location <0, 0.5, -6> direction z right 4/3*x up y
+               rotate {turn}*y translate {away} }}
+             plane {{ y, -1 pigment {{ {pigment} translate {nudge}*z rotate {turn}*y
+               translate {away} }} finish {{ ambient 1 diffuse 0 }} }}"
+        );
+        let film = crate::held::rendered(&text, (160, 120));
+        let first = film.index(0, 82);
+        film.radiance[first..first + 160].iter().map(|c| c.red).collect::<Vec<f64>>()
+    };
+    for turn in [0.0, 37.0, 123.456] {
+        for away in ["0", "<100, 0, 77>", "<1e5, 0, -3e4>"] {
+            let name = format!("turned {turn}, at {away}");
+            // A seam belongs to the cell on its positive side.
+            let checker = |nudge| row(turn, away, "checker rgb 0.1 rgb 0.9", nudge);
+            assert_eq!(checker(0.0), checker(-1e-6), "{name}");
+            assert_ne!(checker(0.0), checker(1e-6), "{name}");
+            let steps = [
+                "gradient z color_map { [0 rgb 0] [1 rgb 1] }",
+                "gradient z color_map { [0.5 rgb 0.1] [0.5 rgb 0.9] } translate 0.5*z",
+            ];
+            for step in steps {
+                let seen = row(turn, away, step, 0.0);
+                let apart = seen.iter().map(|c| (c - seen[0]).abs()).fold(0.0, f64::max);
+                assert!(apart < 1e-4, "{name}, {step}: {seen:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn row_9_a_camera_on_a_surface_sees_past_it() {
     let scene = |location: Triple, direction: Triple, object: Object| {
         let right = [4.0 / 3.0 * -direction[2], 0.0, 4.0 / 3.0 * direction[0]];

@@ -33,7 +33,7 @@ pub fn rendered(text: &str, (width, height): (u32, u32)) -> Film {
     let frame = Frame::whole(width, height);
     let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
     let plan = plan(&world, &origins, &options);
-    trace(&world, &plan, &TraceOptions { threads: Some(1) }, &Unwatched).film
+    trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
 }
 
 /// Asserts that no pixel of the scene's picture is bad.

@@ -16,7 +16,8 @@ use crate::wide::{Wide, WideMap, WideVector};
 fn said(text: &str) -> (World, Vec<String>) {
     let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
     let scene = format!(
-        "camera {{ location 9*z look_at 0 }} light_source {{ 5, rgb 1 }} sphere {{ 9*y, 1 }} {text}"
+        "#default {{ pigment {{ rgb 1 }} }} camera {{ location 9*z look_at 0 }}
+         light_source {{ 5, rgb 1 }} sphere {{ -9*y, 1 }} {text}"
     );
     let (world, _) = road.compile("hard.scene", scene.into_bytes());
     let line = |d: &lucarne::diagnostic::Diagnostic| {

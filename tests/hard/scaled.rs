@@ -43,7 +43,7 @@ fn film(text: &str, antialias: Antialias, threads: usize) -> Film {
     let (world, origins) = compiled(text);
     let frame = Frame::whole(SIZE.0, SIZE.1);
     let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-    trace(&world, &plan, &TraceOptions { threads: Some(threads) }, &Unwatched).film
+    trace(&world, &plan, &TraceOptions::on_threads(threads), &Unwatched).film
 }
 
 fn png(film: &Film) -> Vec<u8> {
@@ -150,7 +150,7 @@ fn row_68_order_threads_and_tiles_change_no_byte_of_the_picture() {
         let region = Region { x, y, width, height };
         let frame = Frame { region, ..Frame::whole(SIZE.0, SIZE.1) };
         let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-        let part = trace(&world, &plan, &TraceOptions { threads: Some(2) }, &Unwatched).film;
+        let part = trace(&world, &plan, &TraceOptions::on_threads(2), &Unwatched).film;
         let crop = whole.clone().crop(region);
         assert!(png(&part) == png(&crop), "{region:?}");
     }

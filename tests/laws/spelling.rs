@@ -280,6 +280,20 @@ fn textures_and_finishes() {
         "box { 0, 1 pigment { gradient -y } }",
     );
     law(
+        "a second finish goes on from the first",
+        "#declare A = sphere { 0, 1 finish { phong 1 } finish { specular 0.5 } }
+         object { A finish { reflection 0.2 } }",
+        "sphere { 0, 1 finish { phong 1 specular 0.5 reflection 0.2 } }",
+        "sphere { 0, 1 finish { reflection 0.2 } }",
+    );
+    law(
+        "an albedo is spent where its finish ends",
+        "#declare F = finish { diffuse albedo 0.25 brilliance 3 }
+         sphere { 0, 1 finish { F brilliance 5 } }",
+        "sphere { 0, 1 finish { diffuse 0.5 brilliance 5 } }",
+        "sphere { 0, 1 finish { diffuse 0.25 brilliance 5 } }",
+    );
+    law(
         "a finish keeps what is not said again",
         "#declare F = finish { phong 1 reflection { 0.1, 0.5 falloff 2 metallic } }
          sphere { 0, 1 finish { F reflection 0.7 } }",

@@ -50,7 +50,7 @@ impl Shot {
         let (world, origins) = compiled(text, &[]);
         let Self { frame, antialias, threads } = self;
         let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-        let options = TraceOptions { threads: Some(threads) };
+        let options = TraceOptions::on_threads(threads);
         trace(&world, &plan, &options, &Unwatched).film.radiance
     }
 }

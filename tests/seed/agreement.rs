@@ -43,7 +43,7 @@ fn read(name: &str, text: &str) -> Scene {
     let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
     let file = road.read(&format!("{name}.scene"), text.as_bytes().to_vec());
     let ast = road.parse(file);
-    let scene = road.evaluate(&ast);
+    let scene = road.evaluate(ast);
     assert!(road.diagnostics.is_empty(), "{name}: {:#?}", road.diagnostics);
     scene
 }

@@ -114,6 +114,7 @@ impl Page {
             }
             ObjectKind::LightSource(light) => {
                 assert!(!light.shadowless, "a shadowless light is not of the page");
+                assert_eq!(light.fade, None, "a light that fades is not of the page");
                 let source = match light.kind {
                     LightKind::Direction { to_light } => Source::Direction(
                         steps.iter().fold(to_light / to_light.length(), turned_direction),
@@ -121,7 +122,9 @@ impl Page {
                     LightKind::Point { location } => {
                         Source::Point(steps.iter().fold(location, moved_point))
                     }
-                    LightKind::Parallel { .. } => panic!("a parallel light is not of the page"),
+                    LightKind::Parallel { .. }
+                    | LightKind::Spotlight { .. }
+                    | LightKind::Cylinder { .. } => panic!("a beam of light is not of the page"),
                 };
                 self.lights.push(Light { source, intensity: light.color });
                 return;

@@ -89,7 +89,7 @@ impl Sketch {
     }
 
     pub fn light(&mut self, kind: LightKind, color: Rgb) {
-        let light = LightSource { color, kind, shadowless: false };
+        let light = LightSource { color, kind, shadowless: false, fade: None };
         let object = self.object(ObjectKind::LightSource(light), None, &[]);
         self.place(object);
     }

@@ -86,6 +86,9 @@ impl Evaluator<'_> {
             Word::Angle => self.angle(token, camera.kind)?,
             Word::Shift => self.shift(token)?,
             _ => {
+                if let Some(outcome) = self.inert(token, Place::CAMERA) {
+                    return outcome;
+                }
                 self.unexpected(token, Place::CAMERA);
                 return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
             }
@@ -106,7 +109,7 @@ impl Evaluator<'_> {
                 "less than 180 for a perspective camera",
             ));
         }
-        self.lint_degrees(&given.here, given.span, &[given.value]);
+        self.lint_camera_angle(&given.here, given.span, given.value);
         Ok(CameraItemKind::Angle(given.value))
     }
 

@@ -1,43 +1,20 @@
 //! `finish`: POV-Ray's words, or the seed's three; never both.
 
+mod albedo;
+mod reflection;
+mod whole;
+
 use crate::color::Rgb;
-use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin, Reflection};
+use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin};
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::Value;
+use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
-
-/// What was written in one block: the last number of each of the seed's words, and the first word of
-/// POV-Ray's.
-#[derive(Default)]
-struct Written {
-    kd: Option<f64>,
-    ks: Option<f64>,
-    phong_exponent: Option<f64>,
-    seed: Option<(Word, Span)>,
-    /// All of the seed's words, from the first to the last.
-    seed_item: Option<Site>,
-    classic: Option<(Word, Span)>,
-    origin: FinishOrigin,
-}
-
-impl Written {
-    /// An item set the weight of `word`.
-    fn weigh(&mut self, word: Word, weightless: bool, item: Site) {
-        let Self { origin, .. } = self;
-        origin.zeros.retain(|(other, _)| *other != word);
-        match word {
-            Word::Ior => list_once(&mut origin.ior, item),
-            _ if weightless => origin.zeros.push((word, item)),
-            Word::Reflection => list_once(&mut origin.reflection, item),
-            _ => list_once(&mut origin.highlights, item),
-        }
-    }
-}
+use albedo::Albedo;
+use whole::Written;
 
 /// A loop may go through one place again and again.
 pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
@@ -57,6 +34,11 @@ impl Evaluator<'_> {
         let mut finish = self.scene.finishes[start.index()].clone();
         let opener = token.clone();
         let origin = self.finish_origin(start);
+        // The default's words make way for those of the other vocabulary.
+        let origin = match start == self.scene.textures[self.default_texture.index()].finish {
+            true => FinishOrigin { seed: None, classic: None, ..origin },
+            false => origin,
+        };
         let (finish, origin) = self.block(token, Word::Finish, |evaluator| {
             let mut written = Written { origin, ..Written::default() };
             let mut failed = false;
@@ -71,6 +53,9 @@ impl Evaluator<'_> {
                 return Err(Reported);
             }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
+            if let Finish::Classic(classic) = &mut finish {
+                written.albedo.spend(classic);
+            }
             if let (Finish::Seed { ks, .. }, Some(item)) = (&finish, written.seed_item) {
                 written.origin.zeros.clear();
                 match *ks == 0.0 {
@@ -81,6 +66,9 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            let here = |word: (Word, Span)| (word.0, opener.here.site(word.1));
+            written.origin.seed = written.origin.seed.or(written.seed.map(here));
+            written.origin.classic = written.origin.classic.or(written.classic.map(here));
             if failed { Err(Reported) } else { Ok((finish, written.origin)) }
         })?;
         let site = Some(opener.here.site(opener.span));
@@ -92,53 +80,16 @@ impl Evaluator<'_> {
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }
 
-    fn finish_origin(&self, id: FinishId) -> FinishOrigin {
-        self.scene.finish_origins.get(id.index()).cloned().unwrap_or_default()
+    /// The finishes from number `first` on are defaults, whose words make way for those of the other
+    /// vocabulary.
+    pub(super) fn forget_words_of_finishes(&mut self, first: usize) {
+        for origin in self.scene.finish_origins.iter_mut().skip(first) {
+            (origin.seed, origin.classic) = (None, None);
+        }
     }
 
-    /// The seed's words come together, and with none of POV-Ray's.
-    fn whole_finish(
-        &mut self,
-        opener: &Token,
-        finish: &mut Finish,
-        written: &Written,
-    ) -> Outcome<()> {
-        let Some((seed, seed_span)) = written.seed else { return Ok(()) };
-        if let Some((classic, classic_span)) = written.classic {
-            let diagnostic = Diagnostic::new(
-                Code::MixedFinish,
-                format!("a finish mixes `{}` with `{}`", seed.name(), classic.name()),
-            )
-            .at(classic_span, "a word of POV-Ray's finish")
-            .also(seed_span, "a word of the seed's")
-            .help("`kd`, `ks` and `phong_exponent` stand alone; else use `diffuse`, `specular`, `reflection` and their kin");
-            return Err(self.report(&opener.here, diagnostic));
-        }
-        let (old_kd, old_ks, old_exponent) = match finish {
-            Finish::Seed { kd, ks, phong_exponent } => {
-                (Some(*kd), Some(*ks), Some(*phong_exponent))
-            }
-            Finish::Classic(_) => (None, None, None),
-        };
-        let kd = written.kd.or(old_kd);
-        let ks = written.ks.or(old_ks);
-        let exponent = written.phong_exponent.or(old_exponent);
-        if let (Some(kd), Some(ks), Some(phong_exponent)) = (kd, ks, exponent) {
-            *finish = Finish::Seed { kd, ks, phong_exponent };
-            return Ok(());
-        }
-        let missing: Vec<&str> = [("`kd`", kd), ("`ks`", ks), ("`phong_exponent`", exponent)]
-            .iter()
-            .filter(|(_, value)| value.is_none())
-            .map(|(name, _)| *name)
-            .collect();
-        let diagnostic = Diagnostic::new(
-            Code::IncompleteFinish,
-            format!("this finish lacks {}", missing.join(" and ")),
-        )
-        .at(seed_span, "the seed's three words come together")
-        .also(opener.span, "in this finish");
-        Err(self.report(&opener.here, diagnostic))
+    fn finish_origin(&self, id: FinishId) -> FinishOrigin {
+        self.scene.finish_origins.get(id.index()).cloned().unwrap_or_default()
     }
 
     fn finish_item(
@@ -191,10 +142,10 @@ impl Evaluator<'_> {
         }
         let mut classic = match finish {
             Finish::Classic(classic) => classic.clone(),
-            // POV-Ray's words replace a seed's finish that came by default or by name.
+            // POV-Ray's words replace a seed's finish that came by default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
-        let known = self.classic_item(token, word, &mut classic)?;
+        let known = self.classic_item(token, word, &mut classic, &mut written.albedo)?;
         if known {
             written.classic.get_or_insert((word, token.span));
             let weightless = match word {
@@ -223,15 +174,26 @@ impl Evaluator<'_> {
         token: &Token,
         word: Word,
         finish: &mut ClassicFinish,
+        albedo: &mut Albedo,
     ) -> Outcome<bool> {
         match word {
             Word::Ambient => finish.ambient = self.intensity_after(token)?,
             Word::Emission => finish.emission = self.intensity_after(token)?,
-            Word::Diffuse => finish.diffuse = self.strength_after(token, word)?,
+            Word::Diffuse => {
+                albedo.diffuse |= self.skip_albedo();
+                finish.diffuse = self.strength_after(token, word)?;
+                self.back_side(token)?;
+            }
             Word::Brilliance => finish.brilliance = self.at_least_zero(token, word)?,
-            Word::Phong => finish.phong = self.strength_after(token, word)?,
+            Word::Phong => {
+                albedo.phong |= self.skip_albedo();
+                finish.phong = self.strength_after(token, word)?;
+            }
             Word::PhongSize => finish.phong_size = self.at_least_zero(token, word)?,
-            Word::Specular => finish.specular = self.strength_after(token, word)?,
+            Word::Specular => {
+                albedo.specular |= self.skip_albedo();
+                finish.specular = self.strength_after(token, word)?;
+            }
             Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
             Word::Reflection => {
@@ -262,55 +224,29 @@ impl Evaluator<'_> {
         Ok(given.value.rgb)
     }
 
+    /// `diffuse front, back`: light from behind is not built yet, but for none.
+    fn back_side(&mut self, token: &Token) -> Outcome<()> {
+        if !matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
+            return Ok(());
+        }
+        self.skip_commas();
+        let is_value = matches!(
+            self.peek().map(|token| &token.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        if is_value {
+            let back = self.number_after(token, "a number")?;
+            if back.value != 0.0 {
+                self.set_poison(Poison { word: Word::Diffuse, site: back.site() });
+            }
+        }
+        Ok(())
+    }
+
     /// How strongly a surface answers light.
     fn strength_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         self.lint_strength(&given.here, given.span, word, Rgb::gray(given.value));
         Ok(given.value)
-    }
-
-    /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. What a finish had
-    /// `before` says how its reflection behaves until it is said again, as in POV-Ray.
-    fn reflection(&mut self, token: &Token, before: Option<Reflection>) -> Outcome<Reflection> {
-        let plain = |color: Rgb| {
-            let (falloff, exponent, metallic) =
-                before.as_ref().map_or((1.0, 1.0, 0.0), |r| (r.falloff, r.exponent, r.metallic));
-            let fresnel = before.as_ref().is_some_and(|r| r.fresnel);
-            Reflection { minimum: color, maximum: color, falloff, fresnel, exponent, metallic }
-        };
-        if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
-            return Ok(plain(self.intensity_after(token)?));
-        }
-        let opener = token.clone();
-        self.block(token, Word::Reflection, |evaluator| {
-            let mut reflection = plain(evaluator.intensity_after(&opener)?);
-            evaluator.skip_commas();
-            let both = evaluator.at_color();
-            if both {
-                reflection.maximum = evaluator.intensity_after(&opener)?;
-            }
-            while let Some(token) = evaluator.next() {
-                match token.kind {
-                    TokenKind::Word(Word::Falloff) => {
-                        reflection.falloff = evaluator.at_least_zero(&token, Word::Falloff)?;
-                    }
-                    TokenKind::Word(Word::Exponent) => {
-                        reflection.exponent = evaluator.more_than_zero(&token, Word::Exponent)?;
-                    }
-                    TokenKind::Word(Word::Metallic) => {
-                        reflection.metallic = evaluator.optional_number(&token, 1.0)?;
-                    }
-                    TokenKind::Word(Word::Fresnel) => {
-                        reflection.fresnel = evaluator.optional_flag(&token)?;
-                    }
-                    _ => evaluator.unexpected(&token, Place::REFLECTION),
-                }
-            }
-            // With one colour only, nothing is the least (measured on POV-Ray 3.7).
-            if reflection.fresnel && !both {
-                reflection.minimum = Rgb::BLACK;
-            }
-            Ok(reflection)
-        })
     }
 }

@@ -35,7 +35,10 @@ impl Evaluator<'_> {
                     return Err(Reported);
                 }
             },
-            _ => return self.unfit(token, Place::INTERIOR),
+            _ => match self.inert(token, Place::INTERIOR) {
+                Some(outcome) => return outcome,
+                None => return self.unfit(token, Place::INTERIOR),
+            },
         }
         Ok(())
     }

@@ -6,22 +6,28 @@
 mod camera;
 mod color;
 mod finish;
+mod habit;
+mod inert;
 mod interior;
 mod light;
+mod modifier;
 mod object;
 mod part;
 mod pigment;
 mod place;
 mod settings;
+mod skip;
 mod texture;
 mod transform;
 mod unexpected;
+
+pub(super) use habit::color_of_string;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -51,8 +57,21 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::Background) => self.background(token),
             TokenKind::Word(Word::SkySphere) => {
-                self.sky_sphere(token)?;
+                if let Value::SkySphere(sky) = self.sky_sphere(token)? {
+                    self.place_sky(sky.as_ref().clone(), token);
+                    return Ok(());
+                }
                 self.needs_poison()
+            }
+            // After another directive the `#` may be left out, as in POV-Ray.
+            TokenKind::Word(Word::Default)
+                if self.options.dialect == Dialect::Pov
+                    && matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) =>
+            {
+                self.block(token, Word::Default, |evaluator| {
+                    evaluator.default_items();
+                    Ok(())
+                })
             }
             TokenKind::Word(Word::GlobalSettings) => {
                 self.global_settings(token)?;
@@ -133,11 +152,12 @@ impl Evaluator<'_> {
             Word::Array => self.array(token),
             Word::Spline => self.spline(token),
             Word::Function => self.function(token),
+            Word::SkySphere => self.sky_sphere(token),
             _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
                 self.object(token, word)
             }
-            _ if !word.is_built() || word == Word::SkySphere || word == Word::Background => {
+            _ if !word.is_built() || word == Word::Background => {
                 let poison = Poison { word, site: token.here.site(token.span) };
                 self.skip_arguments(word);
                 Ok(Value::Poison(poison))
@@ -154,35 +174,6 @@ impl Evaluator<'_> {
                 Err(reported)
             }
         }
-    }
-
-    /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
-    fn skip_missing_block(&mut self, token: &Token) {
-        let before = self.diagnostics.len();
-        self.skip_values();
-        self.skip_color(token);
-        while let Some(Token { kind: TokenKind::Entry(_), .. }) = self.peek() {
-            self.next();
-        }
-        match self.peek().map(|next| &next.kind) {
-            Some(TokenKind::Block(_)) => self.skip_arguments(Word::Union),
-            // `camera location … look_at …`
-            Some(TokenKind::Word(next)) if matches!(token.kind, TokenKind::Word(word) if place::home(*next) == Some(word)) => {
-                while let Some(&Token { kind: TokenKind::Word(next), .. }) = self.peek()
-                    && matches!(token.kind, TokenKind::Word(word) if place::home(next) == Some(word))
-                {
-                    self.next();
-                    self.skip_arguments(next);
-                }
-            }
-            Some(TokenKind::Word(next)) if next.family() == Family::FinishItem => {
-                let next = *next;
-                self.next();
-                self.skip_arguments(next);
-            }
-            _ => {}
-        }
-        self.diagnostics.forget_after(before);
     }
 
     /// Enters the block after `token`.

@@ -8,7 +8,7 @@ use crate::vocabulary::{Family, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
-use super::{Place, is_object_word};
+use super::is_object_word;
 
 /// What an object is in the end, through all uses of uses.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +16,7 @@ pub(in crate::evaluate) struct Made {
     /// The word of its kind.
     word: Word,
     /// It, or what it is a use of, has a texture of its own.
-    textured: bool,
+    pub(super) textured: bool,
 }
 
 fn own_word(kind: &ObjectKind) -> Word {
@@ -55,7 +55,6 @@ impl Evaluator<'_> {
     pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {
         let limit = self.options.limits.objects;
         if self.scene.objects.len() as u64 >= limit {
-            self.halted = true;
             let expansion = object.site.expansion;
             let diagnostic = Diagnostic::new(
                 Code::ObjectLimit,
@@ -63,7 +62,7 @@ impl Evaluator<'_> {
             )
             .at(object.site.span, "this object is one too many")
             .help("raise the limit with `--limit objects=N`");
-            return Err(self.report_in(expansion, diagnostic));
+            return Err(self.halt(expansion, diagnostic));
         }
         self.stored += size_of_val(&object.modifiers[..]) as u64;
         let used = match object.kind {
@@ -96,9 +95,11 @@ impl Evaluator<'_> {
                 evaluator.skip_parts();
             }
             let mut modifiers = Vec::new();
-            let textured =
-                matches!(kind, Ok(ObjectKind::Use(used)) if evaluator.made[used.index()].textured);
-            let failed = evaluator.modifiers(word, textured, &mut modifiers);
+            let used = match kind {
+                Ok(ObjectKind::Use(used)) => Some(used),
+                _ => None,
+            };
+            let failed = evaluator.modifiers(word, used, &mut modifiers);
             Ok((kind, modifiers, failed))
         })?;
         let kind = kind?;
@@ -195,6 +196,12 @@ impl Evaluator<'_> {
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
+            let diagnostic = match self.comma_after(radius.span) {
+                Some((span, number)) => diagnostic
+                    .help(format!("a fraction is written with a point: `{number}`"))
+                    .fix(span, number),
+                None => diagnostic,
+            };
             return Err(self.report(&radius.here, diagnostic));
         }
         if radius.value < 0.0 {
@@ -280,96 +287,5 @@ impl Evaluator<'_> {
             }
         }
         Ok(ObjectKind::Union(children))
-    }
-
-    /// Everything after the parts. `textured`: what is modified has a texture already, which a
-    /// pigment or finish alone changes in part.
-    fn modifiers(
-        &mut self,
-        word: Word,
-        mut textured: bool,
-        modifiers: &mut Vec<Modifier>,
-    ) -> Outcome<()> {
-        let place = match word {
-            Word::Union => Place::csg(word),
-            _ => Place::shape(word),
-        };
-        let mut failed = false;
-        while let Some(token) = self.next() {
-            let before = self.poison;
-            match self.modifier(&token, modifiers, &mut textured) {
-                Some(Ok(kind)) => {
-                    if let Some(kind) = kind {
-                        modifiers.push(Modifier { kind, site: token.here.site(token.span) });
-                    }
-                }
-                Some(Err(Reported)) => failed = true,
-                None => {
-                    self.unexpected(&token, place);
-                    let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
-                    failed |= !harmless && before.is_none() && self.poison.is_none();
-                }
-            }
-        }
-        if failed { Err(Reported) } else { Ok(()) }
-    }
-
-    /// One modifier; `None` when the token is none, `Some(Ok(None))` when it changes nothing.
-    fn modifier(
-        &mut self,
-        token: &Token,
-        modifiers: &mut Vec<Modifier>,
-        textured: &mut bool,
-    ) -> Option<Outcome<Option<ModifierKind>>> {
-        if let Some(transform) = self.transform_from(token) {
-            return Some(transform.map(|id| Some(ModifierKind::Transform(id))));
-        }
-        let TokenKind::Word(word) = token.kind else { return None };
-        let site = token.here.site(token.span);
-        let start_texture =
-            |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
-                // A pigment or finish alone changes a copy of the default texture.
-                if !*textured {
-                    let kind = ModifierKind::Texture(evaluator.default_texture);
-                    modifiers.push(Modifier { kind, site });
-                    *textured = true;
-                }
-            };
-        let kind = match word {
-            Word::Texture => self.texture(token).map(|texture| {
-                *textured = true;
-                Some(ModifierKind::Texture(texture))
-            }),
-            Word::Interior => {
-                self.interior(token).map(|interior| Some(ModifierKind::Interior(interior)))
-            }
-            Word::Material => self.material(token).map(|material| {
-                *textured |= material.texture.is_some();
-                let parts = [
-                    material.texture.map(ModifierKind::Texture),
-                    material.interior.map(ModifierKind::Interior),
-                ];
-                modifiers.extend(parts.into_iter().flatten().map(|kind| Modifier { kind, site }));
-                None
-            }),
-            Word::Pigment => {
-                start_texture(self, modifiers, textured);
-                self.pigment(token).map(|pigment| Some(ModifierKind::Pigment(pigment)))
-            }
-            Word::Finish => {
-                start_texture(self, modifiers, textured);
-                self.finish(token).map(|finish| Some(ModifierKind::Finish(finish)))
-            }
-            Word::NoShadow => {
-                self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))
-            }
-            // It tells where fog and media are, and there are none yet.
-            Word::Hollow => self.optional_flag(token).map(|_| None),
-            Word::Inverse => {
-                self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
-            }
-            _ => return None,
-        };
-        Some(kind)
     }
 }

@@ -138,6 +138,12 @@ impl Evaluator<'_> {
                     format!("expected {wanted} of three components, found {}", components.len()),
                 )
                 .at(given.span, "too many components");
+                let diagnostic = match self.commas_within(given.span) {
+                    Some(vector) => diagnostic
+                        .help(format!("a fraction is written with a point: `{vector}`"))
+                        .fix(given.span, vector),
+                    None => diagnostic,
+                };
                 self.report(&given.here, diagnostic)
             }
             other => self.wrong_type(&given.here, given.span, wanted, other),

@@ -177,6 +177,9 @@ impl Evaluator<'_> {
                 }
             }
             _ => {
+                if let Some(outcome) = self.inert(token, Place::PIGMENT) {
+                    return outcome;
+                }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::PIGMENT);
                 if !poisoned
@@ -194,10 +197,12 @@ impl Evaluator<'_> {
     fn color_pair(&mut self, token: &Token) -> Outcome<(Color, Color)> {
         let mut colors =
             [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
+        let mut given = 0;
         for color in &mut colors {
             self.skip_commas();
             if self.at_color() {
                 *color = self.color_after(token, "a colour")?.value;
+                given += 1;
             } else if let Some(Token {
                 kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)),
                 ..
@@ -205,6 +210,7 @@ impl Evaluator<'_> {
             {
                 let word = *word;
                 let Some(next) = self.next() else { break };
+                given += 1;
                 let mut not_built = word;
                 if word == Word::Pigment {
                     let id = self.pigment(&next)?;
@@ -221,6 +227,10 @@ impl Evaluator<'_> {
                     site: next.here.site(next.span),
                 });
             }
+        }
+        // Without any, the author knows the two that it has.
+        if given == 1 && self.poison.is_none() {
+            self.lint_missing_color(token);
         }
         Ok((colors[0], colors[1]))
     }

@@ -24,7 +24,7 @@ impl Place {
             Family::Setting,
             Family::Directive,
         ],
-        others: &[],
+        others: &[Word::Media],
     };
     pub const PIGMENT: Self = Self {
         word: Some(Word::Pigment),
@@ -35,7 +35,14 @@ impl Place {
             Family::Transform,
             Family::Texture,
         ],
-        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Function, Word::Df3],
+        others: &[
+            Word::NoiseGenerator,
+            Word::Interior,
+            Word::Exponent,
+            Word::Function,
+            Word::Df3,
+            Word::Object,
+        ],
     };
     pub const COLOR_MAP: Self =
         Self { word: Some(Word::ColorMap), families: &[Family::Color], others: &[] };
@@ -49,15 +56,19 @@ impl Place {
     pub const TEXTURE: Self = Self {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],
-        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent],
+        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Object],
     };
     pub const DEFAULT: Self = Self {
         word: Some(Word::Default),
         families: &[Family::Texture, Family::Setting, Family::Camera],
         others: &[],
     };
-    pub const INTERIOR: Self =
-        Self { word: Some(Word::Interior), families: &[Family::Interior], others: &[] };
+    pub const INTERIOR: Self = Self {
+        word: Some(Word::Interior),
+        families: &[Family::Interior],
+        // Built for lights.
+        others: &[Word::FadeDistance, Word::FadePower],
+    };
     pub const MATERIAL: Self = Self {
         word: Some(Word::Material),
         families: &[Family::Transform],
@@ -68,24 +79,38 @@ impl Place {
     pub const CAMERA: Self = Self {
         word: Some(Word::Camera),
         families: &[Family::Camera, Family::Transform, Family::PatternItem, Family::Texture],
-        others: &[Word::Cylinder],
+        others: &[Word::Cylinder, Word::Spherical],
     };
     pub const LIGHT: Self = Self {
         word: Some(Word::LightSource),
         families: &[Family::Light, Family::Transform, Family::Color, Family::Interior],
-        others: &[Word::Falloff, Word::Orient, Word::NoImage, Word::NoShadow, Word::NoReflection],
+        others: &[
+            Word::Falloff,
+            Word::Cylinder,
+            Word::Orient,
+            Word::NoImage,
+            Word::NoShadow,
+            Word::NoReflection,
+            Word::Photons,
+        ],
     };
     pub const BACKGROUND: Self =
         Self { word: Some(Word::Background), families: &[Family::Color], others: &[] };
     pub const SKY_SPHERE: Self = Self {
         word: Some(Word::SkySphere),
         families: &[Family::Texture, Family::Transform, Family::FinishItem],
-        others: &[],
+        others: &[Word::Emission],
     };
     pub const SETTINGS: Self = Self {
         word: Some(Word::GlobalSettings),
         families: &[Family::Setting, Family::Interior],
-        others: &[Word::Subsurface, Word::NoiseGenerator],
+        others: &[Word::Subsurface, Word::NoiseGenerator, Word::IridWavelength],
+    };
+
+    pub const BOUNDED_BY: Self = Self {
+        word: Some(Word::BoundedBy),
+        families: &[Family::Shape, Family::Csg],
+        others: &[Word::ClippedBy],
     };
 
     /// The block of a shape.
@@ -97,7 +122,7 @@ impl Place {
             Family::Interior,
             Family::ShapeItem,
         ];
-        Self { word: Some(word), families: FAMILIES, others: &[] }
+        Self { word: Some(word), families: FAMILIES, others: &[Word::Photons, Word::Radiosity] }
     }
 
     /// The block of a union and its kin: shapes and modifiers.
@@ -111,7 +136,8 @@ impl Place {
             Family::Texture,
             Family::Interior,
         ];
-        Self { word: Some(word), families: FAMILIES, others: &[] }
+        const OTHERS: &[Word] = &[Word::Hierarchy, Word::Sturm, Word::Photons, Word::Radiosity];
+        Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 
     pub(super) fn name(self) -> String {

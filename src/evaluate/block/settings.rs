@@ -1,9 +1,13 @@
 //! `global_settings`, `background` and `sky_sphere`.
 
+use std::sync::Arc;
+
+use crate::color::Gamma;
 use crate::scene::{Background, SkySphere};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::finish::list_once;
@@ -26,10 +30,9 @@ impl Evaluator<'_> {
                     self.color_after(token, "a number or a colour")?.value.rgb;
             }
             TokenKind::Word(Word::AssumedGamma) => {
-                // `srgb` stands for the curve of a usual display, whose mean exponent is 2.2.
                 let gamma = match self.take_word(Word::Srgb) {
-                    Some(_) => 2.2,
-                    None => self.more_than_zero(token, Word::AssumedGamma)?,
+                    Some(_) => Gamma::Srgb,
+                    None => Gamma::Power(self.more_than_zero(token, Word::AssumedGamma)?),
                 };
                 // Said twice, the first counts, as in POV-Ray.
                 if !std::mem::replace(&mut self.says_gamma, true) {
@@ -51,7 +54,10 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::AdcBailout) => {
                 self.scene.settings.adc_bailout = self.at_least_zero(token, Word::AdcBailout)?;
             }
-            _ => self.unexpected(token, Place::SETTINGS),
+            _ => match self.inert(token, Place::SETTINGS) {
+                Some(outcome) => outcome?,
+                None => self.unexpected(token, Place::SETTINGS),
+            },
         }
         Ok(())
     }
@@ -69,36 +75,53 @@ impl Evaluator<'_> {
         })
     }
 
-    pub(super) fn sky_sphere(&mut self, token: &Token) -> Outcome<()> {
+    pub(super) fn sky_sphere(&mut self, token: &Token) -> Outcome<Value> {
         let mut sky = SkySphere {
             pigments: Vec::new(),
             transforms: Vec::new(),
             site: token.here.site(token.span),
             items: Vec::new(),
         };
-        self.block(token, Word::SkySphere, |evaluator| {
+        let outer = self.poison.take();
+        let outcome = self.block(token, Word::SkySphere, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
-                if let Some(transform) = evaluator.transform_from(&token) {
-                    match transform {
-                        Ok(id) => sky.transforms.push(id),
-                        Err(Reported) => failed = true,
-                    }
-                    continue;
-                }
-                match token.kind {
-                    TokenKind::Word(Word::Pigment) => match evaluator.pigment(&token) {
-                        Ok(pigment) => sky.pigments.push(pigment),
-                        Err(Reported) => failed = true,
-                    },
-                    _ => evaluator.unexpected(&token, Place::SKY_SPHERE),
-                }
+                failed |= evaluator.sky_item(&token, &mut sky) == Err(Reported);
             }
             if failed { Err(Reported) } else { Ok(()) }
-        })?;
-        sky.items = self.scene.sky_sphere.take().map_or(Vec::new(), |replaced| replaced.items);
+        });
+        let poison = std::mem::replace(&mut self.poison, outer);
+        if let Some(poison) = poison {
+            self.set_poison(poison);
+            return Ok(Value::Poison(poison));
+        }
+        outcome?;
+        Ok(Value::SkySphere(Arc::new(sky)))
+    }
+
+    fn sky_item(&mut self, token: &Token, sky: &mut SkySphere) -> Outcome<()> {
+        if let Some(transform) = self.transform_from(token) {
+            sky.transforms.push(transform?);
+            return Ok(());
+        }
+        match token.kind {
+            TokenKind::Word(Word::Pigment) => sky.pigments.push(self.pigment(token)?),
+            TokenKind::Expression(id) => match self.named(token, id) {
+                Some(Value::SkySphere(declared)) => {
+                    *sky = SkySphere { site: sky.site, ..declared.as_ref().clone() };
+                }
+                _ => self.unexpected(token, Place::SKY_SPHERE),
+            },
+            _ => self.unexpected(token, Place::SKY_SPHERE),
+        }
+        Ok(())
+    }
+
+    /// The sky from here on, in the place of any before it.
+    pub(super) fn place_sky(&mut self, sky: SkySphere, token: &Token) {
+        let replaced = self.scene.sky_sphere.take().map_or(Vec::new(), |replaced| replaced.items);
+        let mut sky = SkySphere { items: replaced, ..sky };
         list_once(&mut sky.items, self.whole(token));
         self.scene.sky_sphere = Some(sky);
-        Ok(())
     }
 }

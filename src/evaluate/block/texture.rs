@@ -63,6 +63,9 @@ impl Evaluator<'_> {
                 }
             },
             _ => {
+                if let Some(outcome) = self.inert(token, Place::TEXTURE) {
+                    return outcome;
+                }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::TEXTURE);
                 let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
@@ -78,8 +81,13 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn default_items(&mut self) {
         let outer = self.poison.take();
         while let Some(token) = self.next() {
+            let finishes = self.scene.finishes.len();
             let changed = match token.kind {
-                TokenKind::Word(Word::Texture) => self.texture(&token),
+                TokenKind::Word(Word::Texture) => {
+                    let texture = self.texture(&token);
+                    self.forget_words_of_finishes(finishes);
+                    texture
+                }
                 TokenKind::Word(Word::Pigment) => {
                     let mut texture = self.scene.textures[self.default_texture.index()].clone();
                     self.pigment(&token).map(|pigment| {
@@ -89,7 +97,9 @@ impl Evaluator<'_> {
                 }
                 TokenKind::Word(Word::Finish) => {
                     let mut texture = self.scene.textures[self.default_texture.index()].clone();
-                    self.finish(&token).map(|finish| {
+                    let finish = self.finish(&token);
+                    self.forget_words_of_finishes(finishes);
+                    finish.map(|finish| {
                         texture.finish = finish;
                         self.add_texture(texture)
                     })

@@ -128,6 +128,7 @@ impl Evaluator<'_> {
             Value::Transform(_) if place.families.contains(&Family::Transform) => Some("transform"),
             Value::Object(_) if place.families.contains(&Family::Shape) => Some("object"),
             Value::Camera(_) if place.word.is_none() => Some("camera"),
+            Value::SkySphere(_) if place.word.is_none() => Some("sky_sphere"),
             Value::Color(_) if of_texture => Some("pigment"),
             _ => None,
         };
@@ -152,6 +153,10 @@ impl Evaluator<'_> {
                 return;
             }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+        } else if let Some((span, number)) = self.comma_before(token.span) {
+            diagnostic = diagnostic
+                .help(format!("a fraction is written with a point: `{number}`"))
+                .fix(span, number);
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(word.sentence().to_owned());
         }
@@ -165,6 +170,10 @@ impl Evaluator<'_> {
             self.skip_arguments(word);
             self.set_poison(poison);
             return;
+        }
+        if self.missing_at == Some(token.here.site(token.span)) {
+            // Told: a value should stand here.
+            return self.skip_arguments(word);
         }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let name = word.name();
@@ -231,7 +240,7 @@ impl Evaluator<'_> {
         let words = || place.words(dialect);
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
-            .filter(|word| words().any(|other| other == *word))
+            .filter(|word| *word == "transmit" || words().any(|other| other == *word))
             .or_else(|| {
                 Some("translate").filter(|word| name == "position" && words().any(|w| w == *word))
             })
@@ -264,6 +273,9 @@ impl Evaluator<'_> {
         let mut diagnostic =
             Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
         diagnostic = match near {
+            Some(near) if near == "transmit" && is_foreign => {
+                self.clear_word(diagnostic, &name, span, place)
+            }
             // The right word would be the next error: no fix.
             Some(near) if !is_built(&near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))
@@ -305,109 +317,6 @@ impl Evaluator<'_> {
             .fix(token.span, format!("#{name}"));
         self.report(&token.here, diagnostic);
         self.skip_values();
-    }
-
-    /// Passes over a colour that was the value of a word that is not known.
-    pub(super) fn skip_color(&mut self, after: &Token) {
-        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
-            && word.family() == Family::Color
-        {
-            let before = self.diagnostics.len();
-            let _ = self.color_after(after, "a colour");
-            self.diagnostics.forget_after(before);
-        }
-    }
-
-    /// Passes over what is left of parts that were reported: they are no second mistake. A name that is
-    /// not declared is one, and stays.
-    pub(super) fn skip_parts(&mut self) {
-        let before = self.diagnostics.len();
-        while let Some(token) = self.peek().cloned() {
-            match token.kind {
-                TokenKind::Word(_) | TokenKind::Semicolon => break,
-                TokenKind::Expression(id) => {
-                    if let ExpressionKind::Name(name) = token.here.unit.expression(id).kind
-                        && self.scopes.slot(token.here.symbol(name)).is_none()
-                    {
-                        break;
-                    }
-                    self.next();
-                    self.run_expression(&token.here, id);
-                }
-                TokenKind::Block(contents) => {
-                    self.next();
-                    self.inside_block(&token.here, contents, token.span, Self::run_items);
-                }
-                TokenKind::Entry(items) => {
-                    self.next();
-                    self.inside(&token.here, items, Self::run_items);
-                }
-                TokenKind::Literal(_) | TokenKind::Comma => drop(self.next()),
-            }
-        }
-        self.diagnostics.forget_after(before);
-    }
-
-    /// Passes over the values after a word, running what is in them.
-    pub(in crate::evaluate) fn skip_values(&mut self) {
-        loop {
-            match self.peek().map(|token| (&token.kind, &token.here)) {
-                Some((TokenKind::Comma | TokenKind::Literal(_), _)) => drop(self.next()),
-                Some((TokenKind::Expression(id), here)) => {
-                    let id = *id;
-                    // A name that is not declared is the next mistake, not a part of this one.
-                    if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
-                        let symbol = here.symbol(name);
-                        if self.scopes.slot(symbol).is_none() {
-                            return;
-                        }
-                    }
-                    if let Some(token) = self.next() {
-                        let before = self.diagnostics.len();
-                        let _ = self.expression(&token.here, id);
-                        self.diagnostics.forget_after(before);
-                    }
-                }
-                _ => return,
-            }
-        }
-    }
-
-    /// Passes over the values and the block that belong to a word, running what is in them.
-    pub(in crate::evaluate) fn skip_arguments(&mut self, word: Word) {
-        if word == Word::Function {
-            return self.skip_function();
-        }
-        loop {
-            match self.peek().map(|token| &token.kind) {
-                Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
-                Some(TokenKind::Expression(_)) => {
-                    if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() {
-                        self.run_expression(&here, id);
-                    }
-                }
-                Some(TokenKind::Entry(_)) => {
-                    if let Some(Token { kind: TokenKind::Entry(items), here, .. }) = self.next() {
-                        self.inside(&here, items, Self::run_items);
-                    }
-                }
-                Some(TokenKind::Block(_)) => {
-                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
-                        self.next()
-                    {
-                        self.inside_block(&here, contents, span, Self::run_items);
-                    }
-                    return;
-                }
-                Some(TokenKind::Word(next))
-                    if next.family() == Family::Color
-                        && (word.family() != Family::Color || word == Word::Color) =>
-                {
-                    drop(self.next());
-                }
-                Some(TokenKind::Word(_) | TokenKind::Semicolon) | None => return,
-            }
-        }
     }
 }
 

@@ -168,7 +168,7 @@ mod tests {
 
     fn number(word: Word, arguments: &[f64]) -> Result<f64, super::CallError> {
         let arguments: Vec<Value> = arguments.iter().map(|n| Value::Number(*n)).collect();
-        let value = call(word, &arguments, &mut RandomStreams::default())?;
+        let value = call(word, &arguments, &mut RandomStreams::default(), usize::MAX)?;
         Ok(value.as_number().expect("a number"))
     }
 
@@ -305,7 +305,7 @@ mod tests {
             for &word in Word::ALL {
                 let Some(arity) = super::super::arity(word) else { continue };
                 let count = (*arity.end()).min(arguments.len());
-                let result = call(word, &arguments[..count], &mut RandomStreams::default());
+                let result = call(word, &arguments[..count], &mut RandomStreams::default(), usize::MAX);
                 if let Some(numbers) = result.ok().and_then(|value| value.numbers()) {
                     prop_assert!(numbers.as_slice().iter().all(|n| n.is_finite()), "{word:?}");
                 }

@@ -22,7 +22,7 @@ pub fn check(table: &str) {
         let word = Word::from_name(name).expect("a word");
         let (arguments, rest) = values(rest);
         let wanted = values(rest.strip_prefix(") = ").expect("a value")).0;
-        let value = call(word, &arguments, &mut RandomStreams::default())
+        let value = call(word, &arguments, &mut RandomStreams::default(), usize::MAX)
             .unwrap_or_else(|error| panic!("{line}: {}", error.message));
         assert!(wanted.len() == 1 && agree(&value, &wanted[0]), "{line}\n{value:?}");
     }

@@ -44,6 +44,8 @@ pub enum CallErrorKind {
     ZeroVector,
     /// The result is too large for a number.
     NotFinite,
+    /// The result is a longer string than the limit.
+    TooLong,
 }
 
 impl CallErrorKind {
@@ -57,6 +59,7 @@ impl CallErrorKind {
             Self::DivisionByZero => Code::DivisionByZero,
             Self::ZeroVector => Code::ZeroVector,
             Self::NotFinite => Code::NotANumber,
+            Self::TooLong => Code::StringLimit,
         }
     }
 }
@@ -80,7 +83,8 @@ pub fn arity(word: Word) -> Option<RangeInclusive<usize>> {
 
 /// The value of `word(arguments…)`.
 ///
-/// Anything done with a poison or broken value is that value again.
+/// Anything done with a poison or broken value is that value again. No string becomes longer than
+/// `longest` bytes, since doubling one in a loop must not fill the memory.
 ///
 /// # Errors
 /// As [`CallErrorKind`] lists them.
@@ -88,6 +92,7 @@ pub fn call(
     word: Word,
     arguments: &[Value],
     streams: &mut RandomStreams,
+    longest: usize,
 ) -> Result<Value, CallError> {
     let Some(function) = function(word) else {
         return Err(CallError {
@@ -97,7 +102,7 @@ pub fn call(
             help: None,
         });
     };
-    let arguments = Arguments { word, values: arguments };
+    let arguments = Arguments { word, values: arguments, longest };
     arguments.expect_count(&function.arity)?;
     let lost = |value: &&Value| matches!(value, Value::Poison(_) | Value::Broken);
     if let Some(lost) = arguments.values.iter().find(lost) {
@@ -168,6 +173,8 @@ impl Function {
 struct Arguments<'a> {
     word: Word,
     values: &'a [Value],
+    /// The most bytes of a string.
+    longest: usize,
 }
 
 impl Arguments<'_> {
@@ -284,7 +291,7 @@ mod tests {
     use crate::vocabulary::{Family, Role};
 
     fn error(word: Word, arguments: &[Value]) -> CallError {
-        call(word, arguments, &mut RandomStreams::default()).expect_err("no value")
+        call(word, arguments, &mut RandomStreams::default(), 100).expect_err("no value")
     }
 
     #[test]
@@ -324,7 +331,7 @@ mod tests {
         let site = Site { span, expansion: ExpansionId::MAIN };
         let poison = Value::Poison(Poison { word: Word::Torus, site });
         let mut streams = RandomStreams::default();
-        let sum = call(Word::Vdot, &[Value::Number(1.0), poison.clone()], &mut streams);
+        let sum = call(Word::Vdot, &[Value::Number(1.0), poison.clone()], &mut streams, 100);
         assert_eq!(sum, Ok(poison));
     }
 

@@ -89,7 +89,7 @@ mod tests {
     fn streams_are_counted_from_zero_and_do_not_disturb_each_other() {
         let mut streams = RandomStreams::default();
         let mut number = |word, n| {
-            let value = call(word, &[Value::Number(n)], &mut streams).expect("a value");
+            let value = call(word, &[Value::Number(n)], &mut streams, usize::MAX).expect("a value");
             value.as_number().expect("a number")
         };
         assert_eq!((number(Word::Seed, 7.0), number(Word::Seed, 7.0)), (0.0, 1.0));
@@ -104,7 +104,7 @@ mod tests {
         for stream in [-1.0, 1.0, 1e300] {
             let mut streams = RandomStreams::default();
             streams.open(1.0);
-            let error = call(Word::Rand, &[Value::Number(stream)], &mut streams);
+            let error = call(Word::Rand, &[Value::Number(stream)], &mut streams, usize::MAX);
             let error = error.expect_err("no such stream");
             assert_eq!(error.kind, CallErrorKind::OutOfRange);
             assert!(error.message.starts_with("`rand` takes a stream that `seed` opened, not "));

@@ -35,19 +35,16 @@ pub(super) fn function(word: Word) -> Option<Function> {
     }
 }
 
-/// The most bytes of a joined string: doubling one in a loop must not fill the memory.
-const LONGEST_TEXT: usize = 1 << 24;
-
 fn joined(a: &Arguments) -> Result<String, CallError> {
     let mut text = String::new();
     for i in 0..a.values.len() {
         let piece = a.string(i)?;
-        if text.len() + piece.len() > LONGEST_TEXT {
+        if text.len() + piece.len() > a.longest {
             return Err(CallError {
-                kind: CallErrorKind::OutOfRange,
+                kind: CallErrorKind::TooLong,
                 argument: Some(i),
-                message: format!("this string grows longer than {LONGEST_TEXT} bytes"),
-                help: None,
+                message: format!("this string grows longer than {} MiB", a.longest >> 20),
+                help: Some("`--limit string=N` raises the limit".to_owned()),
             });
         }
         text.push_str(piece);
@@ -212,14 +209,15 @@ mod tests {
     use crate::evaluate::value::Value;
 
     fn text(word: Word, arguments: &[Value]) -> Result<String, CallError> {
-        match call(word, arguments, &mut RandomStreams::default())? {
+        match call(word, arguments, &mut RandomStreams::default(), usize::MAX)? {
             Value::String(text) => Ok(text.to_string()),
             other => panic!("{other:?}"),
         }
     }
 
     fn number(word: Word, arguments: &[Value]) -> f64 {
-        let value = call(word, arguments, &mut RandomStreams::default()).expect("a value");
+        let value =
+            call(word, arguments, &mut RandomStreams::default(), usize::MAX).expect("a value");
         value.as_number().expect("a number")
     }
 

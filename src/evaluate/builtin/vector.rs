@@ -73,7 +73,7 @@ mod tests {
     use crate::evaluate::value::Value;
 
     fn value(word: Word, arguments: &[Value]) -> Value {
-        call(word, arguments, &mut RandomStreams::default()).expect("a value")
+        call(word, arguments, &mut RandomStreams::default(), usize::MAX).expect("a value")
     }
 
     fn vector(word: Word, arguments: &[Value]) -> Vector {
@@ -105,15 +105,19 @@ mod tests {
     #[test]
     fn a_zero_vector_has_no_direction() {
         let zero = Value::Number(0.0);
-        let error =
-            call(Word::Vnormalize, std::slice::from_ref(&zero), &mut RandomStreams::default());
+        let error = call(
+            Word::Vnormalize,
+            std::slice::from_ref(&zero),
+            &mut RandomStreams::default(),
+            usize::MAX,
+        );
         let error = error.expect_err("no direction");
         assert_eq!(
             error.message,
             "`vnormalize` takes a vector with a direction, not the zero vector"
         );
         let arguments = [Value::Number(1.0), zero, Value::Number(30.0)];
-        let error = call(Word::VaxisRotate, &arguments, &mut RandomStreams::default());
+        let error = call(Word::VaxisRotate, &arguments, &mut RandomStreams::default(), usize::MAX);
         let error = error.expect_err("no axis");
         assert_eq!((error.kind, error.argument), (CallErrorKind::ZeroVector, Some(1)));
     }
@@ -122,7 +126,8 @@ mod tests {
     fn turbulence_takes_four_arguments_the_last_a_point() {
         let n = Value::Number(2.0);
         let error = |arguments: &[Value]| {
-            let error = call(Word::Vturbulence, arguments, &mut RandomStreams::default());
+            let error =
+                call(Word::Vturbulence, arguments, &mut RandomStreams::default(), usize::MAX);
             error.expect_err("no turbulence")
         };
         let three = error(&[n.clone(), n.clone(), n.clone()]);

@@ -76,6 +76,16 @@ fn things_without_size_are_reported() {
 }
 
 #[test]
+fn what_transforms_bring_to_nothing_is_reported() {
+    let ball = sphere(0.0, 0.0, 0.0, 1.0);
+    assert_eq!(codes(ball.clone(), vec![scale(0.0, 0.0, 0.0)]), [Code::ZeroScale]);
+    let tiny = vec![scale(1e-150, 1e-150, 1e-150)];
+    assert_eq!(codes(sphere(0.0, 0.0, 0.0, 1e-200), tiny.clone()), [Code::ZeroSize]);
+    let cube = box_(Vector::ZERO, v(1e-200, 1e-200, 1.0));
+    assert_eq!(codes(cube, tiny), [Code::ZeroSize]);
+}
+
+#[test]
 fn a_box_without_thickness_is_a_sheet() {
     let world = spend(box_(v(0.0, 2.0, 0.0), v(1.0, 2.0, 1.0)), vec![]);
     assert_eq!(world.boxes[0].half_widths, [0.5, 0.0, 0.5]);
@@ -83,7 +93,7 @@ fn a_box_without_thickness_is_a_sheet() {
 
 fn light(color: Rgb) -> ObjectKind {
     let kind = LightKind::Point { location: v(1.0, 2.0, 3.0) };
-    ObjectKind::LightSource(LightSource { color, kind, shadowless: false })
+    ObjectKind::LightSource(LightSource { color, kind, shadowless: false, fade: None })
 }
 
 #[test]
@@ -105,7 +115,7 @@ fn a_black_light_is_dropped_and_that_is_said() {
 fn parallel_light_comes_from_where_it_stands() {
     let mut build = Build::new();
     let kind = LightKind::Parallel { location: v(0.0, 9.0, 0.0), point_at: v(0.0, 1.0, 0.0) };
-    let source = LightSource { color: Rgb::WHITE, kind, shadowless: true };
+    let source = LightSource { color: Rgb::WHITE, kind, shadowless: true, fade: None };
     let light = build.moved(ObjectKind::LightSource(source), vec![rotate(90.0, 0.0, 0.0)]);
     build.root(light);
     let light = build.world().lights[0];

@@ -1,5 +1,6 @@
-//! Habits of other languages: a directive without its `#`, `let A = 1`, `A += 1`, `==`, `&&`; the heads of
-//! directives (`head.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
+//! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
+//! count (`counting.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the parts of
+//! blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -7,24 +8,22 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap};
 
+mod assign;
+mod counting;
 mod head;
 mod letter;
 mod map;
 mod part;
 mod sign;
+mod web;
 
 use self::letter::Foreign;
 use self::part::Inside;
+pub(super) use self::web::color_at;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::Word;
-
-/// What declares a name elsewhere.
-const DECLARERS: &[&str] = &[
-    "let", "var", "const", "def", "define", "set", "float", "double", "int", "vector", "vec3",
-    "color3",
-];
 
 pub(super) fn translate(
     tokens: Vec<Token>,
@@ -154,8 +153,13 @@ impl Reader<'_> {
                     || self.vector(meant)
                     || self.part(meant)
             }
+            TokenKind::Directive(Head::Unknown) if self.web_color(meant) => true,
             TokenKind::Directive(head) => self.head(head, meant),
-            TokenKind::Stray => self.single_quotes(meant) || (!self.ascii && self.sign(meant)),
+            TokenKind::Stray => {
+                self.web_color(meant)
+                    || self.single_quotes(meant)
+                    || (!self.ascii && self.sign(meant))
+            }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
             TokenKind::Number => self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
@@ -262,146 +266,5 @@ impl Reader<'_> {
             closers
         });
         closers.get(&(self.at + ahead)).map(|close| close - self.at)
-    }
-
-    /// `let A = 1`.
-    fn declarer(&mut self, meant: &mut Vec<Token>) -> bool {
-        let fits = DECLARERS.contains(&self.slice(0))
-            && self.kind(1) == Some(TokenKind::Name)
-            && self.is(2, Mark::Equal);
-        if fits {
-            let word = self.slice(0).to_owned();
-            let span = self.span(0, 0);
-            let diagnostic = Diagnostic::new(
-                Code::UnknownWord,
-                format!("a name is declared by `#declare`, not by `{word}`"),
-            )
-            .at(span, "not a word of the language")
-            .help("replace it with `#declare`")
-            .fix(span, "#declare");
-            self.diagnostics.push(diagnostic);
-            meant.push(Token { kind: TokenKind::Directive(Head::Declare), ..self.tokens[self.at] });
-            self.at += 1;
-        }
-        fits
-    }
-
-    /// `A += 1`, `A++`.
-    fn changes(&mut self, meant: &mut Vec<Token>) -> bool {
-        let operator = match self.kind(1) {
-            Some(TokenKind::Mark(Mark::Plus)) => "+",
-            Some(TokenKind::Mark(Mark::Minus)) => "-",
-            Some(TokenKind::Mark(Mark::Star)) => "*",
-            Some(TokenKind::Mark(Mark::Slash)) => "/",
-            _ => return false,
-        };
-        let assigns = self.is(2, Mark::Equal) && self.touches(2);
-        let same = self.kind(1) == self.kind(2) && self.touches(2) && matches!(operator, "+" | "-");
-        let steps = same
-            && matches!(
-                self.kind(3),
-                None | Some(
-                    TokenKind::Mark(Mark::Semicolon | Mark::Close(_)) | TokenKind::Directive(_)
-                )
-            );
-        if !assigns && !steps {
-            return false;
-        }
-        let name = self.slice(0).to_owned();
-        let sign = format!("{operator}{}", if assigns { "=" } else { operator });
-        let change = if assigns { "…" } else { "1" };
-        let diagnostic = Diagnostic::new(
-            Code::UnexpectedCharacter,
-            format!("`{sign}` is not an operator of the language"),
-        )
-        .at(self.span(1, 2), "no value is changed in place")
-        .help(format!("write `#declare {name} = {name} {operator} {change};`"));
-        self.diagnostics.push(diagnostic);
-        // Read as `#declare A = A + …`, with the `#declare` that may stand before it.
-        let token = |kind| Token { kind, ..self.tokens[self.at] };
-        if !matches!(
-            meant.last().map(|token| token.kind),
-            Some(TokenKind::Directive(Head::Declare | Head::Local))
-        ) {
-            meant.push(token(TokenKind::Directive(Head::Declare)));
-        }
-        meant.extend([
-            token(TokenKind::Name),
-            token(TokenKind::Mark(Mark::Equal)),
-            token(TokenKind::Name),
-        ]);
-        if assigns {
-            meant.push(self.tokens[self.at + 1]);
-        }
-        self.at += 3;
-        true
-    }
-
-    /// `==`, `&&`, `||`, `**`.
-    fn doubled(&mut self, mark: Mark, meant: &mut Vec<Token>) -> bool {
-        if !(self.is(1, mark) && self.touches(1)) {
-            return false;
-        }
-        let span = self.span(0, 1);
-        let (message, help, fix) = match mark {
-            Mark::Equal => ("equality is written `=`", "replace it with `=`", Some("=")),
-            Mark::And => ("`and` is written `&`", "replace it with `&`", Some("&")),
-            Mark::Or => ("`or` is written `|`", "replace it with `|`", Some("|")),
-            _ => {
-                ("`**` is not an operator of the language", "a power is written `pow(a, b)`", None)
-            }
-        };
-        let mut diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
-            .at(span, "an operator of another language")
-            .help(help);
-        let in_round = self.inside.last().is_some_and(|inside| inside.is(Bracket::Round));
-        if let Some(fix) = fix.filter(|_| mark != Mark::Equal || in_round || self.declares()) {
-            diagnostic = diagnostic.fix(span, fix);
-        } else if mark == Mark::Equal {
-            diagnostic = diagnostic.help("a comparison stands in parentheses: `(a = b)`");
-            if self.between_single_values() {
-                let (before, after) = (self.tokens[self.at - 1], self.tokens[self.at + 2]);
-                let at = |place: u32| Span::new(self.file, place as usize, place as usize);
-                diagnostic =
-                    diagnostic.fix(at(before.start), "(").fix(span, "=").fix(at(after.end), ")");
-            }
-        }
-        self.diagnostics.push(diagnostic);
-        // As long as it is written: where it stands alone it is told no second time.
-        meant.push(Token { end: span.end, ..self.tokens[self.at] });
-        self.at += 2;
-        true
-    }
-
-    /// `#declare A == 1`.
-    fn declares(&self) -> bool {
-        let head = self.at.checked_sub(2).map(|at| self.tokens[at].kind);
-        matches!(head, Some(TokenKind::Directive(Head::Declare | Head::Local)))
-    }
-
-    /// `== ` with one name or number on each side, and nothing else.
-    fn between_single_values(&self) -> bool {
-        let kind = |at: Option<usize>| at.and_then(|at| self.tokens.get(at)).map(|t| t.kind);
-        let value = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Number));
-        let parted = |kind| {
-            matches!(
-                kind,
-                Some(
-                    TokenKind::Mark(
-                        Mark::Comma
-                            | Mark::Semicolon
-                            | Mark::Equal
-                            | Mark::Open(_)
-                            | Mark::Close(_)
-                    ) | TokenKind::Numbers
-                        | TokenKind::Vectors
-                        | TokenKind::Word(_)
-                )
-            )
-        };
-        value(kind(self.at.checked_sub(1)))
-            && parted(kind(self.at.checked_sub(2)))
-            && value(kind(Some(self.at + 2)))
-            && parted(kind(Some(self.at + 3)))
     }
 }

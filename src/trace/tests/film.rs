@@ -12,7 +12,7 @@ fn the_film_has_the_same_bits_for_any_number_of_threads() {
     let alone = traced_by(&world, &plan);
     assert!(alone.film.samples.contains(&1) && alone.film.samples.contains(&16));
     for threads in [2, 3, 7] {
-        let shared = trace(&world, &plan, &TraceOptions { threads: Some(threads) }, &Unwatched);
+        let shared = trace(&world, &plan, &TraceOptions::on_threads(threads), &Unwatched);
         assert_eq!(shared, alone);
     }
 }
@@ -131,7 +131,7 @@ fn a_stopped_film_knows_which_pixels_were_reached() {
     let world = varied();
     let plan = plan(&world, &Origins::default(), &options(100, 40, Antialias::default()));
     let watch = Impatient(AtomicUsize::new(0));
-    let result = trace(&world, &plan, &TraceOptions { threads: Some(1) }, &watch);
+    let result = trace(&world, &plan, &TraceOptions::on_threads(1), &watch);
     assert!(!result.complete);
     let whole = traced(&world, 100, 40, Antialias::Off).film;
     assert_eq!(result.film.samples.iter().filter(|&&n| n > 0).count(), 2 * 32 * 32);

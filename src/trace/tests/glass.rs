@@ -307,6 +307,52 @@ fn the_paths_of_a_fork_are_each_folded_at_their_own_surface() {
 }
 
 #[test]
+fn adc_bailout_cuts_what_is_let_through_by_its_brightness_and_by_the_weight_of_its_largest_part() {
+    // What POV-Ray shows for two filters before a mirror of 0.6: each lets <0.6, 0.24, 0.12>
+    // through, of brightness 0.333, and the weights are 0.6 to the second, third, fourth, fifth.
+    let mut filter = pane(1.0);
+    let rgb = Rgb::new(1.0, 0.4, 0.2);
+    filter.pigment = Pigment::Color(Color { rgb, filter: 0.6, transmit: 0.0 });
+    for (adc_bailout, through, mirrored) in [
+        (0.34, 0, 0),
+        (0.33, 2, 0),
+        (0.217, 2, 0),
+        (0.215, 2, 1),
+        (0.13, 2, 1),
+        (0.129, 3, 1),
+        (0.078, 3, 1),
+        (0.077, 4, 1),
+    ] {
+        let world = Built::default()
+            .plane(UnitVector::Z, -2.0, filter.clone())
+            .plane(UnitVector::Z, -3.0, filter.clone())
+            .plane(UnitVector::Z, -4.0, mirror(0.6, 0.0))
+            .world(|world| world.settings = Settings { adc_bailout, ..world.settings });
+        let counters = traced(&world, 1, 1, Antialias::Off).counters;
+        assert_eq!(
+            (counters.transmission, counters.reflection),
+            (through, mirrored),
+            "{adc_bailout}"
+        );
+    }
+}
+
+#[test]
+fn a_negative_transmit_takes_light_away() {
+    // As POV-Ray shows it: (1 + 0.4)·0.6·C − 0.4·1.
+    let mut odd = glowing(0.6);
+    let rgb = Rgb::new(0.9, 0.8, 0.7);
+    odd.pigment = Pigment::Color(Color { rgb, filter: 0.0, transmit: -0.4 });
+    let world = Built::default()
+        .plane(UnitVector::Z, -3.0, odd)
+        .world(|world| world.background = Rgb::WHITE);
+    let off = |(seen, c): (f64, f64)| (seen - (1.4 * 0.6 * c - 0.4)).abs();
+    assert!(
+        centre(&world).components().into_iter().zip(rgb.components()).map(off).all(|d| d < 1e-12)
+    );
+}
+
+#[test]
 fn a_seed_surface_that_is_clear_is_clamped_with_all_it_shows() {
     let mut clear = seed(Rgb::WHITE, 1.0, 0.5, 9.0, 0.6);
     clear.pigment = Pigment::Color(Color { rgb: Rgb::WHITE, filter: 0.0, transmit: 0.5 });

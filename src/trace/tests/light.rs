@@ -151,7 +151,7 @@ fn a_surface_is_lit_on_the_side_it_is_seen_from() {
 fn a_parallel_light_throws_shadows_from_its_plane_only() {
     let with_ball_at = |z: f64| {
         let kind = LightKind::Parallel { position: Vector::ZERO, to_light: UnitVector::Z };
-        let light = Light { kind, color: Rgb::WHITE, casts_shadows: true };
+        let light = Light { kind, color: Rgb::WHITE, casts_shadows: true, attenuation: None };
         let wall = Built::default().plane(UnitVector::Z, -3.0, matte(1.0, 1.0, 1.0)).sphere(
             [1.5, 0.0, z],
             0.5,
@@ -218,4 +218,65 @@ fn an_empty_world_shows_its_background_from_any_camera() {
         world.camera = Camera { forward: Vector::new(1.0, 2.0, 3.0) * 1e-200, ..world.camera };
     });
     assert!(traced(&world, 7, 3, Antialias::Grid(2)).film.radiance.iter().all(|c| c.red == 0.5));
+}
+
+#[test]
+fn what_the_camera_does_not_see_mirrors_do_and_the_other_way_round() {
+    // A mirror before the camera, a glowing ball behind it; and that ball before it, without a mirror.
+    let seen = |z: f64, in_image: bool, in_reflections: bool| {
+        let ball = Built::default().sphere([0.0, 0.0, z], 0.5, glowing(1.0));
+        let wall = if z > 0.0 { mirror(1.0, 0.0) } else { glowing(0.0) };
+        let world = ball.plane(UnitVector::Z, -3.0, wall).world(|world| {
+            (world.objects[0].in_image, world.objects[0].in_reflections) =
+                (in_image, in_reflections);
+        });
+        centre(&world).red
+    };
+    for in_image in [true, false] {
+        for in_reflections in [true, false] {
+            assert_eq!(seen(-2.0, in_image, in_reflections), f64::from(u8::from(in_image)));
+            assert_eq!(seen(2.0, in_image, in_reflections), f64::from(u8::from(in_reflections)));
+        }
+    }
+}
+
+#[test]
+fn what_neither_the_camera_nor_mirrors_see_casts_its_shadow() {
+    let lit = |casts_shadow| {
+        let floor = Built::default().plane(UnitVector::Z, -3.0, matte(1.0, 1.0, 1.0));
+        let ball = floor.sphere([0.0, 0.0, -2.0], 0.5, glowing(1.0)).light([0.0, 0.0, 0.0], 1.0);
+        centre(&ball.world(|world| {
+            let ball = &mut world.objects[1];
+            (ball.in_image, ball.in_reflections) = (false, false);
+            ball.casts_shadow = casts_shadow;
+        }))
+    };
+    assert_eq!(lit(true).red, 0.1);
+    assert_eq!(lit(false).red, 0.7);
+}
+
+/// The numbers are POV-Ray 3.7's, of the same plane.
+#[test]
+fn a_surface_lit_on_both_sides_answers_the_light_behind_it() {
+    let seen = |finish: Finish, double_illuminate: bool, blocked: bool| {
+        let color = Color::opaque(Rgb::new(1.0, 0.5, 0.25));
+        let material = Material { pigment: Pigment::Color(color), finish };
+        let wall = Built::default().plane(UnitVector::Z, -5.0, material);
+        let wall = wall.light([3.0, 0.0, -9.0], 1.0);
+        let wall = if blocked { wall.sphere([1.5, 0.0, -7.0], 0.3, glowing(0.0)) } else { wall };
+        centre(&wall.world(|world| world.objects[0].double_illuminate = double_illuminate))
+    };
+    let scatters = || Finish { diffuse: 1.0, ..NO_FINISH };
+    let shines = |kind, metallic| {
+        let lobe = Lobe { kind, weight: 1.0, exponent: 1.0, metallic };
+        Finish { lobes: vec![lobe], ..NO_FINISH }
+    };
+    assert!((seen(scatters(), true, false).red - 0.8).abs() < 1e-14);
+    let bent = Finish { brilliance: 2.0, ..scatters() };
+    assert!((seen(bent, true, false).green - 0.32).abs() < 1e-14);
+    assert!((seen(shines(LobeKind::Blinn, 0.0), true, false).blue - 0.3162).abs() < 1e-4);
+    assert!((seen(shines(LobeKind::Blinn, 1.0), true, false).green - 0.167).abs() < 1e-3);
+    assert_eq!(seen(shines(LobeKind::Phong, 0.0), true, false), Rgb::BLACK);
+    assert_eq!(seen(scatters(), true, true), Rgb::BLACK);
+    assert_eq!(seen(scatters(), false, false), Rgb::BLACK);
 }

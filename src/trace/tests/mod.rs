@@ -4,6 +4,7 @@ mod film;
 mod glass;
 mod light;
 mod single;
+mod work;
 
 use super::*;
 use crate::color::{Color, Rgb};
@@ -65,15 +66,9 @@ struct Built(World);
 
 impl Built {
     fn object(mut self, shape: Shape, material: Material) -> Self {
-        self.0.objects.push(Object {
-            interior: None,
-            shape,
-            material: self.0.materials.len() as u32,
-            texture_from_world: None,
-            faces: None,
-            casts_shadow: true,
-            inverse: false,
-        });
+        self.0
+            .objects
+            .push(Object { material: self.0.materials.len() as u32, ..Object::plain(shape) });
         self.0.materials.push(material);
         self
     }
@@ -102,7 +97,12 @@ impl Built {
 
     fn light(mut self, position: [f64; 3], intensity: f64) -> Self {
         let kind = LightKind::Point { position: Vector::from_array(position) };
-        self.0.lights.push(Light { kind, color: Rgb::gray(intensity), casts_shadows: true });
+        self.0.lights.push(Light {
+            kind,
+            color: Rgb::gray(intensity),
+            casts_shadows: true,
+            attenuation: None,
+        });
         self
     }
 
@@ -147,7 +147,7 @@ fn options(width: u32, height: u32, antialias: Antialias) -> PlanOptions {
 }
 
 fn traced_by(world: &World, plan: &Plan) -> Traced {
-    trace(world, plan, &TraceOptions { threads: Some(1) }, &Unwatched)
+    trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
 }
 
 fn traced(world: &World, width: u32, height: u32, antialias: Antialias) -> Traced {

@@ -14,9 +14,9 @@ fn scattered(region: Region) -> Vec<(u32, u32)> {
 
 fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
     let geometry = Geometry::build(world);
-    let threads = TraceOptions { threads: Some(1) };
+    let threads = TraceOptions::on_threads(1);
     let alone = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
-    let threads = TraceOptions { threads: Some(3) };
+    let threads = TraceOptions::on_threads(3);
     let shared = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
     assert_eq!(alone, shared, "threads");
     alone.expect("not stopped")
@@ -26,10 +26,10 @@ fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> 
 fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
     let world = varied();
     for (gamma, antialias) in [
-        (1.0, Antialias::Off),
-        (1.0, Antialias::Grid(3)),
-        (1.0, Antialias::default()),
-        (2.2, Antialias::Adaptive { threshold: 0.01, grid: 2 }),
+        (Gamma::LINEAR, Antialias::Off),
+        (Gamma::Srgb, Antialias::Grid(3)),
+        (Gamma::LINEAR, Antialias::default()),
+        (Gamma::Power(2.2), Antialias::Adaptive { threshold: 0.01, grid: 2 }),
     ] {
         let mut world = world.clone();
         world.settings.assumed_gamma = gamma;
@@ -44,7 +44,9 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
                 assert_eq!(*radiance, traced.film.radiance[traced.film.index(x, y)], "{x} {y}");
             }
             let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
-            assert!(border || single.counters == traced.counters, "{antialias:?}");
+            // What last shadowed a ray is another where the pixels come in another order.
+            let sent = |counters| Counters { work: Work::default(), ..counters };
+            assert!(border || sent(single.counters) == sent(traced.counters), "{antialias:?}");
         }
     }
 }

@@ -1,0 +1,88 @@
+//! What other tools, and other countries, write in the place of a value: `0,5`, `"#ff0000"`, `opacity 0.5`.
+//!
+//! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
+
+use crate::color;
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::vocabulary::Family;
+
+use super::super::Evaluator;
+use super::Place;
+
+impl Evaluator<'_> {
+    /// `0,5` whose `5` stands at `span`: all of it, and how it is written.
+    pub(super) fn comma_before(&self, span: Span) -> Option<(Span, String)> {
+        let text = &self.sources.get(span.file).text;
+        let fraction = digits(text.get(span.range())?)?;
+        let before = text.get(..span.start as usize)?.strip_suffix(',')?;
+        let whole = &before[before.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
+        let (whole, lone) = (digits(whole)?, before.strip_suffix(whole)?);
+        let begins = !lone.ends_with(|c: char| c.is_ascii_alphanumeric() || "_.,".contains(c));
+        let start = span.start - whole.len() as u32 - 1;
+        begins.then(|| (Span { start, ..span }, format!("{whole}.{fraction}")))
+    }
+
+    /// `0,5` whose `0` stands at `span`, likewise.
+    pub(super) fn comma_after(&self, span: Span) -> Option<(Span, String)> {
+        let text = &self.sources.get(span.file).text;
+        let after = text.get(span.end as usize..)?.strip_prefix(',')?;
+        let length = after.bytes().take_while(u8::is_ascii_digit).count() as u32;
+        let start = span.end + 1;
+        self.comma_before(Span { start, end: start + length, ..span })
+            .filter(|(whole, _)| whole.start == span.start)
+    }
+
+    /// `<0,5, 1,5, 2>`: the vector of three that is meant where a comma without a blank is a point.
+    pub(super) fn commas_within(&self, span: Span) -> Option<String> {
+        let text = self.sources.text(span).strip_prefix('<')?.strip_suffix('>')?;
+        let parts: Vec<&str> = text.split(", ").collect();
+        let number = |part: &str| {
+            let part = part.trim().replace(',', ".");
+            part.parse::<f64>().is_ok().then_some(part)
+        };
+        let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
+        numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// `transparency 0.5`, `opacity 0.5`: `transmit` belongs to a colour.
+    pub(super) fn clear_word(
+        &self,
+        diagnostic: Diagnostic,
+        name: &str,
+        span: Span,
+        place: Place,
+    ) -> Diagnostic {
+        let diagnostic = diagnostic.at(span, "did you mean `transmit`?");
+        let opposite = matches!(name.to_lowercase().as_str(), "opacity" | "alpha");
+        if opposite {
+            diagnostic.help("`transmit` is the opposite: `pigment { rgb 1 transmit 0.7 }` for 0.3")
+        } else if place.families.contains(&Family::Color) {
+            diagnostic.help("replace it with `transmit`").fix(span, "transmit")
+        } else {
+            diagnostic.help("it belongs to a colour: `pigment { rgb 1 transmit 0.5 }`")
+        }
+    }
+}
+
+fn digits(text: &str) -> Option<&str> {
+    (!text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())).then_some(text)
+}
+
+/// `"#ff0000"`, `"red"`: how a colour of the web is written, if `text` is one.
+pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<String> {
+    let named = match text.to_ascii_lowercase().as_str() {
+        "red" => "<1, 0, 0>",
+        "green" | "lime" => "<0, 1, 0>",
+        "blue" => "<0, 0, 1>",
+        "yellow" => "<1, 1, 0>",
+        "cyan" => "<0, 1, 1>",
+        "magenta" => "<1, 0, 1>",
+        "orange" => "<1, 0.5, 0>",
+        "white" => "1",
+        "black" => "0",
+        "gray" | "grey" => "0.5",
+        _ => return color::web(text).map(|rgb| rgb.to_string()),
+    };
+    Some(named.to_owned())
+}

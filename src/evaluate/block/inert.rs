@@ -1,0 +1,81 @@
+//! Words that change no picture: read, what belongs to them checked for its kind, and let go.
+//!
+//! **In:** a word that the vocabulary calls inert. **Out:** nothing but what is wrong with it.
+//! **Invariant:** neither what it holds nor poison in it reaches the scene.
+
+use crate::vocabulary::{Family, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Outcome, Reported};
+use super::{Place, is_object_word};
+
+impl Evaluator<'_> {
+    /// Reads an inert word and what belongs to it; `None` where `token` is none that may stand here.
+    pub(super) fn inert(&mut self, token: &Token, place: Place) -> Option<Outcome<()>> {
+        let TokenKind::Word(word) = token.kind else { return None };
+        if !word.is_inert() || !place.holds(word) {
+            return None;
+        }
+        let outer = self.poison.take();
+        let outcome = self.inert_arguments(token, word);
+        let poison = std::mem::replace(&mut self.poison, outer);
+        Some(if poison.is_some() { Ok(()) } else { outcome })
+    }
+
+    fn inert_arguments(&mut self, token: &Token, word: Word) -> Outcome<()> {
+        match word {
+            Word::BoundedBy => self.bounds(token),
+            Word::QuickColor | Word::IridWavelength => {
+                self.color_after(token, "a colour").map(drop)
+            }
+            Word::FocalPoint => self.vector_after(token, "a point").map(drop),
+            Word::BlurSamples => {
+                self.number_after(token, "a number of samples")?;
+                self.skip_commas();
+                self.optional_number(token, 0.0).map(drop)
+            }
+            Word::Charset => {
+                let known = [Word::Ascii, Word::Utf8, Word::Sys];
+                if known.into_iter().any(|word| self.take_word(word).is_some()) {
+                    return Ok(());
+                }
+                let is_value =
+                    matches!(self.peek(), Some(Token { kind: TokenKind::Expression(_), .. }));
+                let next = if is_value { self.next() } else { None };
+                let at = token.span.after();
+                Err(self.expected("`ascii`, `utf8` or `sys`", next.as_ref(), (&token.here, at)))
+            }
+            Word::Hierarchy
+            | Word::SplitUnion
+            | Word::Sturm
+            | Word::NoRadiosity
+            | Word::HfGray16
+            | Word::MediaAttenuation
+            | Word::MediaInteraction => self.optional_flag(token).map(drop),
+            _ => self.number_after(token, "a number").map(drop),
+        }
+    }
+
+    /// `bounded_by { shape … }` or `bounded_by { clipped_by }`.
+    fn bounds(&mut self, token: &Token) -> Outcome<()> {
+        self.block(token, Word::BoundedBy, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                let TokenKind::Word(word) = token.kind else {
+                    evaluator.unexpected(&token, Place::BOUNDED_BY);
+                    continue;
+                };
+                match word {
+                    Word::ClippedBy => {}
+                    _ if matches!(word.family(), Family::Shape | Family::Csg)
+                        || is_object_word(word) =>
+                    {
+                        failed |= evaluator.object(&token, word).is_err();
+                    }
+                    _ => evaluator.unexpected(&token, Place::BOUNDED_BY),
+                }
+            }
+            if failed { Err(Reported) } else { Ok(()) }
+        })
+    }
+}

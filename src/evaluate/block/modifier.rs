@@ -1,0 +1,140 @@
+//! What follows an object's parts: its transforms, textures, interior and flags, in written order.
+
+use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
+    /// pigment or finish alone changes that in part.
+    pub(super) fn modifiers(
+        &mut self,
+        word: Word,
+        used: Option<ObjectId>,
+        modifiers: &mut Vec<Modifier>,
+    ) -> Outcome<()> {
+        let mut textured = used.is_some_and(|used| self.made[used.index()].textured);
+        let place = match word {
+            Word::Union => Place::csg(word),
+            _ => Place::shape(word),
+        };
+        let mut failed = false;
+        while let Some(token) = self.next() {
+            let before = self.poison;
+            match self.modifier(&token, used, modifiers, &mut textured) {
+                Some(Ok(kind)) => {
+                    if let Some(kind) = kind {
+                        modifiers.push(Modifier { kind, site: token.here.site(token.span) });
+                    }
+                }
+                Some(Err(Reported)) => failed = true,
+                None => match self.inert(&token, place) {
+                    Some(outcome) => failed |= outcome.is_err(),
+                    None => {
+                        self.unexpected(&token, place);
+                        let harmless =
+                            matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+                        failed |= !harmless && before.is_none() && self.poison.is_none();
+                    }
+                },
+            }
+        }
+        if failed { Err(Reported) } else { Ok(()) }
+    }
+
+    /// The finish that another one after these modifiers starts from, as in POV-Ray (measured).
+    fn finish_of(&self, modifiers: &[Modifier], used: Option<ObjectId>) -> FinishId {
+        let (mut modifiers, mut used) = (modifiers, used);
+        loop {
+            let last = modifiers.iter().rev().find_map(|modifier| match modifier.kind {
+                ModifierKind::Finish(finish) => Some(finish),
+                ModifierKind::Texture(id) => Some(self.scene.textures[id.index()].finish),
+                _ => None,
+            });
+            match (last, used.map(|used| &self.scene.objects[used.index()])) {
+                (Some(finish), _) => return finish,
+                (None, None) => {
+                    return self.scene.textures[self.default_texture.index()].finish;
+                }
+                (None, Some(object)) => {
+                    modifiers = &object.modifiers;
+                    used = match object.kind {
+                        ObjectKind::Use(used) => Some(used),
+                        _ => None,
+                    };
+                }
+            }
+        }
+    }
+
+    /// One modifier; `None` when the token is none, `Some(Ok(None))` when it changes nothing.
+    fn modifier(
+        &mut self,
+        token: &Token,
+        used: Option<ObjectId>,
+        modifiers: &mut Vec<Modifier>,
+        textured: &mut bool,
+    ) -> Option<Outcome<Option<ModifierKind>>> {
+        if let Some(transform) = self.transform_from(token) {
+            return Some(transform.map(|id| Some(ModifierKind::Transform(id))));
+        }
+        let TokenKind::Word(word) = token.kind else { return None };
+        let site = token.here.site(token.span);
+        let start_texture =
+            |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
+                // A pigment or finish alone changes a copy of the default texture.
+                if !*textured {
+                    let kind = ModifierKind::Texture(evaluator.default_texture);
+                    modifiers.push(Modifier { kind, site });
+                    *textured = true;
+                }
+            };
+        let kind = match word {
+            Word::Texture => self.texture(token).map(|texture| {
+                *textured = true;
+                Some(ModifierKind::Texture(texture))
+            }),
+            Word::Interior => {
+                self.interior(token).map(|interior| Some(ModifierKind::Interior(interior)))
+            }
+            Word::Material => self.material(token).map(|material| {
+                *textured |= material.texture.is_some();
+                let parts = [
+                    material.texture.map(ModifierKind::Texture),
+                    material.interior.map(ModifierKind::Interior),
+                ];
+                modifiers.extend(parts.into_iter().flatten().map(|kind| Modifier { kind, site }));
+                None
+            }),
+            Word::Pigment => {
+                start_texture(self, modifiers, textured);
+                self.pigment(token).map(|pigment| Some(ModifierKind::Pigment(pigment)))
+            }
+            Word::Finish => {
+                start_texture(self, modifiers, textured);
+                let start = self.finish_of(modifiers, used);
+                self.finish_from(token, start).map(|finish| Some(ModifierKind::Finish(finish)))
+            }
+            Word::NoShadow => {
+                self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))
+            }
+            Word::NoImage => self.optional_flag(token).map(|on| Some(ModifierKind::NoImage(on))),
+            Word::NoReflection => {
+                self.optional_flag(token).map(|on| Some(ModifierKind::NoReflection(on)))
+            }
+            Word::DoubleIlluminate => {
+                self.optional_flag(token).map(|on| Some(ModifierKind::DoubleIlluminate(on)))
+            }
+            // It tells where fog and media are, and there are none yet.
+            Word::Hollow => self.optional_flag(token).map(|_| None),
+            Word::Inverse => {
+                self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
+            }
+            _ => return None,
+        };
+        Some(kind)
+    }
+}

@@ -1,0 +1,144 @@
+//! Passing over what belongs to something that was told, running what is in it.
+//!
+//! **Invariant:** what is passed over is no second mistake, but for a name that is not declared.
+
+use crate::syntax::ast::ExpressionKind;
+use crate::vocabulary::{Family, Word};
+
+use super::super::Evaluator;
+use super::super::stream::{Token, TokenKind};
+use super::place::home;
+
+impl Evaluator<'_> {
+    /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
+    pub(super) fn skip_missing_block(&mut self, token: &Token) {
+        let before = self.diagnostics.len();
+        self.skip_values();
+        self.skip_color(token);
+        while let Some(Token { kind: TokenKind::Entry(_), .. }) = self.peek() {
+            self.next();
+        }
+        match self.peek().map(|next| &next.kind) {
+            Some(TokenKind::Block(_)) => self.skip_arguments(Word::Union),
+            // `camera location … look_at …`
+            Some(TokenKind::Word(next)) if matches!(token.kind, TokenKind::Word(word) if home(*next) == Some(word)) => {
+                while let Some(&Token { kind: TokenKind::Word(next), .. }) = self.peek()
+                    && matches!(token.kind, TokenKind::Word(word) if home(next) == Some(word))
+                {
+                    self.next();
+                    self.skip_arguments(next);
+                }
+            }
+            Some(TokenKind::Word(next)) if next.family() == Family::FinishItem => {
+                let next = *next;
+                self.next();
+                self.skip_arguments(next);
+            }
+            _ => {}
+        }
+        self.diagnostics.forget_after(before);
+    }
+
+    /// Passes over a colour that was the value of a word that is not known.
+    pub(super) fn skip_color(&mut self, after: &Token) {
+        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == Family::Color
+        {
+            let before = self.diagnostics.len();
+            let _ = self.color_after(after, "a colour");
+            self.diagnostics.forget_after(before);
+        }
+    }
+
+    /// Passes over what is left of parts that were reported: they are no second mistake. A name that is
+    /// not declared is one, and stays.
+    pub(super) fn skip_parts(&mut self) {
+        let before = self.diagnostics.len();
+        while let Some(token) = self.peek().cloned() {
+            match token.kind {
+                TokenKind::Word(_) | TokenKind::Semicolon => break,
+                TokenKind::Expression(id) => {
+                    if let ExpressionKind::Name(name) = token.here.unit.expression(id).kind
+                        && self.scopes.slot(token.here.symbol(name)).is_none()
+                    {
+                        break;
+                    }
+                    self.next();
+                    self.run_expression(&token.here, id);
+                }
+                TokenKind::Block(contents) => {
+                    self.next();
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => {
+                    self.next();
+                    self.inside(&token.here, items, Self::run_items);
+                }
+                TokenKind::Literal(_) | TokenKind::Comma => drop(self.next()),
+            }
+        }
+        self.diagnostics.forget_after(before);
+    }
+
+    /// Passes over the values after a word, running what is in them.
+    pub(in crate::evaluate) fn skip_values(&mut self) {
+        loop {
+            match self.peek().map(|token| (&token.kind, &token.here)) {
+                Some((TokenKind::Comma | TokenKind::Literal(_), _)) => drop(self.next()),
+                Some((TokenKind::Expression(id), here)) => {
+                    let id = *id;
+                    // A name that is not declared is the next mistake, not a part of this one.
+                    if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
+                        let symbol = here.symbol(name);
+                        if self.scopes.slot(symbol).is_none() {
+                            return;
+                        }
+                    }
+                    if let Some(token) = self.next() {
+                        let before = self.diagnostics.len();
+                        let _ = self.expression(&token.here, id);
+                        self.diagnostics.forget_after(before);
+                    }
+                }
+                _ => return,
+            }
+        }
+    }
+
+    /// Passes over the values and the block that belong to a word, running what is in them.
+    pub(in crate::evaluate) fn skip_arguments(&mut self, word: Word) {
+        if word == Word::Function {
+            return self.skip_function();
+        }
+        loop {
+            match self.peek().map(|token| &token.kind) {
+                Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
+                Some(TokenKind::Expression(_)) => {
+                    if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() {
+                        self.run_expression(&here, id);
+                    }
+                }
+                Some(TokenKind::Entry(_)) => {
+                    if let Some(Token { kind: TokenKind::Entry(items), here, .. }) = self.next() {
+                        self.inside(&here, items, Self::run_items);
+                    }
+                }
+                Some(TokenKind::Block(_)) => {
+                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                        self.next()
+                    {
+                        self.inside_block(&here, contents, span, Self::run_items);
+                    }
+                    return;
+                }
+                Some(TokenKind::Word(next))
+                    if next.family() == Family::Color
+                        && (word.family() != Family::Color || word == Word::Color) =>
+                {
+                    drop(self.next());
+                }
+                Some(TokenKind::Word(_) | TokenKind::Semicolon) | None => return,
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Vectors: made of their components, and asked for one of them.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Argument, Arguments, Component, ExpressionKind};
+use crate::vocabulary::Word;
+
+use super::value::{Components, Value};
+use super::{Evaluator, Here, Outcome, Reported};
+
+impl Evaluator<'_> {
+    pub(super) fn vector_value(
+        &mut self,
+        here: &Here,
+        components: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
+        let unit = here.unit.clone();
+        let arguments = unit.ast.arguments(components);
+        let (mut numbers, mut count) = ([0.0; 5], 0);
+        let mut failed = false;
+        let mut poison = None;
+        for argument in arguments {
+            let Argument::Expression(id) = *argument else {
+                failed = true;
+                continue;
+            };
+            match self.expression(here, id) {
+                Ok(Value::Number(number)) => {
+                    if let Some(slot) = numbers.get_mut(count) {
+                        *slot = number;
+                    }
+                    count += 1;
+                }
+                Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
+                Ok(other) => {
+                    let span = unit.expression(id).span;
+                    let diagnostic = Diagnostic::new(
+                        Code::WrongType,
+                        format!("a component of a vector is a number, this is {}", other.kind()),
+                    )
+                    .at(span, "expected a number");
+                    let text = self.sources.text(span);
+                    let diagnostic = match (&other, unit.expression(id).kind) {
+                        (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
+                            .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
+                        _ => diagnostic,
+                    };
+                    self.report(here, diagnostic);
+                    failed = true;
+                }
+                Err(Reported) => failed = true,
+            }
+        }
+        if failed {
+            return Err(Reported);
+        }
+        if let Some(poison) = poison {
+            return Ok(Value::Poison(poison));
+        }
+        let given = numbers.get(..count);
+        match (given.and_then(Components::new), given) {
+            (Some(components), _) => Ok(Value::Vector(components)),
+            // `<1>` is one number in brackets; POV-Ray takes it so too.
+            (None, Some([number])) => Ok(Value::Number(*number)),
+            (None, Some([])) => {
+                let diagnostic = Diagnostic::new(Code::WrongArity, "this vector has no components")
+                    .at(span, "expected two to five numbers");
+                Err(self.report(here, diagnostic))
+            }
+            (None, _) => {
+                let message = format!("a vector has two to five components, this one has {count}");
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(span, "too many components")
+                    .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    pub(super) fn component_value(
+        &mut self,
+        here: &Here,
+        value: &Value,
+        component: Component,
+        base: Span,
+    ) -> Outcome<Value> {
+        if let Value::Poison(_) = value {
+            return Ok(value.clone());
+        }
+        let (index, span) = match component {
+            Component::Word(Word::Gray, _) => {
+                let Some(color) = value.as_color() else {
+                    return Err(self.wrong_type(here, base, "a colour before `.gray`", value));
+                };
+                let gray = 0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue;
+                return Ok(Value::Number(gray));
+            }
+            Component::Word(word, span) => (component_index(word), span),
+            Component::Name(_, span) => (None, span),
+        };
+        let numbers = match value {
+            Value::Vector(_) | Value::Color(_) => value.numbers(),
+            _ => None,
+        };
+        let Some(numbers) = numbers else {
+            return Err(self.wrong_type(here, base, "a vector or a colour before the dot", value));
+        };
+        match index.and_then(|index| numbers.as_slice().get(index)) {
+            Some(number) => Ok(Value::Number(*number)),
+            None => {
+                let text = self.sources.text(span).to_owned();
+                let diagnostic = Diagnostic::new(
+                    Code::WrongArity,
+                    format!("`.{text}` is no component of {} with {} components", value.kind(), numbers.len()),
+                )
+                .at(span, "no such component")
+                .help("vectors have `.x .y .z .t`, or `.u .v`; colours have `.red .green .blue .filter .transmit .gray`");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+}
+
+/// Which number of a vector or colour a word after a dot means.
+pub(super) fn component_index(word: Word) -> Option<usize> {
+    match word {
+        Word::X | Word::U | Word::Red => Some(0),
+        Word::Y | Word::V | Word::Green => Some(1),
+        Word::Z | Word::Blue => Some(2),
+        Word::T | Word::Filter => Some(3),
+        Word::Transmit => Some(4),
+        _ => None,
+    }
+}

@@ -1,0 +1,40 @@
+//! Parts of the scene that cannot change the picture, and why.
+//!
+//! **In:** [`World`], its [`Origins`], the arithmetic asked for. **Out:** each part once, at its place.
+//! **Invariant:** nothing is dropped here: what has no weight is not in the World, and what a single
+//! light or shape lacks the tracer does not ask it for.
+
+use super::Precision;
+use crate::shape::Shape;
+use crate::world::{Dropped, Origins, World};
+
+/// What single lights and shapes lack, and what lowering dropped.
+pub(super) fn dropped(world: &World, origins: &Origins, precision: Precision) -> Vec<Dropped> {
+    let mut dropped: Vec<Dropped> = shadowless(world, origins).collect();
+    dropped.dedup_by_key(|part| part.site.span);
+    if precision == Precision::Single {
+        dropped.extend(without_single_precision(world, origins));
+    }
+    dropped.extend(origins.dropped.iter().cloned());
+    dropped
+}
+
+fn shadowless(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped> {
+    let lights = world.lights.iter().zip(&origins.lights);
+    lights.filter(|(light, _)| !light.casts_shadows).map(|(_, &site)| Dropped {
+        site,
+        what: "shadows and highlights of one light".to_owned(),
+        why: "it is shadowless".to_owned(),
+    })
+}
+
+/// The first shape that is met in double precision all the same.
+fn without_single_precision(world: &World, origins: &Origins) -> Option<Dropped> {
+    let mut objects = world.objects.iter().zip(&origins.objects);
+    let first = objects.find(|(object, _)| matches!(object.shape, Shape::Ellipsoid(_)));
+    first.map(|(_, &site)| Dropped {
+        site,
+        what: "single precision of ellipsoids".to_owned(),
+        why: "they have no kernel for it".to_owned(),
+    })
+}

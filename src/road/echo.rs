@@ -1,0 +1,204 @@
+//! Drops what evaluation says again of a fault that the parser has told.
+//!
+//! A bracket without its partner shifts what follows it: what evaluation then finds out of place is
+//! the same mistake once more, up to where the text is certainly read as its author meant it. So is what
+//! it misses on the line of any other fault.
+//! **In:** a file's tree, and what was said of it. **Out:** the messages that are mistakes of their own.
+//! **Invariant:** a name that is no word of the language is wrong wherever it stands, and stays told.
+
+use std::ops::Range;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::source::{Sources, Span};
+use crate::syntax::ast::{Ast, Body, DirectiveKind, Item, ItemKind, Items};
+use crate::vocabulary::{Role, Word};
+
+/// Behind so many faults nothing is certain any more.
+const MOST_FAULTS: usize = 100;
+
+/// A mistake of form.
+struct Fault {
+    code: Code,
+    span: Span,
+    line: usize,
+    /// Where what stands out of place may be its consequence.
+    doubt: Range<u32>,
+}
+
+/// Drops the echoes of the first `parsed` messages, which are about `ast`, from those behind them.
+pub(super) fn drop_echoes(
+    ast: &Ast,
+    sources: &Sources,
+    parsed: usize,
+    diagnostics: &mut Diagnostics,
+) {
+    let statements = Statements::of(ast, sources);
+    let line = |span: Span| sources.get(span.file).position(span.start as usize).line;
+    let mut faults: Vec<Fault> = diagnostics
+        .iter()
+        .take(parsed)
+        .filter(|fault| fault.severity == Severity::Error)
+        .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
+        .filter(|(_, span)| span.file == ast.file)
+        .take(MOST_FAULTS)
+        .map(|(code, span)| {
+            let doubt = statements.doubt(code, span);
+            Fault { code, span, line: line(span), doubt }
+        })
+        .collect();
+    if let (MOST_FAULTS, Some(last)) = (faults.len(), faults.last_mut()) {
+        last.doubt.end = u32::MAX;
+    }
+    if faults.is_empty() {
+        return;
+    }
+    let keep = |later: &Diagnostic| {
+        if !later.code.is_about_place() {
+            return true;
+        }
+        let Some(place) = later.primary().map(|label| label.span) else { return false };
+        let rest = sources.get(place.file).text.get(place.range().end..).unwrap_or("");
+        let is_name = later.code == Code::UnknownWord
+            && Word::from_name(sources.text(place)).is_none()
+            // A file that ends in the middle of a block may end in the middle of a word.
+            && !rest.trim().is_empty();
+        let is_block = is_name && rest.trim_start().starts_with('{');
+        let (reach, on_line) = (reach(sources, place), line(place));
+        !faults.iter().any(|fault| {
+            let shifts = fault.code.shifts_what_follows();
+            let beside = fault.span.file == place.file
+                && fault.line == on_line
+                && (place.start >= fault.span.start || fault.span.start <= reach);
+            match shifts {
+                _ if fault.span.file != place.file => false,
+                true if is_name => fault.code == Code::UnclosedString && beside,
+                true => beside || fault.doubt.contains(&place.start),
+                false if is_block => false,
+                false => beside,
+            }
+        })
+    };
+    diagnostics.retain_after(parsed, keep);
+}
+
+/// Where the block that begins at `at` ends, as far as its line shows it.
+fn reach(sources: &Sources, at: Span) -> u32 {
+    let text = &sources.get(at.file).text;
+    let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
+    let (line, mut depth) = (line.unwrap_or(""), 0);
+    let end = line.bytes().position(|byte| {
+        depth += match byte {
+            b'{' | b'(' | b'[' => 1,
+            b'}' | b')' | b']' => -1,
+            _ => return false,
+        };
+        depth <= 0
+    });
+    at.start + end.unwrap_or(line.len()) as u32
+}
+
+/// What stands at the top level of a file, in the bodies of its directives too.
+struct Statements<'a> {
+    ast: &'a Ast,
+    sources: &'a Sources,
+    /// In the order of the text, without the directives that have a body.
+    items: Vec<Item>,
+}
+
+impl<'a> Statements<'a> {
+    fn of(ast: &'a Ast, sources: &'a Sources) -> Self {
+        let (mut items, mut lists) = (Vec::new(), vec![ast.root]);
+        while let Some(list) = lists.pop() {
+            for &item in ast.items(list) {
+                let bodies = bodies(ast, item);
+                if bodies.is_empty() {
+                    items.push(item);
+                }
+                lists.extend(bodies);
+            }
+        }
+        items.sort_unstable_by_key(|item| item.span.start);
+        Self { ast, sources, items }
+    }
+
+    /// From a fault, or from before it, to where the text is certainly read as it was meant.
+    fn doubt(&self, code: Code, fault: Span) -> Range<u32> {
+        let nowhere = fault.start..fault.start;
+        match code {
+            Code::NestingLimit | Code::UnclosedComment => fault.start..u32::MAX,
+            _ if !code.shifts_what_follows() => nowhere,
+            _ if matches!(self.sources.text(fault), "<" | ">" | "(" | ")" | "[" | "]")
+                && let Some(end) = self.block_around(fault) =>
+            {
+                fault.start..end
+            }
+            _ => self.start(code, fault)..self.certain_after(fault),
+        }
+    }
+
+    /// Where the innermost block around a place ends.
+    fn block_around(&self, place: Span) -> Option<u32> {
+        let holds = |item: &&Item| {
+            matches!(item.kind, ItemKind::Block(_))
+                && item.span.start < place.start
+                && place.start < item.span.end
+        };
+        self.ast.items.iter().filter(holds).map(|item| item.span.end).min()
+    }
+
+    /// Where the first statement begins that a fault has not touched.
+    fn certain_after(&self, fault: Span) -> u32 {
+        let behind = self.items.partition_point(|item| item.span.start <= fault.start);
+        let touched = self.items[..behind].last().map_or(0, |item| item.span.end);
+        let rest = &self.items[behind..];
+        let begins = |at: &usize| {
+            let item = rest[*at];
+            item.span.start >= touched && begins_statement(item, rest.get(at + 1))
+        };
+        (0..rest.len()).find(begins).map_or(u32::MAX, |at| rest[at].span.start)
+    }
+
+    /// A `}` too many, alone at the start of its line: what is further in than it, right before it, was
+    /// meant to stand in the block that it was to close.
+    fn start(&self, code: Code, fault: Span) -> u32 {
+        let alone = self.indent(fault.start).filter(|_| code == Code::StrayCloser);
+        let Some(own) = alone else { return fault.start };
+        let behind = self.items.partition_point(|item| item.span.start < fault.start);
+        let inner = self.items[..behind]
+            .iter()
+            .rev()
+            .take_while(|item| self.indent(item.span.start).is_none_or(|indent| indent > own));
+        inner.last().map_or(fault.start, |item| item.span.start)
+    }
+
+    /// How far in a place stands that begins its line.
+    fn indent(&self, place: u32) -> Option<usize> {
+        let text = self.sources.get(self.ast.file).text.get(..place as usize)?;
+        let line = text.rsplit(['\n', '\r']).next().unwrap_or(text);
+        line.bytes().all(|byte| matches!(byte, b' ' | b'\t')).then_some(line.len())
+    }
+}
+
+/// A directive, or a word or an unknown name and its block.
+fn begins_statement(item: Item, next: Option<&Item>) -> bool {
+    let opens = next.is_some_and(|next| matches!(next.kind, ItemKind::Block(_)));
+    match item.kind {
+        ItemKind::Directive(_) => true,
+        ItemKind::Word(word) => word.role() == Role::Statement && opens,
+        ItemKind::Expression(_) => opens,
+        _ => false,
+    }
+}
+
+/// What stands between a directive's head and its `#end`.
+fn bodies(ast: &Ast, item: Item) -> Vec<Items> {
+    let ItemKind::Directive(id) = item.kind else { return Vec::new() };
+    match &ast.directive(id).kind {
+        DirectiveKind::If { then, otherwise, .. } => vec![*then, *otherwise],
+        DirectiveKind::While { body, .. }
+        | DirectiveKind::For { body, .. }
+        | DirectiveKind::Macro { body: Body::Items(body), .. } => vec![*body],
+        DirectiveKind::Switch { cases, .. } => cases.iter().map(|case| case.body).collect(),
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,155 @@
+//! Assignments and operators as other languages write them: `let A = 1`, `A += 1`, `==`, `&&`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+
+/// What declares a name elsewhere.
+const DECLARERS: &[&str] = &[
+    "let", "var", "const", "def", "define", "set", "float", "double", "int", "vector", "vec3",
+    "color3",
+];
+
+impl Reader<'_> {
+    /// `let A = 1`.
+    pub(super) fn declarer(&mut self, meant: &mut Vec<Token>) -> bool {
+        let fits = DECLARERS.contains(&self.slice(0))
+            && self.kind(1) == Some(TokenKind::Name)
+            && self.is(2, Mark::Equal);
+        if fits {
+            let word = self.slice(0).to_owned();
+            let span = self.span(0, 0);
+            let diagnostic = Diagnostic::new(
+                Code::UnknownWord,
+                format!("a name is declared by `#declare`, not by `{word}`"),
+            )
+            .at(span, "not a word of the language")
+            .help("replace it with `#declare`")
+            .fix(span, "#declare");
+            self.diagnostics.push(diagnostic);
+            meant.push(Token { kind: TokenKind::Directive(Head::Declare), ..self.tokens[self.at] });
+            self.at += 1;
+        }
+        fits
+    }
+
+    /// `A += 1`, `A++`.
+    pub(super) fn changes(&mut self, meant: &mut Vec<Token>) -> bool {
+        let operator = match self.kind(1) {
+            Some(TokenKind::Mark(Mark::Plus)) => "+",
+            Some(TokenKind::Mark(Mark::Minus)) => "-",
+            Some(TokenKind::Mark(Mark::Star)) => "*",
+            Some(TokenKind::Mark(Mark::Slash)) => "/",
+            _ => return false,
+        };
+        let assigns = self.is(2, Mark::Equal) && self.touches(2);
+        let same = self.kind(1) == self.kind(2) && self.touches(2) && matches!(operator, "+" | "-");
+        let steps = same
+            && matches!(
+                self.kind(3),
+                None | Some(
+                    TokenKind::Mark(Mark::Semicolon | Mark::Close(_)) | TokenKind::Directive(_)
+                )
+            );
+        if !assigns && !steps {
+            return false;
+        }
+        let name = self.slice(0).to_owned();
+        let sign = format!("{operator}{}", if assigns { "=" } else { operator });
+        let change = if assigns { "…" } else { "1" };
+        let diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            format!("`{sign}` is not an operator of the language"),
+        )
+        .at(self.span(1, 2), "no value is changed in place")
+        .help(format!("write `#declare {name} = {name} {operator} {change};`"));
+        self.diagnostics.push(diagnostic);
+        // Read as `#declare A = A + …`, with the `#declare` that may stand before it.
+        let token = |kind| Token { kind, ..self.tokens[self.at] };
+        if !matches!(
+            meant.last().map(|token| token.kind),
+            Some(TokenKind::Directive(Head::Declare | Head::Local))
+        ) {
+            meant.push(token(TokenKind::Directive(Head::Declare)));
+        }
+        meant.extend([
+            token(TokenKind::Name),
+            token(TokenKind::Mark(Mark::Equal)),
+            token(TokenKind::Name),
+        ]);
+        if assigns {
+            meant.push(self.tokens[self.at + 1]);
+        }
+        self.at += 3;
+        true
+    }
+
+    /// `==`, `&&`, `||`, `**`.
+    pub(super) fn doubled(&mut self, mark: Mark, meant: &mut Vec<Token>) -> bool {
+        if !(self.is(1, mark) && self.touches(1)) {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let (message, help, fix) = match mark {
+            Mark::Equal => ("equality is written `=`", "replace it with `=`", Some("=")),
+            Mark::And => ("`and` is written `&`", "replace it with `&`", Some("&")),
+            Mark::Or => ("`or` is written `|`", "replace it with `|`", Some("|")),
+            _ => {
+                ("`**` is not an operator of the language", "a power is written `pow(a, b)`", None)
+            }
+        };
+        let mut diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(span, "an operator of another language")
+            .help(help);
+        let in_round = self.inside.last().is_some_and(|inside| inside.is(Bracket::Round));
+        if let Some(fix) = fix.filter(|_| mark != Mark::Equal || in_round || self.declares()) {
+            diagnostic = diagnostic.fix(span, fix);
+        } else if mark == Mark::Equal {
+            diagnostic = diagnostic.help("a comparison stands in parentheses: `(a = b)`");
+            if self.between_single_values() {
+                let (before, after) = (self.tokens[self.at - 1], self.tokens[self.at + 2]);
+                let at = |place: u32| Span::new(self.file, place as usize, place as usize);
+                diagnostic =
+                    diagnostic.fix(at(before.start), "(").fix(span, "=").fix(at(after.end), ")");
+            }
+        }
+        self.diagnostics.push(diagnostic);
+        // As long as it is written: where it stands alone it is told no second time.
+        meant.push(Token { end: span.end, ..self.tokens[self.at] });
+        self.at += 2;
+        true
+    }
+
+    /// `#declare A == 1`.
+    fn declares(&self) -> bool {
+        let head = self.at.checked_sub(2).map(|at| self.tokens[at].kind);
+        matches!(head, Some(TokenKind::Directive(Head::Declare | Head::Local)))
+    }
+
+    /// `== ` with one name or number on each side, and nothing else.
+    fn between_single_values(&self) -> bool {
+        let kind = |at: Option<usize>| at.and_then(|at| self.tokens.get(at)).map(|t| t.kind);
+        let value = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Number));
+        let parted = |kind| {
+            matches!(
+                kind,
+                Some(
+                    TokenKind::Mark(
+                        Mark::Comma
+                            | Mark::Semicolon
+                            | Mark::Equal
+                            | Mark::Open(_)
+                            | Mark::Close(_)
+                    ) | TokenKind::Numbers
+                        | TokenKind::Vectors
+                        | TokenKind::Word(_)
+                )
+            )
+        };
+        value(kind(self.at.checked_sub(1)))
+            && parted(kind(self.at.checked_sub(2)))
+            && value(kind(Some(self.at + 2)))
+            && parted(kind(Some(self.at + 3)))
+    }
+}

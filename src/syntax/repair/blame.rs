@@ -1,0 +1,93 @@
+//! What is said of a bracket or directive without a partner.
+
+use super::{Open, Repair};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::balance::{Opener, Turn, turn};
+use crate::syntax::token::TokenKind;
+use crate::vocabulary::Word;
+
+impl Repair<'_> {
+    /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
+    pub(super) fn never_closed(&mut self, open: Open, at: usize) {
+        self.insert_closer(&open, at);
+        let outside = open.outside.filter(|outside| outside.certain);
+        let place = self.span(outside.map_or(at, |outside| outside.token));
+        let shown = self.shown(open.token);
+        let found = match self.text.get(place.range()).and_then(|text| text.lines().next()) {
+            None | Some("") => "the file ends first".to_owned(),
+            Some(text) => text.to_owned(),
+        };
+        let ends_file = at == self.tokens.len() && outside.is_none();
+        let (code, message, expected) = match open.opener {
+            Opener::Bracket(bracket) => {
+                let surplus = &mut self.surplus[bracket as usize];
+                if open.closed_in_branch
+                    || (at == self.tokens.len() && *surplus <= 0 && self.told > 0)
+                {
+                    return;
+                }
+                *surplus -= 1;
+                let closer = bracket.closer();
+                (Code::UnclosedBlock, format!("{shown} is never closed"), format!("`{closer}`"))
+            }
+            Opener::Directive => {
+                (Code::MissingEnd, format!("{shown} has no `#end`"), "`#end`".to_owned())
+            }
+        };
+        let label = match self.closed_by(at).filter(|_| outside.is_none()) {
+            _ if ends_file => found,
+            // "expected `}` before `}`" would tell nobody whose it is.
+            Some(outer) if expected == format!("`{found}`") => {
+                format!("this closes {}", self.shown(outer))
+            }
+            Some(_) | None => format!("expected {expected} before `{found}`"),
+        };
+        let diagnostic = Diagnostic::new(code, message)
+            .at(self.span(open.token), "opened here")
+            .also(place, label);
+        self.tell(diagnostic);
+    }
+
+    /// What of all that is open the closer at `at` closes.
+    fn closed_by(&self, at: usize) -> Option<usize> {
+        let innermost = |wanted: Opener| {
+            self.open.iter().rev().find(|open| open.opener == wanted).map(|open| open.token)
+        };
+        match turn(self.tokens.get(at)?.kind)? {
+            Turn::Close(Opener::Directive) => self.openers.get(&at).copied(),
+            Turn::Close(bracket @ Opener::Bracket(_)) => innermost(bracket),
+            Turn::Open(_) | Turn::Divide => None,
+        }
+    }
+
+    pub(super) fn tell(&mut self, diagnostic: Diagnostic) {
+        self.told += 1;
+        self.diagnostics.push(diagnostic);
+    }
+
+    pub(super) fn span(&self, at: usize) -> Span {
+        let end = self.text.len();
+        let (start, end) = self
+            .tokens
+            .get(at)
+            .map_or((end, end), |token| (token.start as usize, (token.end as usize).min(end)));
+        Span::new(self.file, start.min(end), end)
+    }
+
+    /// An opener with the word before it: "`sphere {`".
+    pub(super) fn shown(&self, at: usize) -> String {
+        let text = |at: usize| self.text.get(self.span(at).range()).unwrap_or("");
+        let named = |at: &usize| {
+            matches!(self.tokens[*at].kind, TokenKind::Word(_) | TokenKind::Name)
+                && self.tokens[*at].kind != TokenKind::Word(Word::Array)
+        };
+        let opener = text(at);
+        match (at.checked_sub(1).filter(named), opener) {
+            (Some(word), "{") => format!("`{} {{`", text(word)),
+            (Some(word), "(") => format!("`{}(`", text(word)),
+            (_, "{" | "(" | "[") => format!("this `{opener}`"),
+            (_, directive) => format!("`{directive}`"),
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Where a bracket or directive that is never closed seems to have ended, by the look of the text.
+//!
+//! **Invariant:** what is closed after all has no such place inside it, so closers that are put at these
+//! places never cross.
+
+use super::{Open, Repair};
+use crate::syntax::balance::Opener;
+use crate::syntax::layout::Place;
+use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
+use crate::vocabulary::{Family, Role, Word};
+
+/// The first token inside something that looks as if it stood outside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outside {
+    pub token: usize,
+    /// Told by indentation, or by what a block can hold. Else it is a guess, by which nothing is told.
+    pub certain: bool,
+}
+
+impl Repair<'_> {
+    /// Notes where what is open seems to have ended, from the innermost outward.
+    pub(super) fn look_for_outside(&mut self, at: usize) {
+        let place = self.layout.place(at);
+        let begins = place.first && self.begins_statement(at);
+        for level in (0..self.open.len()).rev() {
+            let known = self.open[level].outside;
+            if known.is_none_or(|outside| !outside.certain) {
+                match self.outside(&self.open[level], at, place, begins) {
+                    Some(certain) if certain || known.is_none() => {
+                        self.open[level].outside = Some(Outside { token: at, certain });
+                    }
+                    Some(_) => {}
+                    None if known.is_none() => break,
+                    None => {}
+                }
+            }
+            // Nothing else ends more than the innermost.
+            if !begins {
+                break;
+            }
+        }
+        if let Some(top) = self.open.last_mut().filter(|top| place.first && top.inner.is_none()) {
+            top.inner = Some(place.indent);
+        }
+    }
+
+    /// Whether `open` seems to have ended before token `at`, and whether that is certain.
+    fn outside(&self, open: &Open, at: usize, place: Place, begins: bool) -> Option<bool> {
+        let indented = open.inner.is_some_and(|inner| inner > open.indent);
+        let beside = begins && place.indent <= open.indent;
+        match open.opener {
+            Opener::Bracket(Bracket::Brace) => {
+                (beside && (indented || !self.may_hold(open.token, at))).then_some(true)
+            }
+            Opener::Directive if beside && indented => Some(true),
+            // Of a text without indentation, one statement.
+            Opener::Directive => {
+                let brace = TokenKind::Mark(Mark::Close(Bracket::Brace));
+                (beside && self.tokens[at - 1].kind == brace).then_some(false)
+            }
+            Opener::Bracket(Bracket::Round | Bracket::Square) => {
+                let ends = self.tokens[at].kind == TokenKind::Mark(Mark::Semicolon);
+                (ends || beside).then_some(true)
+            }
+        }
+    }
+
+    /// True for a directive, and for a word that opens a block.
+    fn begins_statement(&self, at: usize) -> bool {
+        let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
+        match self.tokens[at].kind {
+            TokenKind::Directive(head) => head != Head::End && !head.divides(),
+            TokenKind::Word(word) => {
+                word.role() == Role::Statement
+                    && self.tokens.get(at + 1).is_some_and(|next| next.kind == brace)
+            }
+            _ => false,
+        }
+    }
+
+    /// False where the block that opens at `opener` cannot hold the statement at `at`: an object stands at
+    /// the top level, and in few blocks.
+    fn may_hold(&self, opener: usize, at: usize) -> bool {
+        let TokenKind::Word(inner) = self.tokens[at].kind else { return true };
+        let only_outside = matches!(inner.family(), Family::Shape | Family::Csg)
+            || matches!(inner, Word::Camera | Word::GlobalSettings | Word::SkySphere);
+        let outer = opener.checked_sub(1).map(|before| self.tokens[before].kind);
+        let Some(TokenKind::Word(outer)) = outer else { return true };
+        let holds_objects = match outer.family() {
+            Family::Shape => matches!(outer, Word::Blob | Word::Mesh),
+            Family::Light => outer != Word::LightSource,
+            Family::Texture | Family::FinishItem | Family::PatternItem => false,
+            Family::Camera | Family::Atmosphere | Family::Setting => false,
+            _ => true,
+        };
+        !only_outside || holds_objects
+    }
+
+    /// What was open around `closed` had not ended inside it.
+    pub(super) fn forget_outsides_since(&mut self, closed: &Open) {
+        for open in self.open.iter_mut().rev() {
+            match open.outside {
+                Some(outside) if outside.token > closed.token => open.outside = None,
+                _ => break,
+            }
+        }
+    }
+}

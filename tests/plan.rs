@@ -1,0 +1,179 @@
+//! `lucarne plan --json` holds all that `lucarne plan` says: the text is written again from the JSON.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+fn plan(words: &str) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lucarne"));
+    command.arg("plan").args(words.split_whitespace()).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let output = command.output().expect("runs");
+    assert!(output.status.success(), "{words}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().expect("a text")
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+/// The text, written from nothing but the JSON.
+fn written(plan: &Value) -> String {
+    let region = &plan["region"];
+    let mut out = format!("picture {}×{}", plan["width"], plan["height"]);
+    if (&region[2], &region[3]) != (&plan["width"], &plan["height"]) {
+        out += &format!(", {}×{} from {},{}", region[2], region[3], region[0], region[1]);
+    }
+    let antialias = &plan["antialias"];
+    let (n, threshold) = (&antialias["n"], &antialias["threshold"]);
+    out += &match text(&antialias["kind"]) {
+        "off" => "\nantialias off: one ray a pixel\n".to_owned(),
+        "grid" => format!("\nantialias {n}: {n}×{n} rays a pixel\n"),
+        _ => format!(
+            "\nantialias adaptive: {n}×{n} rays where neighbours differ by more than {threshold}\n"
+        ),
+    };
+    out += &format!("max_trace_level {}\n", plan["max_trace_level"]);
+    out += &format!("adc_bailout {}\n", number(&plan["adc_bailout"]));
+    if plan["precision"] != "double" {
+        out += &format!("precision {}\n", text(&plan["precision"]));
+    }
+    let compiled = list(&plan["kernels_compiled"]).len();
+    out += &format!("kernel {}, one of {compiled} compiled in\n", text(&plan["kernel"]));
+    let (on, off): (Vec<&Value>, Vec<&Value>) =
+        list(&plan["effects"]).iter().partition(|row| row["on"] == true);
+    out += if on.is_empty() { "" } else { "on\n" };
+    let rays = &plan["rays"];
+    for row in on {
+        out += &format!("  {}: {}", text(&row["effect"]), text(&row["cost"]));
+        if let Some(sent) = row["rays_per_camera_ray"].as_f64() {
+            out += &format!("; {}", counted(sent, rays));
+        }
+        out += "\n";
+        let places = list(&row["called_for_by"]);
+        for place in places.iter().take(3) {
+            out += &format!("    {}{}\n", quote(place), at(place));
+        }
+        out += &and_more(places, "    ");
+        out += if places.is_empty() { "    by the options\n" } else { "" };
+    }
+    out += if off.is_empty() { "" } else { "off\n" };
+    for row in off {
+        let (effect, why) = (text(&row["effect"]), text(&row["why"]));
+        out += &format!("  {effect}: {why}{}\n", at(&row["place"]));
+    }
+    let dropped = list(&plan["dropped"]);
+    out += if dropped.is_empty() { "" } else { "dropped\n" };
+    for part in dropped {
+        out +=
+            &format!("  {}: {}{}\n", text(&part["what"]), text(&part["why"]), at(&part["place"]));
+    }
+    out += "numerics\n";
+    let numerics = &plan["numerics"];
+    let (least, most) = (&numerics["smallest_half_width"], &numerics["largest_half_width"]);
+    if !least.is_null() {
+        let (from, to) = (measured(least), measured(most));
+        out += &format!("  half widths from {from} to {to}\n");
+    }
+    let far = &numerics["farthest_in_half_widths"];
+    if !far.is_null() {
+        let (value, place) = (digits(&far["value"]), at(&far["place"]));
+        out += &format!("  farthest for its size: {value} half widths away{place}\n");
+    }
+    let near = list(&numerics["near_singular"]);
+    for found in near.iter().take(3) {
+        let (piece, place) = (quote(&found["place"]), at(&found["place"]));
+        let condition = digits(&found["value"]);
+        out += &format!("  nearly flattens space: {piece}, condition {condition}{place}\n");
+    }
+    out += &and_more(near, "  ");
+    out += if near.is_empty() { "  no transform nearly flattens space\n" } else { "" };
+    out += &format!("rays: {}", counted(number(&rays["per_camera_ray"]), rays));
+    out += if antialias["kind"] == "adaptive" { " and what antialiasing adds" } else { "" };
+    let pilot = &rays["pilot"];
+    out + &format!(" (counted by a pilot of {}×{})\n", pilot[0], pilot[1])
+}
+
+fn and_more(list: &[Value], indent: &str) -> String {
+    match list.len() {
+        0..=3 => String::new(),
+        more => format!("{indent}and {} more\n", more - 3),
+    }
+}
+
+fn measured(found: &Value) -> String {
+    digits(&found["value"]) + &at(&found["place"])
+}
+
+fn at(place: &Value) -> String {
+    match place.is_null() {
+        true => String::new(),
+        false => format!("  ({}:{}:{})", text(&place["file"]), place["line"], place["column"]),
+    }
+}
+
+fn quote(place: &Value) -> String {
+    let words: Vec<&str> = text(&place["text"]).split_whitespace().collect();
+    let whole = words.join(" ");
+    match whole.char_indices().nth(48) {
+        Some((cut, _)) => format!("`{}…`", whole[..cut].trim_end()),
+        None => format!("`{whole}`"),
+    }
+}
+
+/// Three digits.
+fn digits(value: &Value) -> String {
+    let rounded: f64 = format!("{:.2e}", number(value)).parse().expect("a number");
+    match (1e-3..1e6).contains(&rounded.abs()) || rounded == 0.0 {
+        true => rounded.to_string(),
+        false => format!("{rounded:e}"),
+    }
+}
+
+fn counted(sent: f64, rays: &Value) -> String {
+    let whole: f64 = format!("{:.1e}", sent * number(&rays["camera"])).parse().expect("a number");
+    let mut digits = format!("{whole:.0}");
+    for place in
+        (1..digits.len()).rev().filter(|place| (digits.len() - place) % 3 == 0).collect::<Vec<_>>()
+    {
+        digits.insert(place, ',');
+    }
+    format!("{:.2} a pixel, about {digits}", sent * number(&rays["camera_per_pixel"]))
+}
+
+#[test]
+fn all_that_the_text_says_is_in_the_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let hard = folder.path().join("hard.scene");
+    let flat = "box { 0, 1 scale <1, 1e-9, 1> } box { 0, 1 scale <1e-10, 1, 1> }
+box { 0, 1 scale <1, 1, 1e-11> } box { 0, 1 scale <1, 1e-12, 1> translate 1e9*x }";
+    let text = format!(
+        "global_settings {{ max_trace_level 1 adc_bailout 0.5 }}
+light_source {{ <4, 8, 6>, rgb 1 }} light_source {{ 5, rgb 0 }} light_source {{ y*9, rgb 1 shadowless }}
+sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 1;
+{flat}
+"
+    );
+    std::fs::write(&hard, text).expect("written");
+    let hard = hard.display();
+    for words in [
+        "scenes/gallery/first.scene".to_owned(),
+        "scenes/gallery/first.scene --size 81x60 --antialias 3 --depth 1".to_owned(),
+        "scenes/atmosphere/background.scene --antialias off --region 3,4,20,10".to_owned(),
+        "scenes/seed/mirror.scene --precision single".to_owned(),
+        "tests/cases/glass.scene".to_owned(),
+        format!("{hard} --precision single --size 640x480"),
+    ] {
+        let said = plan(&words);
+        let json: Value = serde_json::from_str(&plan(&format!("{words} --json"))).expect("JSON");
+        assert_eq!(written(&json), said, "{words}");
+        assert!(json["precision"] == if words.contains("single") { "single" } else { "double" });
+    }
+}
