@@ -10,17 +10,19 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::{Binary, Builder, Function, Node, TooLong, Unary};
-use crate::math::elementary::RADIANS_PER_DEGREE;
 use crate::source::Span;
 use crate::syntax::ast::{
-    Argument, Arguments, BinaryOperator, Callee, Component, ExpressionId, ExpressionKind,
-    UnaryOperator,
+    Argument, Arguments, Callee, Component, ExpressionId, ExpressionKind, UnaryOperator,
 };
 use crate::vocabulary::Word;
 
 use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
+
+mod operation;
+
+use operation::{is_operation, operation, operation_of};
 
 /// A formula on its way to a tape.
 struct Formula {
@@ -402,103 +404,4 @@ fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Option<Span> {
         }
     }
     None
-}
-
-fn operation_of(operator: BinaryOperator, left: Node, right: Node) -> (Binary, Node, Node) {
-    match operator {
-        BinaryOperator::Add => (Binary::Add, left, right),
-        BinaryOperator::Subtract => (Binary::Subtract, left, right),
-        BinaryOperator::Multiply => (Binary::Multiply, left, right),
-        BinaryOperator::Divide => (Binary::Divide, left, right),
-        BinaryOperator::Less => (Binary::Less, left, right),
-        BinaryOperator::LessOrEqual => (Binary::LessOrEqual, left, right),
-        BinaryOperator::Equal => (Binary::Equal, left, right),
-        BinaryOperator::NotEqual => (Binary::NotEqual, left, right),
-        BinaryOperator::GreaterOrEqual => (Binary::LessOrEqual, right, left),
-        BinaryOperator::Greater => (Binary::Less, right, left),
-        BinaryOperator::And => (Binary::And, left, right),
-        BinaryOperator::Or => (Binary::Or, left, right),
-    }
-}
-
-fn unary_of(word: Word) -> Option<Unary> {
-    Some(match word {
-        Word::Abs => Unary::Abs,
-        Word::Acos => Unary::Acos,
-        Word::Acosh => Unary::Acosh,
-        Word::Asin => Unary::Asin,
-        Word::Asinh => Unary::Asinh,
-        Word::Atan => Unary::Atan,
-        Word::Atanh => Unary::Atanh,
-        Word::Ceil => Unary::Ceil,
-        Word::Cos => Unary::Cos,
-        Word::Cosh => Unary::Cosh,
-        Word::Exp => Unary::Exp,
-        Word::Floor => Unary::Floor,
-        Word::Int => Unary::Int,
-        Word::Ln => Unary::Ln,
-        Word::Log => Unary::Log,
-        Word::Sin => Unary::Sin,
-        Word::Sinh => Unary::Sinh,
-        Word::Sqrt => Unary::Sqrt,
-        Word::Tan => Unary::Tan,
-        Word::Tanh => Unary::Tanh,
-        _ => return None,
-    })
-}
-
-fn binary_of(word: Word) -> Option<Binary> {
-    Some(match word {
-        Word::Atan2 => Binary::Atan2,
-        Word::Mod => Binary::Mod,
-        Word::Pow => Binary::Pow,
-        Word::Min => Binary::Min,
-        Word::Max => Binary::Max,
-        _ => return None,
-    })
-}
-
-/// Whether a function of the language may stand in a formula.
-fn is_operation(word: Word) -> bool {
-    unary_of(word).is_some()
-        || binary_of(word).is_some()
-        || matches!(word, Word::Div | Word::Degrees | Word::Radians | Word::Select)
-}
-
-/// The operation that a word names; the number of operands is right.
-fn operation(builder: &mut Builder, word: Word, nodes: &[Node]) -> Result<Node, TooLong> {
-    match (word, nodes) {
-        (Word::Degrees, [a]) => {
-            let factor = builder.constant(RADIANS_PER_DEGREE)?;
-            builder.binary(Binary::Divide, *a, factor)
-        }
-        (Word::Radians, [a]) => {
-            let factor = builder.constant(RADIANS_PER_DEGREE)?;
-            builder.binary(Binary::Multiply, *a, factor)
-        }
-        (Word::Div, [a, b]) => {
-            let quotient = builder.binary(Binary::Divide, *a, *b)?;
-            builder.unary(Unary::Int, quotient)
-        }
-        (Word::Select, [a, below, rest @ ..]) => {
-            let zero = builder.constant(0.0)?;
-            let is_below = builder.binary(Binary::Less, *a, zero)?;
-            let rest = match rest {
-                [equal, above] => {
-                    let is_equal = builder.binary(Binary::Equal, *a, zero)?;
-                    builder.choose(is_equal, *equal, *above)?
-                }
-                [other] => *other,
-                _ => zero,
-            };
-            builder.choose(is_below, *below, rest)
-        }
-        _ => match (unary_of(word), binary_of(word), nodes) {
-            (Some(operation), _, [a]) => builder.unary(operation, *a),
-            (_, Some(operation), [first, rest @ ..]) => {
-                rest.iter().try_fold(*first, |node, next| builder.binary(operation, node, *next))
-            }
-            _ => builder.constant(f64::NAN),
-        },
-    }
 }

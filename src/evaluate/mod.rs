@@ -10,6 +10,7 @@ mod block;
 mod builtin;
 mod call;
 mod directive;
+mod element;
 mod enclosure;
 mod endless;
 mod expand;

@@ -406,7 +406,7 @@ vocabulary! {
         MinimumReuse "minimum_reuse" statement later "how near radiosity samples stand";
         MmPerUnit "mm_per_unit" statement inert until [Subsurface] "millimetres in one unit for `subsurface`, which is not built yet";
         NearestCount "nearest_count" statement later "how many radiosity samples are mixed";
-        NoiseGenerator "noise_generator" statement inert until [Agate Bozo Bumps Crackle Dents Function Granite Leopard Marble Spotted Turbulence Warp Wood Wrinkles] "which noise patterns are made of, 1 to 3; no such pattern is built yet";
+        NoiseGenerator "noise_generator" statement inert until [Agate Bozo Bumps Crackle Dents Internal Granite Leopard Marble Spotted Turbulence Warp Wood Wrinkles] "which noise patterns are made of, 1 to 3; no such pattern is built yet";
         NumberOfWaves "number_of_waves" statement inert until [Ripples Waves] "how many centres `waves` and `ripples` have, which are not built yet";
         PassThrough "pass_through" statement later "photons go through the object";
         Photons "photons" statement later "light followed from the lamps";

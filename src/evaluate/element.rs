@@ -1,0 +1,246 @@
+//! The elements of arrays: `A[i][j]` read, assigned, forgotten, asked for and passed on.
+//!
+//! **Source:** measured: the indices of what is assigned are evaluated before its value.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Argument, ExpressionId, ExpressionKind, Target};
+use crate::vocabulary::Word;
+
+use super::array::{NoElement, element, element_place};
+use super::report::count;
+use super::scope::Slot;
+use super::value::Value;
+use super::{Evaluator, Here, Outcome, Reported};
+
+impl Evaluator<'_> {
+    /// `a[i][j]` as a value.
+    pub(super) fn indexed(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let (base, indices) = chain(here, id);
+        let value = self.expression(here, base)?;
+        let numbers = match self.indices(here, &indices)? {
+            Indices::Numbers(numbers) => numbers,
+            Indices::Poison(poison) => return Ok(poison),
+        };
+        let span = here.unit.expression(base).span;
+        match (&value, element(&value, &numbers)) {
+            (Value::Poison(_), _) => Ok(value),
+            (_, Ok(Value::Broken)) => Err(Reported),
+            (_, Ok(element)) => Ok(element.clone()),
+            (_, Err(error)) => Err(self.no_element(here, error, &indices, span)),
+        }
+    }
+
+    /// What an argument `A[i]` refers to: the caller's variable, and the indices. `None` when it does
+    /// not begin with one, or is not there.
+    pub(super) fn referred(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Outcome<Option<(Slot, Box<[f64]>)>> {
+        let (base, indices) = chain(here, id);
+        let ExpressionKind::Name(name) = here.unit.expression(base).kind else { return Ok(None) };
+        let symbol = here.symbol(name);
+        let Some(slot) = self.scopes.slot(symbol) else { return Ok(None) };
+        let Indices::Numbers(numbers) = self.indices(here, &indices)? else { return Ok(None) };
+        let there = self.scopes.read(symbol).is_some_and(|value| element(value, &numbers).is_ok());
+        Ok(there.then(|| (slot, numbers.into_boxed_slice())))
+    }
+
+    fn indices(&mut self, here: &Here, indices: &[ExpressionId]) -> Outcome<Indices> {
+        let mut numbers = Vec::with_capacity(indices.len());
+        let mut outcome = Ok(());
+        let mut poison = None;
+        for &index in indices {
+            match self.expression(here, index) {
+                Ok(found @ Value::Poison(_)) => poison = poison.or(Some(found)),
+                Ok(value) => {
+                    let span = here.unit.expression(index).span;
+                    match self.as_number(here, span, &value, "a number as index") {
+                        Ok(number) => numbers.push(number),
+                        Err(reported) => outcome = Err(reported),
+                    }
+                }
+                Err(reported) => outcome = Err(reported),
+            }
+        }
+        outcome?;
+        Ok(poison.map_or(Indices::Numbers(numbers), Indices::Poison))
+    }
+
+    /// The indices of what is assigned, read before the value is.
+    pub(super) fn target_indices(&mut self, here: &Here, target: &Target) -> Outcome<Indices> {
+        self.indices(here, &target.indices)
+    }
+
+    /// `#declare A[i] = …`.
+    pub(super) fn assign_element(
+        &mut self,
+        here: &Here,
+        target: &Target,
+        indices: Outcome<Indices>,
+        value: Outcome<Value>,
+    ) -> Outcome<()> {
+        let symbol = here.symbol(target.name);
+        let numbers = match (indices?, self.scopes.read(symbol)) {
+            (_, None) => return Err(self.undeclared(here, symbol, target.span)),
+            // What is set in something that is not built, or that was reported, is lost.
+            (Indices::Poison(_), _) | (_, Some(Value::Poison(_) | Value::Broken)) => return Ok(()),
+            (Indices::Numbers(numbers), Some(_)) => numbers,
+        };
+        let value = value.unwrap_or(Value::Broken);
+        let mut held = self.scopes.take(symbol);
+        let outcome = match element_place(&mut held, &numbers, 0) {
+            Ok((array, at)) => Ok(array.set(at, value)),
+            Err(error) => Err(error),
+        };
+        self.scopes.overwrite(symbol, held);
+        match outcome {
+            Ok(Ok(())) => Ok(()),
+            Ok(Err(kinds)) => Err(self.other_kind(here, kinds, target.span)),
+            Err(error) => Err(self.no_element(here, error, &target.indices, target.span)),
+        }
+    }
+
+    /// `#undef A[i]`.
+    pub(super) fn forget_element(&mut self, here: &Here, target: &Target) -> Outcome<()> {
+        let symbol = here.symbol(target.name);
+        let Indices::Numbers(numbers) = self.target_indices(here, target)? else { return Ok(()) };
+        let mut held = self.scopes.take(symbol);
+        let outcome = match element_place(&mut held, &numbers, 0) {
+            Ok((array, at)) => {
+                array.forget(at);
+                Ok(())
+            }
+            // There is nothing to forget.
+            Err(NoElement::Unset | NoElement::NoArray(_, Value::Poison(_) | Value::Broken)) => {
+                Ok(())
+            }
+            Err(error) => Err(error),
+        };
+        self.scopes.overwrite(symbol, held);
+        outcome.map_err(|error| self.no_element(here, error, &target.indices, target.span))
+    }
+
+    /// `#ifdef (A[i])`; an index outside of the array is a mistake here too.
+    pub(super) fn is_element_set(&mut self, here: &Here, target: &Target) -> bool {
+        let Ok(Indices::Numbers(numbers)) = self.target_indices(here, target) else { return false };
+        let Some(value) = self.scopes.read(here.symbol(target.name)) else { return false };
+        match element(value, &numbers) {
+            Ok(value) => *value != Value::Broken,
+            // Whether an element of something not built is set cannot be known.
+            Err(NoElement::NoArray(_, value)) => matches!(value, Value::Poison(_)),
+            Err(NoElement::Unset) => false,
+            Err(error) => {
+                self.no_element(here, error, &target.indices, target.span);
+                false
+            }
+        }
+    }
+
+    /// `dimensions(A)` and `dimension_size(A, 1)`.
+    pub(super) fn dimensions(
+        &mut self,
+        here: &Here,
+        word: Word,
+        word_span: Span,
+        list: &[Argument],
+    ) -> Outcome<Value> {
+        let (array, dimension) = match *list {
+            [Argument::Expression(array)] if word == Word::Dimensions => (array, None),
+            [Argument::Expression(array), Argument::Expression(n)]
+                if word == Word::DimensionSize =>
+            {
+                (array, Some(n))
+            }
+            _ => {
+                let wanted = if word == Word::Dimensions { 1..=1 } else { 2..=2 };
+                return Err(self.wrong_arity(here, word, word_span, wanted, list.len()));
+            }
+        };
+        let span = here.unit.expression(array).span;
+        let array = match self.expression(here, array)? {
+            Value::Array(array) => array,
+            poison @ Value::Poison(_) => return Ok(poison),
+            other => return Err(self.wrong_type(here, span, "an array", &other)),
+        };
+        let Some(dimension) = dimension else {
+            return Ok(Value::Number(array.dimensions().len() as f64));
+        };
+        // The first dimension is 1.
+        let number = self.number(here, dimension)?.trunc();
+        let size = array.dimensions().iter().zip(1u8..).find(|(_, n)| f64::from(*n) == number);
+        if let Some((size, _)) = size {
+            return Ok(Value::Number(f64::from(*size)));
+        }
+        let count = count(&(array.dimensions().len()..=array.dimensions().len()), "dimension");
+        let diagnostic = Diagnostic::new(Code::OutOfRange, format!("the array has {count}"))
+            .at(here.unit.expression(dimension).span, "no such dimension; the first is 1");
+        Err(self.report(here, diagnostic))
+    }
+
+    fn no_element(
+        &mut self,
+        here: &Here,
+        error: NoElement,
+        indices: &[ExpressionId],
+        base: Span,
+    ) -> Reported {
+        let index = |at: usize| indices.get(at).map_or(base, |id| here.unit.expression(*id).span);
+        let name = self.sources.text(base).to_owned();
+        let diagnostic = match error {
+            NoElement::NoArray(_, Value::Broken) => return Reported,
+            NoElement::NoArray(0, value) => {
+                return self.wrong_type(here, base, "an array before `[`", &value);
+            }
+            NoElement::NoArray(at, value) => {
+                let message = format!("this element of the array is {}, no array", value.kind());
+                Diagnostic::new(Code::WrongType, message).at(index(at), "one index too many")
+            }
+            NoElement::Outside(at, size) => {
+                let message =
+                    format!("the array has no such element: its indices go from 0 to {}", size - 1);
+                Diagnostic::new(Code::OutOfRange, message).at(index(at), "outside of the array")
+            }
+            NoElement::Count { wanted } => {
+                let wanted = match wanted {
+                    1 => "one index".to_owned(),
+                    many => format!("{many} indices"),
+                };
+                let message = format!("`{name}` needs {wanted}, and is given {}", indices.len());
+                Diagnostic::new(Code::WrongArity, message).at(base, format!("expected {wanted}"))
+            }
+            NoElement::Unset => {
+                let span = indices
+                    .first()
+                    .map_or(base, |_| Span { end: index(indices.len() - 1).end, ..base });
+                Diagnostic::new(Code::UndeclaredName, "this element of the array was never set")
+                    .at(span, "nothing is there yet")
+                    .help("`#ifdef (A[i])` asks whether an element is set")
+            }
+        };
+        let diagnostic =
+            match self.scopes.symbol(&name).and_then(|symbol| self.scopes.declared(symbol)) {
+                Some(declared) => diagnostic.also(declared.site.span, "declared here"),
+                None => diagnostic,
+            };
+        self.report(here, diagnostic)
+    }
+}
+
+/// What is in front of all brackets, and what is in them, in written order.
+fn chain(here: &Here, id: ExpressionId) -> (ExpressionId, Vec<ExpressionId>) {
+    let (mut base, mut indices) = (id, Vec::new());
+    while let ExpressionKind::Index(inner, index) = here.unit.expression(base).kind {
+        indices.push(index);
+        base = inner;
+    }
+    indices.reverse();
+    (base, indices)
+}
+
+/// The numbers in brackets, unless one is not built yet.
+pub(super) enum Indices {
+    Numbers(Vec<f64>),
+    Poison(Value),
+}
