@@ -10,6 +10,7 @@
 
 use super::media::Border;
 use super::shade::Place;
+use super::sharpness::Sharpness;
 use super::{Walk, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
@@ -27,6 +28,7 @@ pub(super) struct Tracer<'a> {
     in_image: &'a Geometry,
     /// What mirrored rays meet.
     in_reflections: &'a Geometry,
+    pub sharpness: Sharpness,
     /// Rays go on behind clear surfaces.
     pub clear: bool,
     /// Interiors have indices of refraction.
@@ -98,6 +100,7 @@ impl<'a> Tracer<'a> {
             geometry,
             in_image: geometry.in_image(),
             in_reflections: geometry.in_reflections(),
+            sharpness: Sharpness::of(world),
             clear: plan.simulates(Effect::Transparency),
             bends: plan.simulates(Effect::Refraction),
             filters_shadows: plan.simulates(Effect::ColoredShadows),
@@ -127,11 +130,7 @@ impl<'a> Tracer<'a> {
         loop {
             let mut seen = loop {
                 let Some(hit) = met_by.nearest_counted(&way.ray, &mut walk.counters.work) else {
-                    break sky::seen(
-                        self.world.sky.as_ref(),
-                        self.world.background,
-                        way.ray.direction,
-                    );
+                    break sky::seen(self.world, &self.sharpness, way.ray.direction);
                 };
                 let Stand { surface, paint, place } = self.stand(&way.ray, &hit);
                 let finish = place.finish;
@@ -192,7 +191,7 @@ impl<'a> Tracer<'a> {
         let object = &self.world.objects[hit.object as usize];
         let Material { pigment, finish } = &self.world.materials[object.material as usize];
         let normal = if hit.leaving { -surface.normal } else { surface.normal };
-        let paint = pigment::on_surface(pigment, self.world, ray, hit, &surface);
+        let paint = pigment::on_surface(self, pigment, ray, hit, &surface);
         let place = Place {
             finish,
             color: paint.rgb,
@@ -355,7 +354,7 @@ impl<'a> Tracer<'a> {
             Pigment::Color(color) => *color,
             patterned @ Pigment::Patterned { .. } => {
                 let surface = geometry::surface(self.world, ray, hit);
-                pigment::on_surface(patterned, self.world, ray, hit, &surface)
+                pigment::on_surface(self, patterned, ray, hit, &surface)
             }
         };
         color.transmittance()
