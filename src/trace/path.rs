@@ -136,7 +136,7 @@ impl<'a> Tracer<'a> {
                 let finish = place.finish;
                 let mut local = shade::local::<SHADOWS>(self, walk, &place);
                 if self.world.objects[hit.object as usize].double_illuminate {
-                    local += self.lit_behind::<SHADOWS>(walk, way.ray, &hit);
+                    local += self.lit_behind::<SHADOWS>(walk, way.ray, hit);
                 }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
@@ -208,8 +208,8 @@ impl<'a> Tracer<'a> {
     /// few: all is found once more, and nothing is kept at hand for it elsewhere.
     #[cold]
     #[inline(never)]
-    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: &Hit) -> Rgb {
-        let Stand { surface, place, .. } = self.stand(&ray, hit);
+    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: Hit) -> Rgb {
+        let Stand { surface, place, .. } = self.stand(&ray, &hit);
         shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-place.normal))
     }
 

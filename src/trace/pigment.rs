@@ -22,22 +22,24 @@ pub(super) fn on_surface(
 ) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
-        Pigment::Patterned { .. } => patterned(tracer, pigment, ray, hit, surface),
+        Pigment::Patterned { .. } => patterned(tracer, pigment, *ray, *hit, *surface),
     }
 }
 
+/// The ray and what it met come as copies: pointed to, they would lie in memory for surfaces of one
+/// colour, too.
 #[inline(never)]
 fn patterned(
     tracer: &Tracer,
     pigment: &Pigment,
-    ray: &Ray,
-    hit: &Hit,
-    surface: &SurfacePoint,
+    ray: Ray,
+    hit: Hit,
+    surface: SurfacePoint,
 ) -> Color {
     let world = tracer.world;
-    let is_sharp = tracer.sharpness.on_surface(ray, hit, surface);
-    let error = || texture_error(world, ray, hit, surface);
-    at(pigment, texture_point(world, hit, surface), is_sharp, error)
+    let is_sharp = tracer.sharpness.on_surface(&ray, &hit, &surface);
+    let error = || texture_error(world, &ray, &hit, &surface);
+    at(pigment, texture_point(world, &hit, &surface), is_sharp, error)
 }
 
 /// The colour at a point in the texture's space, which may be off by `error` along each axis. That
