@@ -198,6 +198,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("math/vector.rs", "debug_assert", "of a length that is 1"),
     ("math/placement.rs", "let centre", "roundings of a map's centre, relative"),
     ("math/placement.rs", "let difference", "roundings of a difference, relative"),
+    ("pattern/checker.rs", "WHOLE", "large enough that its neighbours are whole numbers"),
     ("pattern/gradient.rs", "let error", "roundings of a sum, relative"),
     ("pattern/noise/perlin.rs", "ORIGIN", "where POV-Ray's noise has its origin"),
     ("pattern/noise/turbulence.rs", "greatest", "numbers pass through `f32` there, as in POV-Ray"),
@@ -209,8 +210,9 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),
     ("shape/plane.rs", "error: t / 67_108_864.0", "relative: of the distance"),
     ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
-    ("trace/sky.rs", "ROUNDED", "roundings of a direction, whose length is 1"),
     ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
+    ("trace/sharpness.rs", "ROUNDED", "roundings of a direction, whose length is 1"),
+    ("trace/sharpness.rs", "* centres", "roundings of a map's centres, relative"),
 ];
 
 /// "About 400": with what `rustfmt` makes of it.

@@ -15,6 +15,9 @@ pub struct Hit {
     pub object: u32,
     /// Distance along the ray.
     pub t: f64,
+    /// The true crossing lies within this distance of `t`: not the tightest bound. ∞ where none is
+    /// known that holds in double precision.
+    pub error: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
     /// Error bounds could not tell it from a crossing of another object.
@@ -66,13 +69,12 @@ impl Geometry {
         let mut first: Option<((bool, u32), Hit)> = None;
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
-            let object = entry.object;
-            let rank = (entry.clear, object);
+            let rank = (entry.clear, entry.object);
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve();
                 let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
-                let hit = |(Crossing { t, .. }, leaving)| {
-                    (rank, Hit { object, t, leaving, contested: true })
+                let hit = |(crossing, leaving)| {
+                    (rank, Hit { contested: true, ..entry.hit(crossing, leaving) })
                 };
                 first = crossing.map(hit).or(first);
             }
@@ -129,7 +131,8 @@ impl<'a, T: Tally> Race<'a, T> {
     #[inline(always)]
     fn winner(&self) -> Option<Hit> {
         let entry = self.geometry.entries.get(self.place)?;
-        Some(Hit { object: entry.object, t: self.t, leaving: self.leaving, contested: false })
+        let error = (self.limit - self.t) / 2.0;
+        Some(entry.hit(Crossing { t: self.t, error }, self.leaving))
     }
 }
 

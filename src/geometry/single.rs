@@ -52,7 +52,7 @@ impl Geometry {
                 if t < best_t {
                     rival_t = best_t;
                     best_t = t;
-                    best = Some(entry.hit(t, leaving));
+                    best = Some(entry.hit(unbounded(t), leaving));
                 } else {
                     rival_t = rival_t.min(t);
                 }
@@ -70,7 +70,7 @@ impl Geometry {
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve();
                 let hit = |(crossing, leaving): (Crossing, bool)| {
-                    (rank, Hit { contested: true, ..entry.hit(crossing.t, leaving) })
+                    (rank, Hit { contested: true, ..entry.hit(unbounded(crossing.t), leaving) })
                 };
                 first = self.met(entry, &rounded, limit).map(hit).or(first);
             }
@@ -146,6 +146,11 @@ impl Geometry {
         let (crossing, leaving) = first_seen(entry.sides, chord)?;
         (crossing.t <= limit).then_some((crossing, leaving))
     }
+}
+
+/// The bounds of single precision leave out what is rounded in double.
+fn unbounded(t: f64) -> Crossing {
+    Crossing { t, error: f64::INFINITY }
 }
 
 fn first_seen(sides: Sides, chord: Chord<f32>) -> Option<(Crossing, bool)> {

@@ -165,6 +165,32 @@ fn structured_worlds() -> Vec<World> {
 }
 
 #[test]
+fn a_point_is_nowhere_farther_off_than_is_easily_said() {
+    let mut random = Random(9);
+    let (mut hits, mut sharp) = (0, 0);
+    for _ in 0..60 {
+        let reach = random.size(-6.0, 6.0);
+        let world = random_world(&mut random, 20, reach);
+        let geometry = Geometry::build(&world);
+        for _ in 0..500 * long() {
+            let ray = random_ray(&mut random, &world, reach);
+            let Some(hit) = geometry.nearest(&ray) else { continue };
+            let surface = surface(&world, &ray, &hit);
+            let easy = surface.spread_at_most(&ray, hit.t, hit.error);
+            // Along a surface nothing is known.
+            if easy.is_finite() {
+                let room = surface.point.abs() * (8.0 * f64::EPSILON);
+                let tight = spread(&world, &ray, &hit, &surface) + room;
+                assert!(tight.max_element() <= easy, "{easy:e} {tight} {hit:?} {ray:?}");
+                hits += 1;
+                sharp += usize::from(easy < (hit.t + reach) / 10_000.0);
+            }
+        }
+    }
+    assert!(hits > 10_000 && sharp * 10 > hits * 9, "{sharp} of {hits}");
+}
+
+#[test]
 fn the_tree_agrees_on_structured_scenes() {
     let mut random = Random(2);
     for world in structured_worlds() {

@@ -26,7 +26,7 @@ impl Geometry {
             let chord = if entry.filters { self.chord(entry, ray, tally) } else { None };
             for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
                 if crossing.is_ahead() && crossing.t + crossing.error < distance {
-                    hits.push(entry.hit(crossing.t, leaving));
+                    hits.push(entry.hit(crossing, leaving));
                 }
             }
             distance
@@ -63,7 +63,7 @@ impl Geometry {
                         if leaving { chord.leave.is_ahead() } else { chord.enter.is_ahead() }
                     });
                     if !still_ahead {
-                        hits.push(entry.hit(crossing.t, leaving));
+                        hits.push(entry.hit(crossing, leaving));
                     }
                 }
             }
@@ -88,8 +88,9 @@ impl Geometry {
 }
 
 impl Entry {
-    pub(super) fn hit(&self, t: f64, leaving: bool) -> Hit {
-        Hit { object: self.object, t, leaving, contested: false }
+    #[inline(always)]
+    pub(super) fn hit(&self, Crossing { t, error }: Crossing, leaving: bool) -> Hit {
+        Hit { object: self.object, t, error, leaving, contested: false }
     }
 }
 

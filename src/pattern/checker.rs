@@ -2,7 +2,7 @@
 //!
 //! A cell is half-open: a point on a lattice plane belongs to the cell on its positive side.
 
-use super::settled;
+use super::{NEAR, settled};
 use crate::math::Vector;
 
 /// 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
@@ -18,6 +18,23 @@ pub fn value(point: Vector, error: Vector) -> f64 {
     let [x, y, z] = [(point.x, error.x), (point.y, error.y), (point.z, error.z)];
     f64::from(parity(x.0, x.1) ^ parity(y.0, y.1) ^ parity(z.0, z.1))
 }
+
+/// The value where each coordinate is either a whole number or not [`NEAR`] one: then no error less
+/// than that changes it.
+#[inline]
+pub fn value_off_seams(point: Vector) -> Option<f64> {
+    // The sum is rounded to a whole number; its last bit says whether that is odd.
+    let parity = |coordinate: f64| {
+        let sum = coordinate + WHOLE;
+        let off = coordinate - (sum - WHOLE);
+        let is_told = off == 0.0 || off.abs() > NEAR;
+        is_told.then_some((sum.to_bits() & 1 == 1) ^ (off < 0.0))
+    };
+    Some(f64::from(parity(point.x)? ^ parity(point.y)? ^ parity(point.z)?))
+}
+
+/// 3·2⁵¹: numbers near it are whole.
+const WHOLE: f64 = 1.5 / f64::EPSILON;
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! `gradient <direction>`: the fractional part of the distance along a direction.
 
-use super::{Measured, settled};
+use super::{Measured, NEAR, settled};
 use crate::math::Vector;
 
 /// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded); `direction` has
@@ -15,6 +15,14 @@ pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
     let fraction = along - along.floor();
     // A tiny negative number rounds up to 1, which is outside of the half-open range.
     Measured { value: if fraction < 1.0 { fraction } else { 0.0 }, error }
+}
+
+/// The value where it is not [`NEAR`] its jump.
+#[inline]
+pub fn value_off_seams(direction: Vector, point: Vector) -> Option<f64> {
+    let along = direction.dot(point);
+    let fraction = along - along.floor();
+    (fraction > NEAR && fraction < 1.0 - NEAR).then_some(fraction)
 }
 
 #[cfg(test)]

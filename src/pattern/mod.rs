@@ -27,6 +27,10 @@ pub struct Measured {
     pub error: f64,
 }
 
+/// How near to a seam a point's own error is asked after, in cells; the errors of all others only
+/// need to be less than a quarter of this.
+pub const NEAR: f64 = 1.0 / 256.0;
+
 impl Pattern {
     /// The pattern's value, 0 … 1, at `point` (in texture space), which may be off by `error` along
     /// each axis.
@@ -35,6 +39,19 @@ impl Pattern {
         match self {
             Self::Checker => Measured { value: checker::value(point, error), error: 0.0 },
             Self::Gradient { direction } => gradient::value(*direction, point, error),
+        }
+    }
+
+    /// As [`Pattern::value`], whatever the error, if that is less than [`NEAR`] / 4 along each axis;
+    /// `None` where it may matter. The value's own error is then less than is said. Coordinates must
+    /// be below 2⁴⁰.
+    #[inline]
+    pub fn value_off_seams(&self, point: Vector) -> Option<Measured> {
+        match self {
+            Self::Checker => Some(Measured { value: checker::value_off_seams(point)?, error: 0.0 }),
+            Self::Gradient { direction } => {
+                Some(Measured { value: gradient::value_off_seams(*direction, point)?, error: NEAR })
+            }
         }
     }
 }
@@ -50,6 +67,7 @@ fn settled(coordinate: f64, error: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::random::{Random, long};
 
     #[test]
     fn what_an_error_cannot_tell_from_a_seam_is_on_it() {
@@ -65,5 +83,38 @@ mod tests {
             assert_eq!(settled(coordinate, error), seen, "{coordinate} {error}");
         }
         assert!(settled(f64::NAN, 1.0).is_nan());
+    }
+
+    #[test]
+    fn off_the_seams_no_small_error_changes_a_value() {
+        let mut random = Random(5);
+        let mut seen = [0; 2];
+        for _ in 0..20_000 * long() {
+            let reach = [1.0, 3.0, 1e6][random.below(3)];
+            let mut point = random.point(reach);
+            for axis in 0..3 {
+                let whole = point[axis].round();
+                point[axis] = match random.below(4) {
+                    0 => whole,
+                    1 => whole + random.number(-2.0, 2.0) * NEAR,
+                    _ => point[axis],
+                };
+            }
+            let direction = [random.direction(), random.structured_direction()][random.below(2)];
+            let gradient = Pattern::Gradient { direction: direction.get() };
+            for (kind, pattern) in [Pattern::Checker, gradient].into_iter().enumerate() {
+                let Some(told) = pattern.value_off_seams(point) else { continue };
+                seen[kind] += 1;
+                for error in [0.0, 1e-12, NEAR * 0.249] {
+                    let measured = pattern.value(point, Vector::splat(error));
+                    assert_eq!(measured.value, told.value, "{pattern:?} {point} {error}");
+                    assert!(measured.error <= told.error, "{pattern:?} {point} {measured:?}");
+                }
+            }
+        }
+        assert!(seen.iter().all(|&seen| seen > 10_000), "{seen:?}");
+        for odd in [f64::NAN, f64::INFINITY] {
+            assert_eq!(Pattern::Checker.value_off_seams(Vector::X * odd), None);
+        }
     }
 }

@@ -130,6 +130,18 @@ impl SurfacePoint {
         ray.direction.abs() * along + across + self.normal.abs() * self.error
     }
 
+    /// A distance that [`SurfacePoint::spread`] exceeds along no axis, by far but easily computed;
+    /// `error` bounds the crossing's. It has room for 16u·|P| more along each axis, P the point.
+    ///
+    /// The crossing's bound counts four times: the kernel's own t may be off as well. The start is
+    /// at most |P| + t from the origin, along each axis.
+    #[inline]
+    pub fn spread_at_most(&self, ray: &Ray, t: f64, error: f64) -> f64 {
+        let slope = self.normal.dot(ray.direction).abs();
+        let size = self.point.abs().max_element() + t;
+        4.0 * error + 4.0 * U * t / slope + 32.0 * U * size + self.error
+    }
+
     /// Where the ray that goes on from here toward `direction` starts: moved along the normal, to
     /// the side on which it leaves, by the error bound and by nothing else. The bound has room for
     /// the rounding of this very sum.

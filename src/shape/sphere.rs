@@ -11,7 +11,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    #[inline]
+    #[inline(always)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         chord(self.centre, self.radius, ray)
     }
@@ -79,7 +79,7 @@ impl Sphere {
 ///
 /// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots:
 /// N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
-#[inline]
+#[inline(always)]
 pub fn chord<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Chord<R>> {
     Some(roots(centre, radius, ray)?.chord())
 }

@@ -18,6 +18,7 @@ mod reflection;
 mod refraction;
 mod shade;
 mod shadow;
+mod sharpness;
 mod sky;
 mod tiles;
 

@@ -10,6 +10,7 @@
 
 use super::media::Border;
 use super::shade::Place;
+use super::sharpness::Sharpness;
 use super::{Walk, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
@@ -27,6 +28,7 @@ pub(super) struct Tracer<'a> {
     in_image: &'a Geometry,
     /// What mirrored rays meet.
     in_reflections: &'a Geometry,
+    pub sharpness: Sharpness,
     /// Rays go on behind clear surfaces.
     pub clear: bool,
     /// Interiors have indices of refraction.
@@ -98,6 +100,7 @@ impl<'a> Tracer<'a> {
             geometry,
             in_image: geometry.in_image(),
             in_reflections: geometry.in_reflections(),
+            sharpness: Sharpness::of(world),
             clear: plan.simulates(Effect::Transparency),
             bends: plan.simulates(Effect::Refraction),
             filters_shadows: plan.simulates(Effect::ColoredShadows),
@@ -127,17 +130,13 @@ impl<'a> Tracer<'a> {
         loop {
             let mut seen = loop {
                 let Some(hit) = met_by.nearest_counted(&way.ray, &mut walk.counters.work) else {
-                    break sky::seen(
-                        self.world.sky.as_ref(),
-                        self.world.background,
-                        way.ray.direction,
-                    );
+                    break sky::seen(self.world, &self.sharpness, way.ray.direction);
                 };
                 let Stand { surface, paint, place } = self.stand(&way.ray, &hit);
                 let finish = place.finish;
                 let mut local = shade::local::<SHADOWS>(self, walk, &place);
                 if self.world.objects[hit.object as usize].double_illuminate {
-                    local += self.lit_behind::<SHADOWS>(walk, way.ray, &hit);
+                    local += self.lit_behind::<SHADOWS>(walk, way.ray, hit);
                 }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
@@ -192,7 +191,7 @@ impl<'a> Tracer<'a> {
         let object = &self.world.objects[hit.object as usize];
         let Material { pigment, finish } = &self.world.materials[object.material as usize];
         let normal = if hit.leaving { -surface.normal } else { surface.normal };
-        let paint = pigment::on_surface(pigment, self.world, ray, hit, &surface);
+        let paint = pigment::on_surface(self, pigment, ray, hit, &surface);
         let place = Place {
             finish,
             color: paint.rgb,
@@ -209,8 +208,8 @@ impl<'a> Tracer<'a> {
     /// few: all is found once more, and nothing is kept at hand for it elsewhere.
     #[cold]
     #[inline(never)]
-    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: &Hit) -> Rgb {
-        let Stand { surface, place, .. } = self.stand(&ray, hit);
+    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: Hit) -> Rgb {
+        let Stand { surface, place, .. } = self.stand(&ray, &hit);
         shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-place.normal))
     }
 
@@ -355,7 +354,7 @@ impl<'a> Tracer<'a> {
             Pigment::Color(color) => *color,
             patterned @ Pigment::Patterned { .. } => {
                 let surface = geometry::surface(self.world, ray, hit);
-                pigment::on_surface(patterned, self.world, ray, hit, &surface)
+                pigment::on_surface(self, patterned, ray, hit, &surface)
             }
         };
         color.transmittance()

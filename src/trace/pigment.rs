@@ -3,6 +3,7 @@
 //! **In:** a [`Pigment`], a point in its texture's space. **Out:** a colour between those of its
 //! map.
 
+use super::path::Tracer;
 use crate::color::Color;
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
@@ -13,77 +14,119 @@ use crate::world::{Pigment, World};
 /// The colour of the object's surface where the ray hit it.
 #[inline(always)]
 pub(super) fn on_surface(
+    tracer: &Tracer,
     pigment: &Pigment,
-    world: &World,
     ray: &Ray,
     hit: &Hit,
     surface: &SurfacePoint,
 ) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
-        Pigment::Patterned { .. } => {
-            let (point, error) = texture_point(world, ray, hit, surface);
-            at(pigment, point, error)
-        }
+        Pigment::Patterned { .. } => patterned(tracer, pigment, *ray, *hit, *surface),
     }
 }
 
-/// The colour at a point in the texture's space, which may be off by `error` along each axis.
+/// The ray and what it met come as copies: pointed to, they would lie in memory for surfaces of one
+/// colour, too.
 #[inline(never)]
-pub(super) fn at(pigment: &Pigment, point: Vector, error: Vector) -> Color {
+fn patterned(
+    tracer: &Tracer,
+    pigment: &Pigment,
+    ray: Ray,
+    hit: Hit,
+    surface: SurfacePoint,
+) -> Color {
+    let world = tracer.world;
+    let is_sharp = tracer.sharpness.on_surface(&ray, &hit, &surface);
+    let error = || texture_error(world, &ray, &hit, &surface);
+    at(pigment, texture_point(world, &hit, &surface), is_sharp, error)
+}
+
+/// The colour at a point in the texture's space, which may be off by `error` along each axis. That
+/// is only asked after near a seam of the pattern or of its map, if the point is sharp (see
+/// [`super::sharpness`]).
+#[inline(always)]
+pub(super) fn at(
+    pigment: &Pigment,
+    point: Vector,
+    is_sharp: bool,
+    error: impl FnOnce() -> Vector,
+) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
         Pigment::Patterned { pattern, pattern_from_texture: map, map: colors } => {
-            look_up(colors, pattern.value(map.point(point), map.point_error(point, error)))
+            let place = map.point(point);
+            let off_seams = if is_sharp { pattern.value_off_seams(place) } else { None };
+            if let Some(color) = off_seams.and_then(|measured| look_up(colors, measured)) {
+                return color;
+            }
+            let Measured { value, error } = pattern.value(place, map.point_error(point, error()));
+            let value = entry_at(colors, value, error).unwrap_or(value);
+            look_up(colors, Measured { value, error: 0.0 }).unwrap_or(Color::BLACK)
         }
     }
 }
 
-/// The hit in the texture's space, and how far it may be off along each axis; on a flat face the
-/// coordinates that are constant there are taken as `lower` computed them, not from the rounded hit.
-#[inline(never)]
-fn texture_point(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> (Vector, Vector) {
+/// The hit in the texture's space; on a flat face the coordinates that are constant there are taken
+/// as `lower` computed them, not from the rounded hit.
+#[inline]
+fn texture_point(world: &World, hit: &Hit, surface: &SurfacePoint) -> Vector {
     let object = &world.objects[hit.object as usize];
     let mut point = surface.point;
-    let mut error = geometry::spread(world, ray, hit, surface);
     if let Some(map) = object.texture_from_world {
-        let map = &world.texture_maps[map as usize];
-        (point, error) = (map.point(point), map.point_error(point, error));
+        point = world.texture_maps[map as usize].point(point);
     }
     if let Some(first) = object.faces {
         let constants = world.faces[(first + surface.face) as usize].0;
         for (axis, constant) in constants.into_iter().enumerate() {
-            if let Some(constant) = constant {
-                (point[axis], error[axis]) = (constant, 0.0);
-            }
+            point[axis] = constant.unwrap_or(point[axis]);
         }
     }
-    (point, error)
+    point
 }
 
-/// The map's colour for a value: linear between entries, the nearest entry's outside of them. A
-/// value that its error does not tell from an entry's is that. Of several entries with exactly
-/// the value the first counts, but at the map's end the last.
-///
-/// **Source:** POV-Ray 3.7's behaviour, measured on planes of constant gradient.
-fn look_up(map: &[(f64, Color)], Measured { value, error }: Measured) -> Color {
-    let near = map.partition_point(|entry| entry.0 < value - error);
-    let value = match map.get(near) {
-        Some(entry) if entry.0 <= value + error => entry.0,
-        _ => value,
-    };
-    match (map.first(), map.last()) {
-        (_, Some(last)) if value >= last.0 => last.1,
-        (Some(first), _) if value <= first.0 => first.1,
-        _ => {
-            let above = map.partition_point(|entry| entry.0 < value);
-            match map.get(above.wrapping_sub(1)..=above) {
-                Some([low, high]) => low.1.lerp(high.1, (value - low.0) / (high.0 - low.0)),
-                // Only a map without entries, or a value that is no number, comes here.
-                _ => Color::BLACK,
-            }
+/// How far [`texture_point`] may be off along each axis.
+#[cold]
+#[inline(never)]
+fn texture_error(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
+    let object = &world.objects[hit.object as usize];
+    let mut error = geometry::spread(world, ray, hit, surface);
+    if let Some(map) = object.texture_from_world {
+        error = world.texture_maps[map as usize].point_error(surface.point, error);
+    }
+    if let Some(first) = object.faces {
+        let constants = world.faces[(first + surface.face) as usize].0;
+        for (axis, constant) in constants.into_iter().enumerate() {
+            error[axis] = if constant.is_some() { 0.0 } else { error[axis] };
         }
     }
+    error
+}
+
+/// The first entry of the map that the value's error does not tell it from: the value is that.
+fn entry_at(map: &[(f64, Color)], value: f64, error: f64) -> Option<f64> {
+    let near = map.partition_point(|entry| entry.0 < value - error);
+    map.get(near).map(|entry| entry.0).filter(|&entry| entry <= value + error)
+}
+
+/// The map's colour for a value: linear between entries, the nearest entry's outside of them. Of
+/// several entries with exactly the value the first counts, but at the map's end the last. `None`
+/// where the value's error may not tell it from an entry's, or it is no number.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured on planes of constant gradient.
+#[inline(always)]
+fn look_up(map: &[(f64, Color)], Measured { value, error }: Measured) -> Option<Color> {
+    let (first, last) = (map.first()?, map.last()?);
+    if value - error >= last.0 {
+        return Some(last.1);
+    }
+    if value + error <= first.0 {
+        return Some(first.1);
+    }
+    let above = map.partition_point(|entry| entry.0 < value);
+    let [low, high] = map.get(above.wrapping_sub(1)..=above)? else { return None };
+    let is_told = error == 0.0 || (value - error > low.0 && value + error < high.0);
+    is_told.then(|| low.1.lerp(high.1, (value - low.0) / (high.0 - low.0)))
 }
 
 #[cfg(test)]
@@ -91,7 +134,7 @@ mod tests {
     use super::*;
     use crate::color::Rgb;
 
-    fn look_up(map: &[(f64, Color)], value: f64) -> Color {
+    fn look_up(map: &[(f64, Color)], value: f64) -> Option<Color> {
         super::look_up(map, Measured { value, error: 0.0 })
     }
 
@@ -102,33 +145,41 @@ mod tests {
     #[test]
     fn a_map_is_linear_between_entries_and_constant_outside() {
         let map = [(0.2, gray(1.0)), (0.6, gray(3.0))];
-        let seen = [0.0, 0.2, 0.4, 0.6, 1.0].map(|v| look_up(&map, v).rgb.red);
-        assert_eq!(seen, [1.0, 1.0, 2.0, 3.0, 3.0]);
+        let seen = [0.0, 0.2, 0.4, 0.6, 1.0].map(|v| look_up(&map, v).map(|c| c.rgb.red));
+        assert_eq!(seen, [1.0, 1.0, 2.0, 3.0, 3.0].map(Some));
     }
 
     #[test]
     fn two_entries_of_one_value_make_a_jump() {
         let map = [(0.0, gray(0.0)), (0.5, gray(1.0)), (0.5, gray(5.0)), (1.0, gray(6.0))];
-        assert_eq!(look_up(&map, 0.5), gray(1.0));
-        assert!(look_up(&map, 0.5000001).rgb.red >= 5.0);
-        assert_eq!(look_up(&map[..3], 0.5), gray(5.0));
+        assert_eq!(look_up(&map, 0.5), Some(gray(1.0)));
+        assert!(look_up(&map, 0.5000001).is_some_and(|color| color.rgb.red >= 5.0));
+        assert_eq!(look_up(&map[..3], 0.5), Some(gray(5.0)));
     }
 
     #[test]
     fn a_value_that_may_be_at_a_jump_is_at_it() {
         let map = [(0.0, gray(0.0)), (0.5, gray(1.0)), (0.5, gray(5.0)), (1.0, gray(6.0))];
         for off in [-9e-13, 0.0, 9e-13] {
-            let value = Measured { value: 0.5 + off, error: 1e-12 };
-            assert_eq!(super::look_up(&map, value), gray(1.0), "{off}");
+            assert_eq!(entry_at(&map, 0.5 + off, 1e-12), Some(0.5), "{off}");
         }
-        let beyond = Measured { value: 0.5 + 2e-12, error: 1e-12 };
-        assert!(super::look_up(&map, beyond).rgb.red >= 5.0);
+        assert_eq!(entry_at(&map, 0.5 + 2e-12, 1e-12), None);
+    }
+
+    #[test]
+    fn a_value_that_may_be_at_an_entry_has_no_colour_before_that_is_known() {
+        let map = [(0.2, gray(0.0)), (0.5, gray(1.0)), (0.5, gray(5.0)), (0.8, gray(6.0))];
+        for value in [0.0, 0.15, 0.19, 0.21, 0.3, 0.49, 0.51, 0.6, 0.79, 0.81, 0.9] {
+            let told = super::look_up(&map, Measured { value, error: 0.02 });
+            let is_near = map.iter().any(|entry| (entry.0 - value).abs() < 0.02);
+            assert_eq!(told, look_up(&map, value).filter(|_| !is_near), "{value}");
+        }
     }
 
     #[test]
     fn a_map_of_one_entry_is_that_colour_and_nothing_breaks_on_no_number() {
-        assert_eq!(look_up(&[(0.3, gray(2.0))], 0.9), gray(2.0));
-        assert_eq!(look_up(&[(0.3, gray(2.0)), (0.4, gray(3.0))], f64::NAN), Color::BLACK);
-        assert_eq!(look_up(&[], 0.5), Color::BLACK);
+        assert_eq!(look_up(&[(0.3, gray(2.0))], 0.9), Some(gray(2.0)));
+        assert_eq!(look_up(&[(0.3, gray(2.0)), (0.4, gray(3.0))], f64::NAN), None);
+        assert_eq!(look_up(&[], 0.5), None);
     }
 }

@@ -1,12 +1,10 @@
 //! What a ray sees that leaves the scene.
 
 use super::pigment;
+use super::sharpness::{ROUNDED, Sharpness};
 use crate::color::Rgb;
 use crate::math::Vector;
-use crate::world::Sky;
-
-/// What rounding may add to the components of a direction of length 1.
-const ROUNDED: Vector = Vector::splat(4.0 * f64::EPSILON);
+use crate::world::World;
 
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
 /// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
@@ -14,10 +12,10 @@ const ROUNDED: Vector = Vector::splat(4.0 * f64::EPSILON);
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured for each kind of colour, alone and layered.
 #[inline(never)]
-pub(super) fn seen(sky: Option<&Sky>, background: Rgb, direction: Vector) -> Rgb {
-    let pigments = sky.iter().flat_map(|sky| &sky.pigments);
-    pigments.fold(background, |below, pigment| {
-        let top = pigment::at(pigment, direction, ROUNDED);
+pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
+    let pigments = world.sky.iter().flat_map(|sky| &sky.pigments);
+    pigments.zip(&sharpness.sky).fold(world.background, |below, (pigment, &is_sharp)| {
+        let top = pigment::at(pigment, direction, is_sharp, || Vector::splat(ROUNDED));
         if top.filter == 0.0 && top.transmit == 0.0 {
             return top.rgb;
         }
@@ -30,7 +28,7 @@ pub(super) fn seen(sky: Option<&Sky>, background: Rgb, direction: Vector) -> Rgb
 mod tests {
     use super::*;
     use crate::color::Color;
-    use crate::world::Pigment;
+    use crate::world::{Pigment, Sky};
 
     #[test]
     fn pigments_cover_what_lies_below_by_filter_and_transmit() {
@@ -38,7 +36,8 @@ mod tests {
         let rgb = Rgb::new(0.2, 0.4, 0.6);
         let see = |colors: &[Color]| {
             let pigments = colors.iter().copied().map(Pigment::Color).collect();
-            seen(Some(&Sky { pigments }), background, Vector::Z)
+            let world = World { background, sky: Some(Sky { pigments }), ..World::default() };
+            seen(&world, &Sharpness::of(&world), Vector::Z)
         };
         let close =
             |a: Rgb, b: [f64; 3]| a.components().iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
