@@ -88,9 +88,7 @@ impl Evaluator<'_> {
                 }
             }
             ExpressionKind::Word(word) => match ParameterName::of_word(word) {
-                Some(name) => {
-                    formula.named(name).ok_or(()).or_else(|()| Err(self.no_parameter(here, span)))
-                }
+                Some(name) => formula.named(name).ok_or_else(|| self.no_parameter(here, span)),
                 None => self.constant(here, formula, id),
             },
             ExpressionKind::Unary(operator, operand) => {

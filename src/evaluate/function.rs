@@ -82,7 +82,7 @@ impl Evaluator<'_> {
             let site = token.here.site(token.span);
             return Ok(Value::Poison(Poison { word: Word::Function, site }));
         };
-        let value = self.block(token, Word::Function, |evaluator| {
+        self.block(token, Word::Function, |evaluator| {
             let Some(first) = evaluator.next() else {
                 return Err(evaluator.expected("a formula", None, (&token.here, token.span)));
             };
@@ -121,8 +121,7 @@ impl Evaluator<'_> {
                 }
                 Err(poison) => Ok(Value::Poison(poison)),
             }
-        });
-        value
+        })
     }
 
     /// The names between the parentheses; without any, `x`, `y` and `z`. `None` before a number.
