@@ -164,7 +164,13 @@ impl Evaluator<'_> {
                 .at(parameter.span, "the second of them")
                 .help("`u` and `x` are one parameter, and so are `v` and `y`"),
                 None => {
-                    Diagnostic::new(Code::ExpectedExpression, "a parameter of a function is a name")
+                    let message = match parameter.kind {
+                        ExpressionKind::Word(word) => {
+                            format!("`{}` is a word of the language, and no name", word.name())
+                        }
+                        _ => "a parameter of a function is a name".to_owned(),
+                    };
+                    Diagnostic::new(Code::ExpectedExpression, message)
                         .at(parameter.span, "expected a name, or `x`, `y`, `z`, `u`, `v`")
                 }
             };

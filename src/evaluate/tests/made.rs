@@ -128,6 +128,8 @@ facts! {
         "#declare F = function(a,b) { a+b } P(F(1))" => "this function takes 2 arguments, and is given 1";
     what_has_no_value_is_told:
         "#declare F = function(a) { sqrt(-a) } P(F(1))" => "this function has no finite value here";
+    a_parameter_named_by_a_word_is_told:
+        "#declare F = function(t) { t + 1 }" => "`t` is a word of the language, and no name";
     two_parameters_of_one_name_are_told:
         "#declare F = function(x,u) { x+u }" => "two parameters of this function have one name";
 }
