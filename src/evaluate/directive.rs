@@ -5,7 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::{
     DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target, Test,
 };
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::scope::Owner;
 use super::stream::{Token, TokenKind};
@@ -206,12 +206,17 @@ impl Evaluator<'_> {
     pub(super) fn run_items(&mut self) {
         while let Some(Token { kind, here, span }) = self.next() {
             match kind {
-                TokenKind::Expression(id) => self.run_expression(&here, id),
+                TokenKind::Expression(id) => match self.unknown_name(&here, id) {
+                    Some(symbol) => drop(self.undeclared_among(&here, symbol, span, |word| {
+                        word.family() != Family::Directive
+                    })),
+                    None => self.run_expression(&here, id),
+                },
                 TokenKind::Block(contents) => {
                     self.inside_block(&here, contents, span, Self::run_items);
                 }
                 TokenKind::Entry(items) => self.inside(&here, items, Self::run_items),
-                TokenKind::Word(crate::vocabulary::Word::Function) => self.skip_function(),
+                TokenKind::Word(Word::Function) => self.skip_function(),
                 TokenKind::Word(_)
                 | TokenKind::Comma
                 | TokenKind::Semicolon

@@ -22,10 +22,11 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod undeclared;
 pub mod value;
 mod vector;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
@@ -223,6 +224,8 @@ struct Evaluator<'a> {
     says_gamma: bool,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
+    /// Other words in the same item that are not built either, by the place of the first.
+    beside: BTreeMap<Span, Vec<Poison>>,
     /// An include was not found: what is missing now may have been declared there.
     lacks_include: bool,
     /// Where a part was last found missing: what else is missing there says no more.
@@ -316,6 +319,7 @@ impl<'a> Evaluator<'a> {
             says_version: false,
             says_gamma: false,
             poison: None,
+            beside: BTreeMap::new(),
             lacks_include: false,
             missing_at: None,
             halted: false,

@@ -5,7 +5,7 @@
 use crate::color;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::vocabulary::Family;
+use crate::vocabulary::{Family, Word};
 
 use super::super::Evaluator;
 use super::Place;
@@ -62,6 +62,25 @@ impl Evaluator<'_> {
         } else {
             diagnostic.help("it belongs to a colour: `pigment { rgb 1 transmit 0.5 }`")
         }
+    }
+}
+
+/// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.
+pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
+    match (place.word?, name.to_lowercase().as_str()) {
+        (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
+            Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
+        }
+        (Word::Camera, "aspect" | "aspect_ratio") => {
+            Some("the picture's width and height give its shape, or `right` does")
+        }
+        (Word::Camera, "near" | "far" | "znear" | "zfar" | "clip_start" | "clip_end") => {
+            Some("a camera sees what is before it at any distance: leave this out")
+        }
+        (Word::Camera, "lens" | "focal" | "focal_length" | "zoom") => {
+            Some("`angle` gives the field of view, in degrees")
+        }
+        _ => None,
     }
 }
 

@@ -20,6 +20,7 @@ mod skip;
 mod texture;
 mod transform;
 mod unexpected;
+mod unknown;
 
 pub(super) use habit::color_of_string;
 
@@ -123,7 +124,10 @@ impl Evaluator<'_> {
     pub(super) fn value_of(&mut self, token: &Token) -> Outcome<Value> {
         let outer = self.poison.take();
         let value = match &token.kind {
-            TokenKind::Expression(id) => self.expression(&token.here, *id),
+            TokenKind::Expression(id) => match self.misspelt_block(token, *id) {
+                Some(reported) => Err(reported),
+                None => self.expression(&token.here, *id),
+            },
             TokenKind::Literal(value) => Ok(value.clone()),
             TokenKind::Word(word) => self.word_block(token, *word),
             TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
@@ -223,7 +227,12 @@ impl Evaluator<'_> {
                     here.site(Span::new(span.file, start, start + text.len()))
                 });
                 self.insides.push(inside);
+                // What stands in here is no part of what is not built before it.
+                let outer = self.poison.take();
                 let outcome = self.inside_block(&here, contents, span, consumer);
+                if let Some(inner) = std::mem::replace(&mut self.poison, outer) {
+                    self.set_poison(inner);
+                }
                 self.insides.pop();
                 self.openers.pop();
                 outcome

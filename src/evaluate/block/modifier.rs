@@ -1,7 +1,7 @@
 //! What follows an object's parts: its transforms, textures, interior and flags, in written order.
 
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
@@ -17,8 +17,8 @@ impl Evaluator<'_> {
         modifiers: &mut Vec<Modifier>,
     ) -> Outcome<()> {
         let mut textured = used.is_some_and(|used| self.made[used.index()].textured);
-        let place = match word {
-            Word::Union => Place::csg(word),
+        let place = match word.family() {
+            Family::Csg => Place::csg(word),
             _ => Place::shape(word),
         };
         let mut failed = false;

@@ -180,6 +180,8 @@ fn is_part(word: Word) -> bool {
 pub(super) fn home(word: Word) -> Option<Word> {
     match word.family() {
         _ if word.block().is_some() => word.block(),
+        // Reserved, and nobody knows what for.
+        _ if word == Word::Size => None,
         Family::FinishItem => Some(Word::Finish),
         Family::Color | Family::Pattern | Family::PatternItem => Some(Word::Pigment),
         Family::Camera => Some(Word::Camera),
