@@ -245,6 +245,8 @@ struct Evaluator<'a> {
     openers: Vec<Span>,
     /// What stands between their braces, where it is written as one text.
     insides: Vec<Option<Site>>,
+    /// Whether an expression is an angle in radians, as far as lints have asked.
+    in_radians: HashMap<Span, bool>,
     /// What `trace` and its kin have looked at.
     probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
 }
@@ -330,6 +332,7 @@ impl<'a> Evaluator<'a> {
             reports: 0,
             openers: Vec::new(),
             insides: Vec::new(),
+            in_radians: HashMap::new(),
             probes: HashMap::new(),
         }
     }

@@ -2,13 +2,14 @@
 //!
 //! **Source:** POV-Ray manual, section 3.3.1.3 "Specifying Colors".
 
-use crate::color::Color;
+use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
+use super::Given;
 
 impl Evaluator<'_> {
     /// The colour that starts with `token`, a word of the colour family.
@@ -31,17 +32,7 @@ impl Evaluator<'_> {
                 }
                 _ => {
                     let given = self.given(token, "a colour")?;
-                    match given.value.as_color() {
-                        Some(color) => color,
-                        None => {
-                            return Err(self.wrong_type(
-                                &given.here,
-                                given.span,
-                                "a colour",
-                                &given.value,
-                            ));
-                        }
-                    }
+                    self.plain_color(&given, "a colour")?
                 }
             },
             Word::Rgb | Word::Rgbf | Word::Rgbt | Word::Rgbft => self.color_vector(token, word)?,
@@ -56,6 +47,15 @@ impl Evaluator<'_> {
             }
         };
         self.color_components(color)
+    }
+
+    /// A value that stands for a colour without a word before it.
+    pub(super) fn plain_color(&mut self, given: &Given<Value>, wanted: &str) -> Outcome<Color> {
+        let Some(color) = given.value.as_color() else {
+            return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
+        };
+        self.lint_color(given, color.rgb);
+        Ok(color)
     }
 
     /// `rgb`, `rgbf`, `rgbt` or `rgbft` and its numbers.
@@ -103,8 +103,9 @@ impl Evaluator<'_> {
             all.swap(3, 4);
         }
         let [red, green, blue, filter, transmit] = all;
-        self.lint_color_range(&given.here, given.span, [red, green, blue]);
-        Ok(Color { rgb: crate::color::Rgb::new(red, green, blue), filter, transmit })
+        let rgb = Rgb::new(red, green, blue);
+        self.lint_color(&given, rgb);
+        Ok(Color { rgb, filter, transmit })
     }
 
     /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
@@ -124,8 +125,7 @@ impl Evaluator<'_> {
     /// A colour that is written by its components alone.
     fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
         let color = self.color_components(color)?;
-        let rgb = [color.rgb.red, color.rgb.green, color.rgb.blue];
-        self.lint_color_range(&first.here, first.span, rgb);
+        self.lint_color_range(&first.here, first.span, color.rgb);
         Ok(color)
     }
 

@@ -8,6 +8,7 @@ use crate::scene::{
 };
 use crate::vocabulary::Word;
 
+use super::super::lint::Cone;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
@@ -107,6 +108,7 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let mut failed = false;
         let mut written = Written::of(light.as_deref(), self.options.dialect);
+        let mut cone = Cone::default();
         while let Some(token) = self.next() {
             let outcome = match token.kind {
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
@@ -116,17 +118,23 @@ impl Evaluator<'_> {
                 }
                 TokenKind::Word(Word::PointAt) => {
                     written.last = Some(token.clone());
+                    cone.word(&token);
                     self.vector_after(&token, "a point").map(|given| written.point_at = given.value)
                 }
-                TokenKind::Word(Word::Radius) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.radius = Some(given.value)),
-                TokenKind::Word(Word::Falloff) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.falloff = Some(given.value)),
-                TokenKind::Word(Word::Tightness) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.tightness = given.value),
+                TokenKind::Word(word @ (Word::Radius | Word::Falloff | Word::Tightness)) => {
+                    cone.word(&token);
+                    self.number_after(&token, "a number").map(|given| match word {
+                        Word::Tightness => written.tightness = given.value,
+                        Word::Radius => {
+                            written.radius = Some(given.value);
+                            cone.radius = Some(given);
+                        }
+                        _ => {
+                            written.falloff = Some(given.value);
+                            cone.falloff = Some(given);
+                        }
+                    })
+                }
                 TokenKind::Word(Word::FadeDistance) => self
                     .number_after(&token, "a distance")
                     .map(|given| written.fade.distance = given.value.abs()),
@@ -151,14 +159,18 @@ impl Evaluator<'_> {
             };
             failed |= outcome.is_err();
         }
-        if let Some(light) = light
-            && let Some(token) = written.spend(light)
-        {
-            let diagnostic =
-                Diagnostic::new(Code::ZeroVector, "this light points at its own place")
-                    .at(token.span, "expected a `point_at` other than the light's place");
-            self.report(&token.here, diagnostic);
-            failed = true;
+        if let Some(light) = light {
+            if let Some(token) = written.spend(light) {
+                let diagnostic =
+                    Diagnostic::new(Code::ZeroVector, "this light points at its own place")
+                        .at(token.span, "expected a `point_at` other than the light's place");
+                self.report(&token.here, diagnostic);
+                failed = true;
+            }
+            // What failed may be the word that is missing.
+            if !failed {
+                self.lint_light(&cone, &light.kind);
+            }
         }
         if failed { Err(Reported) } else { Ok(()) }
     }

@@ -34,6 +34,7 @@ use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 pub(in crate::evaluate) use object::Made;
+pub(in crate::evaluate) use part::Given;
 pub(in crate::evaluate) use place::Place;
 
 impl Evaluator<'_> {

@@ -5,6 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::ObjectId;
 use crate::source::{Site, Span};
+use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -13,10 +14,12 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
-pub(super) struct Given<T> {
+pub(in crate::evaluate) struct Given<T> {
     pub value: T,
     pub span: Span,
     pub here: Here,
+    /// How it is written, where that is one expression.
+    pub expression: Option<ExpressionId>,
 }
 
 impl<T> Given<T> {
@@ -24,8 +27,8 @@ impl<T> Given<T> {
         self.here.site(self.span)
     }
 
-    fn with<U>(self, value: U) -> Given<U> {
-        Given { value, span: self.span, here: self.here }
+    pub fn with<U>(self, value: U) -> Given<U> {
+        Given { value, span: self.span, here: self.here, expression: self.expression }
     }
 }
 
@@ -90,16 +93,16 @@ impl Evaluator<'_> {
             return Err(self.report(&after.here, diagnostic));
         }
         let Some(token) = self.next() else { return Err(Reported) };
-        let value = match &token.kind {
-            TokenKind::Expression(id) => self.expression(&token.here, *id)?,
-            TokenKind::Literal(value) => value.clone(),
+        let (value, expression) = match &token.kind {
+            TokenKind::Expression(id) => (self.expression(&token.here, *id)?, Some(*id)),
+            TokenKind::Literal(value) => (value.clone(), None),
             _ => return Err(Reported),
         };
         if let Value::Poison(poison) = value {
             self.set_poison(poison);
             return Err(Reported);
         }
-        Ok(Given { value, span: token.span, here: token.here })
+        Ok(Given { value, span: token.span, here: token.here, expression })
     }
 
     pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
@@ -187,16 +190,17 @@ impl Evaluator<'_> {
             && let Some(token) = self.next()
         {
             let color = self.color_from(&token)?;
-            return Ok(Given { value: color, span: token.span, here: token.here });
+            return Ok(Given {
+                value: color,
+                span: token.span,
+                here: token.here,
+                expression: None,
+            });
         }
         let given = self.given(after, wanted)?;
-        match given.value.as_color() {
-            Some(color) => {
-                let color = self.color_components(color)?;
-                Ok(given.with(color))
-            }
-            None => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
-        }
+        let color = self.plain_color(&given, wanted)?;
+        let color = self.color_components(color)?;
+        Ok(given.with(color))
     }
 
     /// Reports a number outside of what its place allows.
@@ -219,6 +223,7 @@ impl Evaluator<'_> {
         if given.value < 0.0 {
             return Err(self.out_of_range(&given, word, "0 or more"));
         }
+        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 
@@ -227,6 +232,7 @@ impl Evaluator<'_> {
         if given.value <= 0.0 {
             return Err(self.out_of_range(&given, word, "more than 0"));
         }
+        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 }

@@ -66,7 +66,9 @@ impl Evaluator<'_> {
         let site = token.here.site(token.span);
         let opener = token.clone();
         self.block(token, Word::Background, |evaluator| {
-            let color = evaluator.color_after(&opener, "a colour")?.value;
+            let given = evaluator.color_after(&opener, "a colour")?;
+            evaluator.lint_background(&given);
+            let color = given.value;
             while let Some(token) = evaluator.next() {
                 evaluator.unexpected(&token, Place::BACKGROUND);
             }
