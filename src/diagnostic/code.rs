@@ -103,6 +103,7 @@ codes! {
     SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant";
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
     UnlikelyFinish "unlikely-finish" lint "a surface takes light away, or mirrors more than it gets";
+    UnlikelyLight "unlikely-light" lint "a word of a light does nothing, or hardly what is meant";
     TooClear "too-clear" lint "`filter` and `transmit` come to more than 1";
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";

@@ -146,31 +146,15 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A camera's angle in degrees. Of less than π, and with a fraction, it is rather one in radians than
-    /// that of a telescope.
-    pub(super) fn lint_camera_angle(&mut self, here: &Here, span: Span, degrees: f64) {
-        let text = self.sources.text(span);
-        let literal = text.chars().all(|c| c.is_ascii_digit() || c == '.');
-        if !(literal && degrees.fract() != 0.0 && (0.2..3.2).contains(&degrees)) {
-            return self.lint_degrees(here, span, &[degrees]);
-        }
-        let meant = degrees.to_degrees();
-        let diagnostic = Diagnostic::new(
-            Code::SuspiciousUnit,
-            "this angle looks like radians, and is taken as degrees",
-        )
-        .at(span, format!("{degrees} degrees: the view of a telescope"))
-        .help(format!("write degrees, or `degrees({text})`, which is {meant:.1}"));
-        self.report(here, diagnostic);
-    }
-
-    /// A colour is 0 to 1; this one looks like 0 to 255.
+    /// A colour is 0 to 1; this one looks like 0 to 255. A light may be far brighter than 1, and a colour
+    /// that is declared may be for one: there it takes more to say so, and nothing is mended.
     pub(super) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: [f64; 3]) {
-        let whole = rgb.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
-        let largest = rgb.iter().fold(0.0f64, |most, c| most.max(*c));
-        // Lights may be brighter than 1, and a grey of whole numbers may be meant so; not on a surface.
-        let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
-        if !(whole && largest >= 16.0) || gray && largest != 255.0 && !self.in_pigment() {
+        let on_surface = self.in_pigment();
+        let looks = match on_surface {
+            true => whole_up_to_255(rgb) && largest(rgb) >= 16.0,
+            false => looks_like_bytes(rgb),
+        };
+        if !looks {
             return;
         }
         let text = self.sources.text(span);
@@ -186,19 +170,21 @@ impl Evaluator<'_> {
             "this colour looks as if written as 0 to 255; colours are 0 to 1",
         )
         .at(span, "far brighter than white")
-        .help(format!("write `{divided}`"));
-        if written == text {
+        .help(match on_surface {
+            true => format!("write `{divided}`"),
+            false => format!("write `{divided}`, if it is no light of that strength"),
+        });
+        if written == text && on_surface {
             diagnostic = diagnostic.fix(span, divided);
         }
         self.report(here, diagnostic);
     }
 
-    /// Whether what is read now is the colour of a surface.
+    /// Whether what is read now is a colour that is seen as it is, and not a light's.
     fn in_pigment(&self) -> bool {
         let word = |span: &Span| self.sources.text(*span);
-        self.openers
-            .last()
-            .is_some_and(|span| matches!(word(span), "pigment" | "color_map" | "colour_map"))
+        let surface = |word| matches!(word, "pigment" | "color_map" | "colour_map" | "background");
+        self.openers.last().is_some_and(|span| surface(word(span)))
     }
 
     /// A `checker` with one of its two colours.
@@ -239,4 +225,20 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
         self.report(here, diagnostic);
     }
+}
+
+fn largest(rgb: [f64; 3]) -> f64 {
+    rgb.iter().fold(0.0, |most, c| most.max(*c))
+}
+
+fn whole_up_to_255(rgb: [f64; 3]) -> bool {
+    rgb.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c))
+}
+
+/// Whether these are rather bytes than the strength of a light: that is grey or a round number.
+fn looks_like_bytes(rgb: [f64; 3]) -> bool {
+    let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+    let round = rgb.iter().all(|c| c % 10.0 == 0.0);
+    let most = largest(rgb);
+    whole_up_to_255(rgb) && most >= 128.0 && (most == 255.0 || !(gray || round))
 }

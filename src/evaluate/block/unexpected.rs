@@ -3,14 +3,14 @@
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
-use crate::vocabulary::{Dialect, Family, Word};
+use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::super::Evaluator;
 use super::super::report::{standard_include, word_like};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::Place;
-use super::place::home;
+use super::place::{home, is_at_top_level};
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
@@ -115,7 +115,13 @@ impl Evaluator<'_> {
             Code::ExtraPart,
             format!("{kind} has no meaning here {}", place.name()),
         )
-        .at(token.span, "expected a word of this block, or its end");
+        .at(
+            token.span,
+            match place.word {
+                Some(_) => "expected a word of this block, or its end",
+                None => "expected an object, a light, a camera or another item of the scene",
+            },
+        );
         let text = self.sources.text(token.span).to_owned();
         let of_object = place.families.contains(&Family::Modifier);
         let of_texture = of_object || matches!(place.word, Some(Word::Texture | Word::Default));
@@ -183,7 +189,15 @@ impl Evaluator<'_> {
         if word.family() == Family::Directive {
             return self.directive_without_sign(token, word);
         }
-        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+        let diagnostic = if let Some(meant) = place.meant(word, has_block) {
+            let (meant, sentence) = (meant.name(), meant.sentence());
+            let message = format!("`{name}` has no meaning {}", place.name());
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, format!("did you mean `{meant}`?"))
+                .help(sentence.to_owned());
+            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
+        } else if let (Some(near), false) = (near, word.is_built()) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
@@ -204,8 +218,11 @@ impl Evaluator<'_> {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }
-                _ if Place::SCENE.holds(word) => "it belongs at the top level".to_owned(),
+                _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
+                None if !matches!(word.role(), Role::Statement) => {
+                    "it stands for a value, in expressions".to_owned()
+                }
                 None if place.word.is_none() => "it belongs in an object".to_owned(),
                 None => "it belongs elsewhere".to_owned(),
             };
@@ -280,6 +297,16 @@ impl Evaluator<'_> {
             Some(near) if !is_built(&near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))
                 .help(format!("`{near}` is not supported yet")),
+            // It would be the next mistake here.
+            Some(near) if here.is_none() => {
+                let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
+                match Word::from_name(&near).and_then(home) {
+                    Some(home) => {
+                        diagnostic.help(format!("`{near}` belongs in `{} {{ … }}`", home.name()))
+                    }
+                    None => diagnostic.help(format!("`{near}` belongs elsewhere")),
+                }
+            }
             Some(near) => diagnostic
                 .at(span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
