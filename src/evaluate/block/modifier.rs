@@ -27,7 +27,14 @@ impl Evaluator<'_> {
             match self.modifier(&token, used, modifiers, &mut textured) {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {
-                        modifiers.push(Modifier { kind, site: token.here.site(token.span) });
+                        let site = match kind {
+                            // With its `on`: a piece that can be taken out.
+                            ModifierKind::NoImage(_)
+                            | ModifierKind::NoReflection(_)
+                            | ModifierKind::DoubleIlluminate(_) => self.whole(&token),
+                            _ => token.here.site(token.span),
+                        };
+                        modifiers.push(Modifier { kind, site });
                     }
                 }
                 Some(Err(Reported)) => failed = true,

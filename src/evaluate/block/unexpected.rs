@@ -3,14 +3,14 @@
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::Place;
-use super::place::home;
+use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
 impl Evaluator<'_> {
@@ -195,7 +195,15 @@ impl Evaluator<'_> {
         if word.family() == Family::Directive {
             return self.directive_without_sign(token, word);
         }
-        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+        let diagnostic = if let Some(meant) = place.meant(word, has_block) {
+            let (meant, sentence) = (meant.name(), meant.sentence());
+            let message = format!("`{name}` has no meaning {}", place.name());
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, format!("did you mean `{meant}`?"))
+                .help(sentence.to_owned());
+            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
+        } else if let (Some(near), false) = (near, word.is_built()) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
@@ -216,8 +224,11 @@ impl Evaluator<'_> {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }
-                _ if Place::SCENE.holds(word) => "it belongs at the top level".to_owned(),
+                _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
+                None if !matches!(word.role(), Role::Statement) => {
+                    "it stands for a value, in expressions".to_owned()
+                }
                 None if place.word.is_none() => "it belongs in an object".to_owned(),
                 None => "it belongs elsewhere".to_owned(),
             };

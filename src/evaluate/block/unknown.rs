@@ -12,6 +12,7 @@ use super::super::undeclared::{is_built, is_likely, word_like};
 use super::super::{Evaluator, Reported, Symbol};
 use super::Place;
 use super::habit::custom;
+use super::place::home;
 
 impl Evaluator<'_> {
     /// A name that is no word of the language and was never declared, where a word should stand.
@@ -59,6 +60,14 @@ impl Evaluator<'_> {
             Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
         diagnostic = match near {
             Some("transmit") if is_foreign => self.clear_word(diagnostic, &name, span, place),
+            // It would be the next mistake here.
+            Some(near) if here.is_none() && is_built(near) => {
+                let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
+                diagnostic.help(match Word::from_name(near).and_then(home) {
+                    Some(home) => format!("`{near}` belongs in `{} {{ … }}`", home.name()),
+                    None => format!("`{near}` belongs elsewhere"),
+                })
+            }
             Some(near) => meant(diagnostic, span, near),
             None => match (custom, contextual(&name)) {
                 (Some(custom), _) => diagnostic.at(span, custom),

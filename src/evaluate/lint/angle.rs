@@ -92,24 +92,6 @@ impl Evaluator<'_> {
         !is_literal(self.sources.text(given.span)) && self.lint_degrees(given, &[given.value])
     }
 
-    /// A camera's angle in degrees. Of less than π, and with a fraction, it is rather one in radians than
-    /// that of a telescope.
-    pub(in crate::evaluate) fn lint_camera_angle(&mut self, given: &Given<f64>) {
-        let (text, degrees) = (self.sources.text(given.span), given.value);
-        if !(is_literal(text) && degrees.fract() != 0.0 && (0.2..3.2).contains(&degrees)) {
-            self.lint_degrees(given, &[degrees]);
-            return;
-        }
-        let meant = degrees.to_degrees();
-        let diagnostic = Diagnostic::new(
-            Code::SuspiciousUnit,
-            "this angle looks like radians, and is taken as degrees",
-        )
-        .at(given.span, format!("{degrees} degrees: the view of a telescope"))
-        .help(format!("write degrees, or `degrees({text})`, which is {meant:.1}"));
-        self.report(&given.here, diagnostic);
-    }
-
     /// An expression with its radians turned into degrees, where they are a factor or a component of it.
     fn in_degrees(&mut self, here: &Here, id: ExpressionId, is_number: bool) -> Option<String> {
         let unit = here.unit.clone();

@@ -41,14 +41,16 @@ impl Evaluator<'_> {
             return;
         }
         let gray = rgb.red == rgb.green && rgb.green == rgb.blue;
-        let is_likely = match self.openers.last().map(|span| self.sources.text(*span)) {
-            Some("pigment" | "color_map" | "colour_map" | "background" | "global_settings") => true,
-            // Lights may be brighter than 1, and a grey of whole numbers may be meant so.
-            _ if gray => largest == 255.0,
-            Some("light_source" | "finish") => largest >= LAMP,
-            _ => true,
-        };
-        if !is_likely {
+        let opener = self.openers.last().map(|span| self.sources.text(*span));
+        let is_seen = matches!(
+            opener,
+            Some("pigment" | "color_map" | "colour_map" | "background" | "global_settings")
+        );
+        // Lights may be far brighter than 1, and a colour that is declared may be for one: a grey or
+        // round numbers may be meant so.
+        let round = components.iter().all(|c| c % 10.0 == 0.0);
+        let is_bytes = largest == 255.0 || largest >= LAMP && !(gray || round);
+        if !(is_seen || is_bytes) {
             return;
         }
         let text = self.sources.text(span);
@@ -66,8 +68,11 @@ impl Evaluator<'_> {
             "this colour looks as if written as 0 to 255; colours are 0 to 1",
         )
         .at(span, "far brighter than white")
-        .help(format!("write `{divided}`"));
-        if written == text {
+        .help(match is_seen {
+            true => format!("write `{divided}`"),
+            false => format!("write `{divided}`, if it is no light of that strength"),
+        });
+        if written == text && is_seen {
             diagnostic = diagnostic.fix(span, divided);
         }
         self.report(here, diagnostic);

@@ -6,6 +6,7 @@ use crate::evaluate::Evaluator;
 use crate::evaluate::block::Given;
 use crate::evaluate::stream::Token;
 use crate::scene::{Beam, LightKind};
+use crate::vocabulary::Word;
 
 /// A typed `radius` or `falloff` of a beam in radians: from 6° to a right angle. Narrower ones in degrees are
 /// searchlights.
@@ -18,13 +19,24 @@ const WIDE: f64 = 0.4;
 pub(in crate::evaluate) struct Cone {
     /// `point_at`, `radius`, `falloff` and `tightness`, as written.
     words: Vec<Token>,
-    pub radius: Option<Given<f64>>,
-    pub falloff: Option<Given<f64>>,
+    radius: Option<Given<f64>>,
+    falloff: Option<Given<f64>>,
 }
 
 impl Cone {
     pub fn word(&mut self, token: &Token) {
         self.words.push(token.clone());
+    }
+
+    /// A word of the light and its number.
+    pub fn say(&mut self, token: &Token, word: Word, given: &Given<f64>) {
+        match word {
+            Word::Radius => self.radius = Some(given.clone()),
+            Word::Falloff => self.falloff = Some(given.clone()),
+            Word::Tightness => {}
+            _ => return,
+        }
+        self.word(token);
     }
 
     fn angles(&self) -> impl Iterator<Item = &Given<f64>> {
