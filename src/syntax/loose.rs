@@ -278,8 +278,11 @@ fn loosen_across(tokens: &mut [Token], text: &str, with_loose: bool) -> bool {
     if !whole && !among_all {
         return false;
     }
-    let parts = if whole { vec![0..tokens.len()] } else { unpaired };
-    for part in parts {
+    if whole {
+        unpaired.clear();
+        unpaired.push(0..tokens.len());
+    }
+    for part in unpaired {
         if let Some(loose) = loose_braces(&tokens[part.clone()]) {
             mark(&mut tokens[part], &loose);
         }
