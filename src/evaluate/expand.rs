@@ -20,6 +20,9 @@ use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
+/// How many brackets may stand around each of the macros that call each other, on average.
+const MOST_AROUND: u64 = 10;
+
 /// A macro as it was defined.
 #[derive(Debug)]
 pub(super) struct Macro {
@@ -148,6 +151,15 @@ impl Evaluator<'_> {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
             let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit";
+            return Err(self.too_many_calls(here, definition, span, message, help));
+        }
+        // What stands around a call in each of them counts too: it is all waiting.
+        let around = self.enclosures.len() as u64 + self.calculating;
+        let Limits { nesting, macro_depth, .. } = self.options.limits;
+        let most = u64::from(nesting) + MOST_AROUND * u64::from(macro_depth);
+        if around > most {
+            let message = format!("macros call each other inside of more than {most} brackets");
+            let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         let mut bound = Vec::with_capacity(definition.parameters.len());

@@ -44,7 +44,7 @@ use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
 use scope::{Scopes, Symbol};
-use stream::{Frame, Token};
+use stream::{Frame, Hold, Token};
 use value::{Poison, Value};
 
 /// What the caller sets.
@@ -85,7 +85,8 @@ pub struct Limits {
     pub macro_depth: u32,
     /// Includes inside each other.
     pub include_depth: u32,
-    /// Brackets and directives inside each other, in one file.
+    /// Brackets and directives inside each other, in one file; and `#declare`s that wait for the values
+    /// of each other.
     pub nesting: u32,
     /// Objects of the scene, declared ones included.
     pub objects: u64,
@@ -206,9 +207,9 @@ struct Evaluator<'a> {
     peeked: Option<Token>,
     /// Where the item stood that a consumer took last: the end of what it is reading.
     taken: Option<Site>,
-    /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
-    /// past its end runs nothing there, since that may already ask for the value.
-    hold: Option<usize>,
+    /// While the value of a `#declare` is read. Looking past its end runs nothing there, since that may
+    /// already ask for the value; what gave the value may end.
+    hold: Option<Hold>,
     /// Within [`Self::peek_on`].
     calls_wait: bool,
     /// Files already read and parsed, by the name they were found under.
@@ -233,6 +234,10 @@ struct Evaluator<'a> {
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// How many `#declare`s wait for their values.
+    declaring: u32,
+    /// How many expressions are being calculated inside each other.
+    calculating: u64,
     /// Bytes of what the scene holds beside its objects, about.
     stored: u64,
     /// Turns of all loops so far.
@@ -326,6 +331,8 @@ impl<'a> Evaluator<'a> {
             missing_at: None,
             halted: false,
             macro_depth: 0,
+            declaring: 0,
+            calculating: 0,
             stored: 0,
             turns: 0,
             misread: false,

@@ -50,6 +50,8 @@ macro_rules! facts {
     };
 }
 
+mod deep;
+
 facts! {
     a_lone_name_is_passed_by_reference:
         "#macro Inc(A) #declare A = A + 1; #end #declare N = 1; Inc(N) P(N)" => "2.000";

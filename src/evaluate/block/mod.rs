@@ -247,3 +247,21 @@ impl Evaluator<'_> {
 fn is_object_word(word: Word) -> bool {
     matches!(word, Word::Object | Word::LightSource | Word::LightGroup)
 }
+
+/// Words with a block that is a value.
+fn opens_value(word: Word) -> bool {
+    matches!(word.family(), Family::Shape | Family::Csg)
+        || is_object_word(word)
+        || matches!(
+            word,
+            Word::Texture
+                | Word::Pigment
+                | Word::Finish
+                | Word::Interior
+                | Word::Material
+                | Word::ColorMap
+                | Word::TransformWord
+                | Word::Camera
+                | Word::SkySphere
+        )
+}

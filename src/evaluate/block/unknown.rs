@@ -9,10 +9,10 @@ use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
-use super::super::{Evaluator, Reported, Symbol};
-use super::Place;
+use super::super::{Evaluator, Outcome, Reported, Symbol};
 use super::habit::custom;
 use super::place::home;
+use super::{Place, opens_value};
 
 impl Evaluator<'_> {
     /// A name that is no word of the language and was never declared, where a word should stand.
@@ -81,6 +81,12 @@ impl Evaluator<'_> {
             },
         };
         self.report(&token.here, diagnostic);
+        let meant = near.filter(|near| has_block && is_built(near)).and_then(Word::from_name);
+        if let Some(word) = meant
+            && self.judge_block(token, word)
+        {
+            return;
+        }
         self.skip_values();
         if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
             self.skip_color(token);
@@ -93,6 +99,26 @@ impl Evaluator<'_> {
             }
             self.diagnostics.forget_after(before);
         }
+    }
+
+    /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
+    /// when that word has no block, and nothing was read.
+    fn judge_block(&mut self, token: &Token, word: Word) -> bool {
+        let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+        let poison = self.poison.take();
+        let judged = match word {
+            Word::Background | Word::GlobalSettings => {
+                let _: Outcome<()> = self.scene_item(&token);
+                true
+            }
+            _ if opens_value(word) => {
+                drop(self.word_block(&token, word));
+                true
+            }
+            _ => false,
+        };
+        self.poison = poison;
+        judged
     }
 
     /// Whether a name that may be meant as the word `here` is rather meant as a declared one.
