@@ -194,7 +194,7 @@ impl Evaluator<'_> {
     }
 
     /// Whether what is read now is the colour of a surface.
-    fn in_pigment(&self) -> bool {
+    pub(super) fn in_pigment(&self) -> bool {
         let word = |span: &Span| self.sources.text(*span);
         self.openers
             .last()

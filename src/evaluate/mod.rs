@@ -221,6 +221,8 @@ struct Evaluator<'a> {
     /// Whether the scene said `#version`, and `assumed_gamma`.
     says_version: bool,
     says_gamma: bool,
+    /// The first colour that was converted before `assumed_gamma` was said.
+    srgb_before_gamma: Option<Site>,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
     /// An include was not found: what is missing now may have been declared there.
@@ -315,6 +317,7 @@ impl<'a> Evaluator<'a> {
             version: 3.7,
             says_version: false,
             says_gamma: false,
+            srgb_before_gamma: None,
             poison: None,
             lacks_include: false,
             missing_at: None,

@@ -62,7 +62,11 @@ pub(super) fn balance(
 ) -> (Vec<Token>, bool) {
     if let Some(at) = too_deep(&tokens, options.nesting_limit) {
         let span = Span::new(file, tokens[at].start as usize, tokens[at].end as usize);
-        diagnostics.push(super::nesting_limit(span, options.nesting_limit));
+        let what = match turn(tokens[at].kind) {
+            Some(Turn::Open(Opener::Directive)) => "directives",
+            _ => "brackets",
+        };
+        diagnostics.push(super::nesting_limit(span, what, options.nesting_limit));
         // Nothing behind it can be understood.
         tokens.truncate(at);
         return (tokens, true);

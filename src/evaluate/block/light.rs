@@ -6,7 +6,7 @@ use crate::scene::{
     Beam, Dialect, Fade, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId,
     ObjectKind,
 };
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -85,12 +85,48 @@ impl Evaluator<'_> {
         let ours = self.options.dialect == Dialect::Scene;
         let kind = match self.peek().map(|token| &token.kind) {
             Some(TokenKind::Word(Word::Direction)) if ours => self.seed_direction(),
+            Some(TokenKind::Word(word)) if word.family() == Family::Color => {
+                return Err(self.color_before_place(opener));
+            }
             _ => self
                 .vector_after(opener, "a vector for the light's place")
                 .map(|given| LightKind::Point { location: given.value }),
         };
         let color = self.color_after(opener, "a colour for the light");
         Ok(LightSource { kind: kind?, color: color?.value.rgb, shadowless: false, fade: None })
+    }
+
+    /// `light_source { rgb 1, <5, 8, 6> }`.
+    fn color_before_place(&mut self, opener: &Token) -> Reported {
+        const PLACE: &str = "a vector for the light's place";
+        const COLOR: &str = "a colour for the light";
+        let Some(first) = self.peek().cloned() else { return Reported };
+        let before = self.diagnostics.len();
+        let color = self.color_after(opener, COLOR);
+        if color.is_err() && self.diagnostics.len() > before {
+            return Reported;
+        }
+        let color = self.whole(&first);
+        self.skip_commas();
+        match self.peek().map(|token| &token.kind) {
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {}
+            _ => {
+                let found = self.describe(&first);
+                let name = self.describe(opener);
+                let diagnostic = Diagnostic::new(
+                    Code::MissingPart,
+                    format!("expected {PLACE} after {name}, found {found}"),
+                )
+                .at(first.span_head(), format!("expected {PLACE}"))
+                .also(opener.span, "for this")
+                .help(Word::LightSource.sentence().to_owned());
+                return self.report(&first.here, diagnostic);
+            }
+        }
+        match self.vector_after(opener, PLACE) {
+            Ok(place) => self.swapped(color, place.site(), PLACE, COLOR),
+            Err(reported) => reported,
+        }
     }
 
     fn seed_direction(&mut self) -> Outcome<LightKind> {
