@@ -134,7 +134,12 @@ impl Evaluator<'_> {
         };
         let vector = format!("<{}>{}", list.join(", "), if of_255 { "/255" } else { "" });
         let ours = format!("{word} {vector}");
-        let fix = if is_color(token) { ours.clone() } else { vector };
+        // `color` takes a colour of any form.
+        let (place, of_color) = match token.kind == TokenKind::Word(Word::Color) {
+            false if token.span.file == whole.file => (token.span.to(whole), false),
+            is_color => (whole, is_color),
+        };
+        let fix = if place == whole && !of_color { vector } else { ours.clone() };
         while self.peek().is_some_and(goes_on) {
             self.next();
         }
@@ -144,7 +149,7 @@ impl Evaluator<'_> {
         )
         .at(whole, "expected a vector")
         .help(format!("write `{ours}`"))
-        .fix(whole, fix);
+        .fix(place, fix);
         Err(self.report(&given.here, diagnostic))
     }
 
@@ -206,11 +211,6 @@ impl Evaluator<'_> {
             _ => false,
         }
     }
-}
-
-/// `color` itself, which takes a colour of any form.
-fn is_color(token: &Token) -> bool {
-    token.kind == TokenKind::Word(Word::Color)
 }
 
 /// Words that take all components at once.

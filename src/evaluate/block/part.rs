@@ -157,7 +157,12 @@ impl Evaluator<'_> {
             .also(b.span, format!("expected {second}"))
             .help(format!("write `{text_b}, {text_a}`"));
         if a.expansion == b.expansion && a.span.file == b.span.file {
-            diagnostic = diagnostic.fix(a.span, text_b).fix(b.span, text_a);
+            let between =
+                self.sources.text(Span { start: a.span.end, end: b.span.start, ..a.span });
+            diagnostic = match between.trim() {
+                "" | "," => diagnostic.fix(a.span.to(b.span), format!("{text_b}, {text_a}")),
+                _ => diagnostic.fix(a.span, text_b).fix(b.span, text_a),
+            };
         }
         self.report_in(a.expansion, diagnostic)
     }

@@ -22,14 +22,17 @@ impl Reader<'_> {
         if self.kind(1) != Some(TokenKind::Name) || !self.touches(1) || self.slice(0) != "0" {
             return false;
         }
-        let Some(color) = self.slice(1).strip_prefix(['x', 'X']).and_then(|digits| {
-            (digits.len() == 6).then(|| web(&format!("#{digits}"))).flatten()
-        }) else {
+        let Some(color) = self
+            .slice(1)
+            .strip_prefix(['x', 'X'])
+            .and_then(|digits| (digits.len() == 6).then(|| web(&format!("#{digits}"))).flatten())
+        else {
             return false;
         };
         let before = meant.last().map(|token| token.kind);
         let colors = [Word::LightSource, Word::Pigment, Word::Background, Word::Fog];
-        let in_colors = colors.iter().any(|word| self.inside.last().is_some_and(|i| i.opens(*word)));
+        let in_colors =
+            colors.iter().any(|word| self.inside.last().is_some_and(|i| i.opens(*word)));
         let ends = matches!(
             self.kind(2),
             None | Some(

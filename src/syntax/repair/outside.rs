@@ -62,8 +62,8 @@ impl Repair<'_> {
                 let ends = self.tokens[at].kind == TokenKind::Mark(Mark::Semicolon);
                 // `#macro G(a, b sphere {`: parameters are names.
                 let head = open.token.checked_sub(2).map(|head| self.tokens[head].kind);
-                let body = head == Some(TokenKind::Directive(Head::Macro))
-                    && self.begins_statement(at);
+                let body =
+                    head == Some(TokenKind::Directive(Head::Macro)) && self.begins_statement(at);
                 (ends || beside || body).then_some(true)
             }
         }
