@@ -54,7 +54,9 @@ impl Evaluator<'_> {
                         let diagnostic = missing_file(&name, span, error);
                         let diagnostic = if slashed == name {
                             diagnostic
-                        } else if self.files.read(&slashed, &from).is_ok() {
+                        } else if diagnostic.fixes.is_empty()
+                            && self.files.read(&slashed, &from).is_ok()
+                        {
                             let quoted = format!("\"{slashed}\"");
                             let help = format!("folders are parted by `/`: write `{quoted}`");
                             diagnostic.help(help).fix(span, quoted)

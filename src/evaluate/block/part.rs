@@ -135,7 +135,9 @@ impl Evaluator<'_> {
         let first = self.given(after, vector);
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
-            && matches!((&a.value, &b.value), (Value::Number(_), Value::Vector(_)))
+            && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)
+            // A sphere of radius 0 was not meant.
+            && (*a_number != 0.0 || after.kind != TokenKind::Word(Word::Sphere))
         {
             let reported = self.swapped(a.site(), b.site(), vector, number);
             return (Err(reported), Err(reported));
