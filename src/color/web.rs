@@ -22,7 +22,7 @@ pub fn web(text: &str) -> Option<Rgb> {
 
 /// A colour as an author would write it: to four decimals, a grey as one number.
 pub fn rounded(color: Rgb) -> String {
-    let rounded = color.map(|c| (c * 1e4).round() / 1e4);
+    let rounded = color.map(|c| format!("{c:.4}").parse().unwrap_or(c));
     match rounded.red == rounded.green && rounded.red == rounded.blue {
         true => rounded.red.to_string(),
         false => rounded.to_string(),
