@@ -63,7 +63,7 @@ codes! {
     UnexpectedCharacter "unexpected-character" error "a character has no meaning in the language";
     MalformedNumber "malformed-number" error "a number is not written as a number";
     ExpectedExpression "expected-expression" error "a value was expected here";
-    NestingLimit "nesting-limit" error "brackets or declarations are nested deeper than the limit";
+    NestingLimit "nesting-limit" error "brackets, directives, signs or declarations are nested deeper than the limit";
     ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
     BadEncoding "bad-encoding" warning "the file is not UTF-8 and was read as Latin-1";
     // words and names

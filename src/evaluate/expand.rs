@@ -70,6 +70,9 @@ impl Evaluator<'_> {
         body: &Body,
     ) {
         let symbol = here.symbol(name);
+        // Told already: its body would read the language's own word.
+        let is_reserved = |p: &Parameter| Word::from_name(here.unit.ast.name(p.name)).is_some();
+        let reserved = parameters.iter().any(is_reserved);
         let id = MacroId(self.macros.len() as u32);
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
         self.macros.push(Rc::new(Macro {
@@ -84,7 +87,7 @@ impl Evaluator<'_> {
         }));
         let owner = if self.in_main() { Owner::Main } else { Owner::Other };
         self.scopes.note_declaration(symbol, here.site(name_span), owner);
-        self.scopes.assign(symbol, Value::Macro(id));
+        self.scopes.assign(symbol, if reserved { Value::Broken } else { Value::Macro(id) });
     }
 
     /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the

@@ -117,6 +117,14 @@ impl Evaluator<'_> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Whether what is read now is the colour of a surface.
+    pub(super) fn in_pigment(&self) -> bool {
+        let word = |span: &Span| self.sources.text(*span);
+        self.openers
+            .last()
+            .is_some_and(|span| matches!(word(span), "pigment" | "color_map" | "colour_map"))
+    }
+
     /// A `checker` with one of its two colours.
     pub(super) fn lint_missing_color(&mut self, token: &Token) {
         let diagnostic = Diagnostic::new(

@@ -223,6 +223,8 @@ struct Evaluator<'a> {
     /// Whether the scene said `#version`, and `assumed_gamma`.
     says_version: bool,
     says_gamma: bool,
+    /// The first colour that was converted before `assumed_gamma` was said.
+    srgb_before_gamma: Option<Site>,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
     /// Other words in the same item that are not built either, by the place of the first.
@@ -325,6 +327,7 @@ impl<'a> Evaluator<'a> {
             version: 3.7,
             says_version: false,
             says_gamma: false,
+            srgb_before_gamma: None,
             poison: None,
             beside: BTreeMap::new(),
             lacks_include: false,

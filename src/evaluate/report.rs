@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::color::{rounded, srgb_decode};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
@@ -10,7 +11,7 @@ use crate::vocabulary::{Family, Word};
 use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
-use super::{Evaluator, Here, Outcome, Reported, Symbol};
+use super::{Evaluator, Here, Outcome, Reported, Symbol, endless};
 
 impl Evaluator<'_> {
     pub(super) fn report(&mut self, here: &Here, diagnostic: Diagnostic) -> Reported {
@@ -74,10 +75,14 @@ impl Evaluator<'_> {
         };
         let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
         if let Value::String(found) = found
-            && matches!(wanted, "a colour" | "a vector")
-            && let Some(color) = color_of_string(found)
+            && let Some(shown) = color_of_string(found)
+            && let Some(color) = match wanted {
+                "a colour" => Some(format!("srgb {}", rounded(shown))),
+                "display values" => Some(rounded(shown)),
+                "a vector" => Some(rounded(shown.map(srgb_decode))),
+                _ => None,
+            }
         {
-            let color = if wanted == "a colour" { format!("rgb {color}") } else { color };
             diagnostic = diagnostic.help(format!("write `{color}`"));
             if name.is_none() {
                 diagnostic = diagnostic.fix(span, color);
@@ -189,11 +194,20 @@ impl Evaluator<'_> {
         message: String,
         label: &str,
     ) -> Outcome<()> {
-        let directive = here.unit.ast.directive(directive);
+        let ast = &here.unit.ast;
+        let directive = ast.directive(directive);
         let diagnostic = Diagnostic::new(Code::LoopLimit, message).at(directive.head, label);
         let diagnostic = match directive.kind {
-            DirectiveKind::While { .. } => diagnostic
-                .help("change in its body what its condition asks, or leave it with `#break`"),
+            DirectiveKind::While { condition, body } => {
+                match endless::same_but_case(ast, condition, body) {
+                    Some((asked, set, span)) => diagnostic
+                        .also(span, format!("this sets `{set}`, the condition asks `{asked}`"))
+                        .help("names that differ in capitals are different names"),
+                    None => diagnostic.help(
+                        "change in its body what its condition asks, or leave it with `#break`",
+                    ),
+                }
+            }
             _ => diagnostic,
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");

@@ -2,7 +2,7 @@
 //!
 //! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
 
-use crate::color;
+use crate::color::{self, Rgb};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
@@ -88,20 +88,20 @@ fn digits(text: &str) -> Option<&str> {
     (!text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())).then_some(text)
 }
 
-/// `"#ff0000"`, `"red"`: how a colour of the web is written, if `text` is one.
-pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<String> {
-    let named = match text.to_ascii_lowercase().as_str() {
-        "red" => "<1, 0, 0>",
-        "green" | "lime" => "<0, 1, 0>",
-        "blue" => "<0, 0, 1>",
-        "yellow" => "<1, 1, 0>",
-        "cyan" => "<0, 1, 1>",
-        "magenta" => "<1, 0, 1>",
-        "orange" => "<1, 0.5, 0>",
-        "white" => "1",
-        "black" => "0",
-        "gray" | "grey" => "0.5",
-        _ => return color::web(text).map(|rgb| rgb.to_string()),
+/// `"#ff0000"`, `"red"`: what a display shows of a colour of the web, if `text` is one.
+pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<Rgb> {
+    let code = match text.to_ascii_lowercase().as_str() {
+        "red" => "#f00",
+        "green" | "lime" => "#0f0",
+        "blue" => "#00f",
+        "yellow" => "#ff0",
+        "cyan" => "#0ff",
+        "magenta" => "#f0f",
+        "orange" => "#ffa500",
+        "white" => "#fff",
+        "black" => "#000",
+        "gray" | "grey" => "#808080",
+        _ => text,
     };
-    Some(named.to_owned())
+    color::web(code)
 }

@@ -205,8 +205,9 @@ impl Evaluator<'_> {
     }
 
     fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let centre = self.vector_after(token, "a vector for the centre");
-        let radius = self.number_after(token, "a number for the radius");
+        const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
+        let (centre, radius) = self.vector_and_number(token, WANTED);
+        let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
@@ -226,8 +227,11 @@ impl Evaluator<'_> {
     }
 
     fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let normal = self.direction_after(token, "the normal");
-        let distance = self.number_after(token, "a number for the distance");
+        const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
+        let (normal, distance) = self.vector_and_number(token, WANTED);
+        let normal = normal
+            .and_then(|given| self.as_vector(given, WANTED.0))
+            .and_then(|given| self.as_direction(given, "the normal"));
         let (normal, distance) = (normal?, distance?);
         Ok(ObjectKind::Plane { normal: normal.value, distance: distance.value })
     }
