@@ -34,6 +34,9 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         Effect::Transparency => Some(counters.transmission),
         Effect::Diffuse
         | Effect::Highlights
+        | Effect::Attenuation
+        | Effect::DoubleIllumination
+        | Effect::Hiding
         | Effect::Refraction
         | Effect::ColoredShadows
         | Effect::Patterns

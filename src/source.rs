@@ -143,6 +143,15 @@ pub struct Source {
     pub name: String,
     pub text: String,
     line_starts: Vec<u32>,
+    /// How many characters begin before each block of [`BLOCK`] bytes: a line may be as long as the text.
+    blocks: Vec<u32>,
+}
+
+const BLOCK: usize = 1024;
+
+/// How many characters begin in these bytes.
+fn characters(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| !matches!(byte, 0x80..=0xbf)).count()
 }
 
 /// A line and a column, both counted from 1, the column in characters.
@@ -160,14 +169,27 @@ impl Source {
             *b == b'\n' || (*b == b'\r' && text.as_bytes().get(i + 1) != Some(&b'\n'))
         });
         let line_starts = std::iter::once(0).chain(breaks.map(|(i, _)| i as u32 + 1)).collect();
-        Self { name: name.into(), line_starts, text }
+        let blocks = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
+            let start = *before;
+            *before += characters(block) as u32;
+            Some(start)
+        });
+        Self { name: name.into(), line_starts, blocks: blocks.collect(), text }
     }
 
     pub fn position(&self, offset: usize) -> Position {
         let line = self.line_starts.partition_point(|&start| start as usize <= offset) - 1;
         let start = self.line_starts[line] as usize;
-        let column = self.text[start..offset.min(self.text.len())].chars().count() + 1;
+        let column = self.characters_before(offset) - self.characters_before(start) + 1;
         Position { line: line + 1, column }
+    }
+
+    fn characters_before(&self, offset: usize) -> usize {
+        let offset = offset.min(self.text.len());
+        // The end of the text may be the end of a block.
+        let block = (offset / BLOCK).min(self.blocks.len().saturating_sub(1));
+        let before = self.blocks.get(block).map_or(0, |&before| before as usize);
+        before + characters(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
     /// The text of line `number` (from 1), without its line break.
@@ -277,6 +299,17 @@ mod tests {
         assert_eq!(source.position(8), Position { line: 3, column: 1 });
         assert_eq!(source.position(10), Position { line: 4, column: 1 });
         assert_eq!((source.line(1), source.line(2), source.line(3)), ("é x", "b", "c"));
+    }
+
+    #[test]
+    fn columns_of_a_long_line_count_its_characters() {
+        let source = Source::new("a", format!("\n{}x", "aé".repeat(3_000)));
+        for (offset, _) in source.text.char_indices().chain([(source.text.len(), ' ')]).skip(1) {
+            let column = source.text[1..offset].chars().count() + 1;
+            assert_eq!(source.position(offset), Position { line: 2, column });
+        }
+        assert_eq!(Source::new("a", "").position(0), Position { line: 1, column: 1 });
+        assert_eq!(Source::new("a", "b".repeat(1024)).position(1024).column, 1025);
     }
 
     #[test]

@@ -58,6 +58,10 @@ pub struct Origins {
     pub materials: Vec<MaterialOrigin>,
     /// What called for each interior, likewise.
     pub interiors: Vec<Vec<Site>>,
+    /// Each `no_image` and `no_reflection` that holds for a solid, likewise.
+    pub hidden: Vec<Site>,
+    /// Each `double_illuminate`, likewise.
+    pub double_illuminate: Vec<Site>,
     pub camera: Option<Site>,
     pub sky: Option<SkyOrigin>,
     pub max_trace_level: Option<Site>,

@@ -612,6 +612,20 @@ fn syntax_only_reads_no_includes() {
 }
 
 #[test]
+fn a_fix_in_an_included_file_is_told_with_what_applies_it() {
+    let place = Place::new();
+    place.write("part.inc", "sphere { 0, 1 pigmnt { rgb 1 } }\n");
+    place.write(
+        "whole.scene",
+        "camera { location 5*z look_at 0 }\nlight_source { 9, 1 }\n#include \"part.inc\"\n",
+    );
+    let told = "1 fix is in part.inc: `lucarne check --fix part.inc` applies it";
+    place.run("check --fix whole.scene").ends(1, &[told, "`pigmnt`"]);
+    place.run("check --fix part.inc").ends(0, &["part.inc: 1 fix applied"]);
+    assert_eq!(place.run("check --fix whole.scene").ends(0, &[]).stderr(), "");
+}
+
+#[test]
 fn fixes_are_applied_and_the_rest_is_told() {
     let place = Place::new();
     place.write("f.scene", &format!("\u{feff}{}sphere {{ 0, Nowhere }}\r\n", BROKEN));
@@ -781,8 +795,30 @@ fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
     place.run(&format!("a.scene --size 64x48 -o other.png {}", flags.trim())).ends(0, &[]);
     assert_eq!(place.read("one.png"), place.read("other.png"));
     let again = place.run(&words.replace("one.png", "one.png --threads 3")).ends(0, &[]).stderr();
-    let errors = |said: &str| said.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(errors(&again), errors(&said));
+    // All but the line with the seconds that it took.
+    let found = |said: &str| -> Vec<String> {
+        said.lines().filter(|line| !line.contains(".png: ")).map(str::to_owned).collect()
+    };
+    assert_eq!(found(&again), found(&said));
+    // Standard error is no terminal here: its steps are told in lines.
+    assert!(said.starts_with("note: choosing settings"), "{said}");
+    assert!(said.contains("\nnote: rendering with --antialias "), "{said}");
+}
+
+#[test]
+fn a_promise_that_cannot_be_kept_is_told_and_ends_with_5() {
+    let place = Place::new();
+    place.write(
+        "rare.scene",
+        "camera { location <0, 0, 6> look_at 0 angle 40 } light_source { <4, 8, 6>, rgb 1 }
+         plane { z, -9 pigment { checker rgb 0 rgb 1 scale 0.01 } finish { ambient 1 } }",
+    );
+    let run = place.run("rare.scene --size 24x18 --max-error 0.000001 -o r.png");
+    run.ends(
+        5,
+        &["> 1.0e-6", "in the second picture", "note: error ", "not proven, choosing better"],
+    );
+    assert!(place.path("r.png").exists());
 }
 
 #[test]

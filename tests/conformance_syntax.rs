@@ -8,7 +8,9 @@ use std::path::{Path, PathBuf};
 use lucarne::diagnostic::{Diagnostics, Severity};
 use lucarne::scene::Dialect;
 use lucarne::source::{Source, Sources, decode};
+use lucarne::syntax::ast::{Ast, DirectiveKind, ItemKind, Items};
 use lucarne::syntax::{ParseOptions, dump, parse, print};
+use lucarne::vocabulary::standard_include_of;
 
 const SCENES: &str = "/usr/share/doc/povray/examples";
 const INCLUDES: &str = "/usr/share/povray-3.7/include";
@@ -141,4 +143,49 @@ fn a_printed_example_is_read_as_the_same_tree() {
     }
     println!("{} of {} files printed and read again", paths.len() - faults, paths.len());
     assert_eq!(faults, 0);
+}
+
+/// Every name that these items declare, macros' bodies aside.
+fn declared(ast: &Ast, items: Items, names: &mut Vec<String>) {
+    for item in ast.items(items) {
+        let ItemKind::Directive(id) = item.kind else { continue };
+        match &ast.directive(id).kind {
+            DirectiveKind::Declare { local: false, target } => {
+                names.push(ast.name(target.name).to_owned())
+            }
+            DirectiveKind::Macro { name, .. } => names.push(ast.name(*name).to_owned()),
+            DirectiveKind::If { then, otherwise, .. } => {
+                declared(ast, *then, names);
+                declared(ast, *otherwise, names);
+            }
+            DirectiveKind::While { body, .. } | DirectiveKind::For { body, .. } => {
+                declared(ast, *body, names);
+            }
+            DirectiveKind::Switch { cases, .. } => {
+                cases.iter().for_each(|case| declared(ast, case.body, names));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_name_of_the_standard_includes_leads_to_one_of_them() {
+    let mut paths = Vec::new();
+    files(Path::new(INCLUDES), &["inc"], &mut paths);
+    let mut missing = Vec::new();
+    for path in &paths {
+        let Ok(bytes) = std::fs::read(path) else { continue };
+        let mut sources = Sources::default();
+        let file = sources.add(Source::new(path.display().to_string(), decode(bytes).0));
+        let options = ParseOptions { dialect: Dialect::Pov, ..ParseOptions::default() };
+        let ast = parse(sources.get(file), file, &options, &mut Diagnostics::default());
+        let mut names = Vec::new();
+        declared(&ast, ast.root, &mut names);
+        // A name that only tells that its include was read is no one's to use.
+        names.retain(|name| !name.to_lowercase().ends_with("_inc_temp"));
+        names.retain(|name| standard_include_of(name).is_none());
+        missing.extend(names.into_iter().map(|name| format!("{}: {name}", path.display())));
+    }
+    assert!(missing.is_empty(), "{} names\n{}", missing.len(), missing.join("\n"));
 }

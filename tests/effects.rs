@@ -192,6 +192,13 @@ plane { y, -3 pigment { rgb 1 } }
 box { -1, <1, -0.9, 1> texture { Window } no_shadow }
 ";
 
+/// A lamp written once, and placed: its piece of text calls for its light already.
+const LAMPS: &str = "#macro Lamp(Beam) light_source { 9, rgb 1 #if (Beam) spotlight #end } #end
+sphere { 0, 1 pigment { rgb 1 } }
+Lamp(0)
+";
+const LAMP: &str = "light_source { 9, rgb 1 #if (Beam) spotlight #end }";
+
 /// The lines of a plan: effects on with their places, but for antialiasing.
 fn lines(seen: &Seen) -> BTreeMap<&'static str, Vec<String>> {
     let effects = seen.plan.effects.iter().filter(|c| c.effect != Effect::Antialiasing);
@@ -213,7 +220,7 @@ sphere { 0, 1 no_shadow }";
     let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
     // Of the same window, so that no other piece of text calls for transparency.
     let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
-    let cases: [(&str, &str, Effect, &str); 13] = [
+    let cases: [(&str, &str, Effect, &str); 18] = [
         (
             unlit,
             "light_source { 9, rgb 1 shadowless }",
@@ -221,6 +228,21 @@ sphere { 0, 1 no_shadow }";
             "light_source { 9, rgb 1 shadowless }",
         ),
         (unshadowed, "sphere { x, 1 }", Effect::Shadows, "light_source { 9, rgb 1 }"),
+        (LAMPS, "Lamp(1)", Effect::Attenuation, LAMP),
+        (
+            LIT,
+            "sphere { x, 1 double_illuminate on }",
+            Effect::DoubleIllumination,
+            "double_illuminate on",
+        ),
+        (LIT, "sphere { x, 1 no_image }", Effect::Hiding, "no_image"),
+        (LIT, "union { sphere { x, 1 } no_reflection on }", Effect::Hiding, "no_reflection on"),
+        (
+            LIT,
+            "#declare S = sphere { x, 1 no_image off no_image } object { S scale 2 }",
+            Effect::Hiding,
+            "no_image",
+        ),
         (BARE, &window, Effect::Transparency, "rgbt <1, 1, 1, 0.5>"),
         (CLEAR, filled, Effect::Refraction, "interior { ior 1.5 }"),
         (flat, &filter, Effect::ColoredShadows, "rgbf <1, 0, 0, 1>"),
@@ -316,6 +338,27 @@ fn a_light_is_quoted_as_what_could_be_taken_out() {
     assert_eq!(shadows(opened), ["Open() 9, rgb 1 Close()"]);
     let switched = "light_source { 9, #if (1) rgb 1 #else rgb 2 #end }";
     assert_eq!(shadows(switched), [switched]);
+}
+
+#[test]
+fn what_hides_an_object_is_quoted_where_it_holds_for_one() {
+    let hidden = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Hiding);
+    let both = "sphere { x, 1 no_image no_reflection }";
+    assert_eq!(hidden(both), ["no_image", "no_reflection"]);
+    let twice = "#declare S = sphere { x, 1 no_image }; object { S no_image off no_image on }";
+    assert_eq!(hidden(twice), ["no_image", "no_image on"]);
+    let nested = "union { union { sphere { x, 1 no_image } } no_image }";
+    assert_eq!(hidden(nested), ["no_image", "no_image"]);
+    for nothing in [
+        "union { light_source { 9, rgb 1 } no_image }",
+        "union { no_image }",
+        "#declare S = sphere { x, 1 no_image }; object { S no_image off }",
+        "sphere { x, 1 no_image no_image off }",
+    ] {
+        let seen = see_text(&format!("{LIT}{nothing}"));
+        assert_eq!(seen.errors, "", "{nothing}");
+        assert!(!seen.plan.simulates(Effect::Hiding), "{nothing}");
+    }
 }
 
 #[test]

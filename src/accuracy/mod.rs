@@ -20,7 +20,7 @@ pub mod table;
 pub use front::Verdict;
 pub use knob::{KNOBS, Knob};
 pub use measure::{Clock, Span, Times};
-pub use promise::{Audit, Kept, Spent, TooSmall, keep, spend};
+pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
 pub use statistics::{Estimate, Metric};
 
 use crate::plan::{Frame, Plan, PlanOptions, Region, plan};
@@ -231,7 +231,7 @@ pub fn accuracy(
 
     // As fine a reference as is needed, or as there is time for.
     let deep = plan(world, origins, &dearest(own, options.knobs));
-    let mut reference = Reference::new(&studio, &deep, &list, options.seed, 0)?;
+    let mut reference = Reference::new(&studio, &deep, &list, options.seed, Reference::COARSEST)?;
     let mut last = elapsed() - a_round;
     let until = a_round + FOR_REFERENCE * options.budget;
     loop {

@@ -19,6 +19,9 @@ const AIM: f64 = 0.9;
 /// Of the time that is left after the first pass: for trying settings out, and for the audit.
 const FOR_TUNING: f64 = 0.1;
 const FOR_AUDIT: f64 = 0.15;
+/// Of all the time: what is kept for the audit, and what it may take beyond the end where the first pass
+/// left none.
+const KEPT_FOR_AUDIT: f64 = 0.04;
 /// Of the time to render in: what the prediction may be wrong by.
 const PREDICTED: f64 = 0.85;
 
@@ -70,37 +73,51 @@ const LEAST: usize = 30;
 /// About how many there are of each kind where the picture has enough.
 const WANTED: u32 = 2048;
 
+/// What [`keep`] does next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// Choosing settings, on a few pixels.
+    Choosing,
+    /// Rendering with the settings of these flags.
+    Rendering(String),
+    /// Choosing better ones: the first picture did not prove the promise.
+    Refining(Audit),
+}
+
 /// Renders with the cheapest settings whose error is at most `promise`, and audits. `None` when
-/// stopped before the picture was begun; `options.budget` is not used.
+/// stopped before the picture was begun; `options.budget` is not used. `tell` hears of each step.
 pub fn keep(
     world: &World,
     origins: &Origins,
     options: &Options,
     promise: f64,
     watch: &dyn Watch,
+    tell: &dyn Fn(Step),
 ) -> Result<Option<Kept>, TooSmall> {
     let sets = audit::sets(options.frame.region, WANTED, 3, options.seed);
     if sets.iter().any(|set| set.len() < LEAST) {
         return Err(TooSmall);
     }
-    Ok(kept(world, origins, options, promise, &sets, watch))
+    Ok(kept((world, origins), options, promise, &sets, watch, tell))
 }
 
 fn kept(
-    world: &World,
-    origins: &Origins,
+    (world, origins): (&World, &Origins),
     options: &Options,
     promise: f64,
     sets: &[Vec<(u32, u32)>],
     watch: &dyn Watch,
+    tell: &dyn Fn(Step),
 ) -> Option<Kept> {
+    tell(Step::Choosing);
     let geometry = Geometries::new(world);
     let quiet = Quiet(watch);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     let easel = Easel::new(world, origins, options);
     let metric = options.metric;
     let truth = |list: &[(u32, u32)]| {
-        let mut reference = Reference::new(&studio, &easel.deep, list, options.seed, 0)?;
+        let mut reference =
+            Reference::new(&studio, &easel.deep, list, options.seed, Reference::COARSEST)?;
         reference.resolve(&studio, &easel.deep, list, metric, promise)?;
         Some(reference)
     };
@@ -124,6 +141,7 @@ fn kept(
     };
     let mut render = |choice: &Choice, list: &[(u32, u32)], reference: &mut Reference| {
         kept.flags = easel.flags(&choice.options);
+        tell(Step::Rendering(kept.flags.clone()));
         kept.audit = None;
         kept.traced = trace(world, &plan(world, origins, &choice.options), &options.trace, watch);
         if kept.traced.complete {
@@ -141,6 +159,7 @@ fn kept(
     if audit.proves(promise) {
         return Some(kept);
     }
+    tell(Step::Refining(audit));
     // By how much it failed is how much lower to aim; what audited it now helps to choose.
     let aim = AIM * promise * (promise / audit.error.high);
     let both: Vec<_> = sets[0].iter().chain(&sets[1]).copied().collect();
@@ -161,6 +180,7 @@ pub fn spend(
     clock: &dyn Clock,
     watch: &dyn Watch,
 ) -> Spent {
+    let kept = KEPT_FOR_AUDIT * (until - clock.wall()).max(0.0);
     let easel = Easel::new(world, origins, options);
     let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
     let in_time = Deadline { clock, until, watch };
@@ -173,7 +193,7 @@ pub fn spend(
     }
     let geometry = Geometries::new(world);
     let left = until - clock.wall();
-    let render_until = until - FOR_AUDIT * left;
+    let render_until = until - (FOR_AUDIT * left).max(kept);
     let pixels = spent.traced.film.radiance.len() as f64;
     let a_sample = took / pixels;
     let a_unit = took / cost(&spent.traced.counters);
@@ -181,16 +201,16 @@ pub fn spend(
     let (mut tuning, fresh) = (sets.next().unwrap_or_default(), sets.next().unwrap_or_default());
 
     // As many tuning pixels as there is time for, of the coarsest reference.
-    let mut deep_sample = a_sample;
+    let mut deep_sample = None;
     let affordable = (FOR_TUNING * left / a_sample / Reference::LEAST_SAMPLES).min(pixels / 16.0);
     thin(&mut tuning, affordable as usize);
     let choice = (tuning.len() >= LEAST).then(|| {
         let late = Deadline { clock, until: clock.wall() + 2.0 * FOR_TUNING * left, watch };
         let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &late };
         let began = clock.wall();
-        let reference = Reference::new(&studio, &easel.deep, &tuning, options.seed, 0)?;
-        deep_sample =
-            (clock.wall() - began) / (tuning.len() as f64 * f64::from(reference.samples()));
+        let coarsest = Reference::COARSEST;
+        let reference = Reference::new(&studio, &easel.deep, &tuning, options.seed, coarsest)?;
+        deep_sample = Some((clock.wall() - began) / samples_of(&reference, &tuning));
         let (list, knobs) = ((tuning.as_slice(), &reference), &easel.knobs);
         let mut tuning = Tuning::new(studio, origins, list, options.metric, knobs, easel.own);
         tuning.best(PREDICTED * (render_until - clock.wall()) / (a_unit * pixels))
@@ -198,25 +218,40 @@ pub fn spend(
     // What is known of nothing better, or of nothing at all, still has edges to smooth.
     let chosen = choice.flatten().map_or(easel.own, |choice| choice.options);
     let choice = if chosen == off { easel.own } else { chosen };
-    if left > 0.0 {
+    if clock.wall() < render_until {
         let late = Deadline { clock, until: render_until, watch };
         let second = trace(world, &plan(world, origins, &choice), &options.trace, &late);
         spent.flags = easel.flags(&choice);
         spent.traced = over(spent.traced, second);
     }
 
-    let left = PREDICTED * (until - clock.wall());
-    let mut fresh = fresh;
-    let affordable = (left / deep_sample.max(a_sample)) as usize;
-    thin(&mut fresh, affordable / Reference::LEAST_SAMPLES as usize);
-    if fresh.len() >= LEAST {
+    let audit = |list: &[(u32, u32)], step, until| {
+        let in_time = Deadline { clock, until, watch };
         let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
-        let step = Reference::finest_within(affordable / fresh.len());
-        let reference = Reference::new(&studio, &easel.deep, &fresh, options.seed, step);
-        spent.audit =
-            reference.map(|reference| audited(&spent.traced, &fresh, &reference, options.metric));
+        let reference = Reference::new(&studio, &easel.deep, list, options.seed, step)?;
+        let audit = audited(&spent.traced, list, &reference, options.metric);
+        Some((audit, samples_of(&reference, list)))
+    };
+    // A rough audit first: it is there when a finer one proves too much.
+    let (began, mut few, mut fresh) = (clock.wall(), fresh.clone(), fresh);
+    thin(&mut few, LEAST);
+    if few.len() < LEAST {
+        return spent;
     }
+    let rough = audit(&few, Reference::ROUGH, until + kept);
+    let Some((rough, samples)) = rough else { return spent };
+    let deep_sample = deep_sample.unwrap_or((clock.wall() - began) / samples).max(a_sample);
+    let affordable = (PREDICTED * (until - clock.wall()) / deep_sample).max(0.0) as usize;
+    thin(&mut fresh, (affordable / Reference::LEAST_SAMPLES as usize).max(LEAST));
+    let step = Reference::finest_within(affordable / fresh.len());
+    let finer = (step > Reference::ROUGH).then(|| audit(&fresh, step, until)).flatten();
+    spent.audit = Some(finer.map_or(rough, |(audit, _)| audit));
     spent
+}
+
+/// How many samples a reference took of the pixels of a list.
+fn samples_of(reference: &Reference, list: &[(u32, u32)]) -> f64 {
+    list.len() as f64 * f64::from(reference.samples())
 }
 
 /// The plans a picture is made and judged by.

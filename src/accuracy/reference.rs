@@ -12,8 +12,9 @@ use crate::plan::{Plan, Precision};
 use crate::trace::{self, Counters, Sampling, TraceOptions, Watch, pixels};
 use crate::world::World;
 
-/// Samples along the side of a pixel, a half: each has about twice the samples of the last.
-const SIDES: [u32; 7] = [8, 11, 16, 23, 32, 45, 64];
+/// Samples along the side of a pixel, a half: from [`Reference::COARSEST`] on each has about twice the
+/// samples of the last.
+const SIDES: [u32; 8] = [2, 8, 11, 16, 23, 32, 45, 64];
 
 /// A colour as errors are measured: linear, clamped to 0 … 1.
 pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
@@ -73,15 +74,19 @@ pub struct Reference {
 }
 
 impl Reference {
+    /// The step of a reference that says little of a pixel, and something of many: for want of time.
+    pub const ROUGH: usize = 0;
+    /// The step of the coarsest that settings are chosen by.
+    pub const COARSEST: usize = 1;
     /// Of the coarsest, each pixel.
     pub const LEAST_SAMPLES: f64 = 128.0;
 
-    /// How often it can be doubled with `samples` a pixel to spend.
+    /// The last step that `samples` a pixel are enough for, or the rough one.
     pub fn finest_within(samples: usize) -> usize {
         SIDES.iter().rposition(|&side| 2 * side as usize * side as usize <= samples).unwrap_or(0)
     }
 
-    /// The coarsest, or `step` doublings of it. `plan` says how deep; its antialiasing is not used.
+    /// The reference of a step. `plan` says how deep; its antialiasing is not used.
     pub fn new(
         studio: &Studio,
         plan: &Plan,
@@ -92,8 +97,8 @@ impl Reference {
         let step = step.min(SIDES.len() - 1);
         let mut counters = Counters::default();
         let mut half = |number: u64| {
-            let seed =
-                seed.wrapping_mul(2 * SIDES.len() as u64).wrapping_add(2 * step as u64 + number);
+            let (steps, step_seed) = (2 * SIDES.len() as u64 - 2, 2 * step as u64 + number);
+            let seed = seed.wrapping_mul(steps).wrapping_add(step_seed).wrapping_sub(2);
             let sampling = Sampling::Jittered { side: SIDES[step], seed };
             let (colors, work) = studio.colors(plan, list, sampling)?;
             counters += work;

@@ -84,7 +84,8 @@ impl Truth {
         let studio = Studio { world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let list = audit::sets(frame.region, u32::MAX, 1, 0).remove(0);
         let deep = plan(world, origins, &dearest(own(world, frame), KNOBS));
-        let reference = Reference::new(&studio, &deep, &list, 77, step).expect("not stopped");
+        let reference = Reference::new(&studio, &deep, &list, 77, Reference::COARSEST + step)
+            .expect("not stopped");
         Self { reference, list }
     }
 
@@ -116,7 +117,8 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
         for seed in 0..100 {
             // A ninth of the pixels.
             let list = audit::sets(frame.region, 700, 1, seed).remove(0);
-            let reference = Reference::new(&studio, &deep, &list, seed, 0).expect("not stopped");
+            let reference = Reference::new(&studio, &deep, &list, seed, Reference::COARSEST)
+                .expect("not stopped");
             let film = &traced.film;
             let colors: Vec<_> = list
                 .iter()
@@ -289,7 +291,7 @@ fn a_promised_error_is_kept_for_95_of_100_pictures_and_errors() {
         let promise = errors[pair / 2 % errors.len()];
         let (world, origins) = compiled(text, number);
         let options = Options { seed: pair as u64, ..asked(48, 36) };
-        let kept = keep(&world, &origins, &options, promise, &Unwatched);
+        let kept = keep(&world, &origins, &options, promise, &Unwatched, &|_| ());
         let kept = kept.expect("large enough").expect("not stopped");
         let truth = Truth::new(&world, &origins, options.frame, 1);
         let exact = Metric::Rmse.of(&truth.deviations(&kept.traced));
@@ -308,18 +310,18 @@ fn a_promise_is_kept_by_the_same_picture_on_every_run() {
     let picture = |threads| {
         let trace = TraceOptions::on_threads(threads);
         let options = Options { trace, ..asked(48, 36) };
-        keep(&world, &origins, &options, 0.03, &Unwatched)
+        keep(&world, &origins, &options, 0.03, &Unwatched, &|_| ())
     };
     assert_eq!(picture(1), picture(4));
     let tiny = asked(6, 4);
-    assert_eq!(keep(&world, &origins, &tiny, 0.03, &Unwatched), Err(TooSmall));
+    assert_eq!(keep(&world, &origins, &tiny, 0.03, &Unwatched, &|_| ()), Err(TooSmall));
 }
 
 #[test]
 fn a_promised_error_is_sought_deeper_than_the_scene_says_where_it_must_be() {
     let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
     let (world, origins) = compiled(&flat, 0.2);
-    let kept = keep(&world, &origins, &asked(48, 36), 0.05, &Unwatched);
+    let kept = keep(&world, &origins, &asked(48, 36), 0.05, &Unwatched, &|_| ());
     let kept = kept.expect("large enough").expect("not stopped");
     assert!(kept.audit.expect("done").proves(0.05), "{}", kept.flags);
     assert!(
@@ -335,7 +337,7 @@ fn a_promise_that_cannot_be_kept_is_missed_after_one_refinement() {
     // Two settings, and both are poor.
     let poor = Knob { settings: &[0.0, 5.0], ..KNOBS[0] };
     let options = Options { knobs: &[poor], ..asked(40, 30) };
-    let kept = keep(&world, &origins, &options, 1e-3, &Unwatched);
+    let kept = keep(&world, &origins, &options, 1e-3, &Unwatched, &|_| ());
     let kept = kept.expect("large enough").expect("not stopped");
     assert!(kept.refined && !kept.audit.expect("done").proves(1e-3));
     assert_eq!(kept.flags, "--antialias 2");
@@ -353,6 +355,7 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
         let options = asked(160, 120);
         let spent = spend(&world, &origins, &options, time, &clock, &Unwatched);
         assert!(spent.traced.complete && clock.wall() <= 1.05 * time);
+        assert!(spent.audit.is_some());
         let error = Metric::Rmse.of(&truth.deviations(&spent.traced));
         assert!(error <= last, "{error} {last}");
         last = error;
@@ -362,4 +365,18 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
     assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 315.0);
     let done = spent.traced.film.samples.iter().filter(|&&samples| samples == 1).count();
     assert!(done > 0 && done < 160 * 120);
+}
+
+#[test]
+fn whenever_the_picture_is_whole_its_error_is_told() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let mut whole = 0;
+    for time in (300..1500).step_by(60).map(f64::from) {
+        let clock = Ticking::new(1.0);
+        let spent = spend(&world, &origins, &asked(160, 120), time, &clock, &Unwatched);
+        assert_eq!(spent.traced.complete, spent.audit.is_some(), "{time}");
+        assert!(clock.wall() <= 1.05 * time, "{} {time}", clock.wall());
+        whole += usize::from(spent.traced.complete);
+    }
+    assert!(whole > 0);
 }

@@ -1,11 +1,14 @@
 //! `lucarne check`: messages, and no picture.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::road::Road;
+use lucarne::source::FileId;
+use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome, reason};
@@ -78,7 +81,15 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     if fixed > 0 {
         replace(file, &[mark, text.as_bytes()].concat())?;
     }
-    let all = fixed + apply(text, messages(text).iter()).1.len();
+    let rest = messages(text);
+    for (elsewhere, count) in fixes_elsewhere(file, text, arguments) {
+        let (are, es) = if count == 1 { ("is", "") } else { ("are", "es") };
+        messages::eprint(&format!(
+            "{count} fix{es} {are} in {elsewhere}: `lucarne check --fix {elsewhere}` applies {}\n",
+            if count == 1 { "it" } else { "them" },
+        ));
+    }
+    let all = fixed + apply(text, rest.iter()).1.len();
     let es = if all == 1 { "" } else { "es" };
     let name = file.display();
     let told = match all {
@@ -90,6 +101,22 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     };
     messages::eprint(&told);
     Ok(())
+}
+
+/// The included files that messages offer fixes for, but the standard ones, and how many.
+fn fixes_elsewhere(file: &Path, text: &str, arguments: &CheckArguments) -> Vec<(String, usize)> {
+    compiled(file, text.as_bytes().to_vec(), arguments, |road| {
+        let mut counts = BTreeMap::new();
+        let fixed = road.diagnostics.iter().filter_map(|one| one.fixes.first());
+        for place in fixed.map(|fix| fix.span.file).filter(|place| *place != FileId(0)) {
+            let name = &road.sources.get(place).name;
+            let short = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
+            if !is_standard_include(&short) {
+                *counts.entry(name.clone()).or_insert(0) += 1;
+            }
+        }
+        counts.into_iter().collect()
+    })
 }
 
 /// Writes the file anew, beside and renamed, with the permissions it had.

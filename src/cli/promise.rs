@@ -1,12 +1,15 @@
 //! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
 
-use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, TooSmall, table};
+use std::io::IsTerminal;
+
+use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Step, TooSmall, table};
 use lucarne::plan::{Frame, PlanOptions, plan};
 use lucarne::trace::{TraceOptions, Traced, trace};
 use lucarne::world::{Origins, World};
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure};
+use super::messages;
 use super::progress::Progress;
 use super::stats::Stopwatch;
 
@@ -61,7 +64,20 @@ fn keep(
     promise: f64,
     progress: &Progress,
 ) -> Result<Made, Failure> {
-    let kept = accuracy::keep(world, origins, options, promise, progress);
+    // On a terminal the bar shows that it works.
+    let silent = std::io::stderr().is_terminal();
+    let tell = |step: Step| {
+        let note = match step {
+            _ if silent => return,
+            Step::Choosing => "choosing settings on a few pixels".to_owned(),
+            Step::Rendering(flags) => format!("rendering with {flags}"),
+            Step::Refining(audit) => {
+                format!("{}: not proven, choosing better settings", error(&audit))
+            }
+        };
+        messages::eprint(&format!("note: {note}\n"));
+    };
+    let kept = accuracy::keep(world, origins, options, promise, progress, &tell);
     let kept = kept.map_err(|TooSmall| {
         let Frame { region, .. } = options.frame;
         let (width, height) = (region.width, region.height);
@@ -113,6 +129,9 @@ fn spend(
             let done = samples.iter().filter(|samples| **samples > 0).count();
             let share = 100 * done / samples.len().max(1);
             format!("{seconds} s are too few for one ray a pixel: {share} % of them are done\n")
+        }
+        (None, true) if pixels < 256.0 => {
+            format!("too few pixels to find the error by\nmade with: {}\n", spent.flags)
         }
         (None, true) => {
             format!("no time was left to find the error by\nmade with: {}\n", spent.flags)

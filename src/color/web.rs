@@ -1,8 +1,8 @@
 //! Colours as the web writes them: `#ff8000`, `#f80`.
 
-use super::{Rgb, srgb_decode};
+use super::Rgb;
 
-/// The linear colour of `#` and three or six hexadecimal digits, to four decimals.
+/// What a display shows of `#` and three or six hexadecimal digits: 0 to 1, on its curve.
 pub fn web(text: &str) -> Option<Rgb> {
     let digits = text.strip_prefix('#')?;
     let width = match digits.len() {
@@ -15,10 +15,18 @@ pub fn web(text: &str) -> Option<Rgb> {
     }
     let component = |i: usize| {
         let value = u8::from_str_radix(digits.get(i * width..(i + 1) * width)?, 16).ok()?;
-        let value = if width == 1 { value * 17 } else { value };
-        format!("{:.4}", srgb_decode(f64::from(value) / 255.0)).parse().ok()
+        Some(f64::from(if width == 1 { value * 17 } else { value }) / 255.0)
     };
     Some(Rgb::new(component(0)?, component(1)?, component(2)?))
+}
+
+/// A colour as an author would write it: to four decimals, a grey as one number.
+pub fn rounded(color: Rgb) -> String {
+    let rounded = color.map(|c| format!("{c:.4}").parse().unwrap_or(c));
+    match rounded.red == rounded.green && rounded.red == rounded.blue {
+        true => rounded.red.to_string(),
+        false => rounded.to_string(),
+    }
 }
 
 #[cfg(test)]
@@ -26,10 +34,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_of_the_web_are_on_a_displays_curve() {
+    fn colours_of_the_web_are_what_a_display_shows() {
         assert_eq!(web("#ff0000"), Some(Rgb::new(1.0, 0.0, 0.0)));
         assert_eq!(web("#0F8"), web("#00ff88"));
-        assert_eq!(web("#808080"), Some(Rgb::gray(0.2159)));
+        assert_eq!(web("#808080").map(rounded).as_deref(), Some("0.502"));
+        assert_eq!(web("#ff8000").map(rounded).as_deref(), Some("<1, 0.502, 0>"));
         for wrong in ["ff0000", "#ff000", "#gg0000", "#", "#é", "#-10101"] {
             assert_eq!(web(wrong), None, "{wrong}");
         }

@@ -63,7 +63,7 @@ codes! {
     UnexpectedCharacter "unexpected-character" error "a character has no meaning in the language";
     MalformedNumber "malformed-number" error "a number is not written as a number";
     ExpectedExpression "expected-expression" error "a value was expected here";
-    NestingLimit "nesting-limit" error "brackets are nested deeper than the limit";
+    NestingLimit "nesting-limit" error "brackets, directives, signs or declarations are nested deeper than the limit";
     ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
     BadEncoding "bad-encoding" warning "the file is not UTF-8 and was read as Latin-1";
     // words and names
@@ -100,14 +100,17 @@ codes! {
     NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
-    SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant";
+    SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant, or the reverse";
+    ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
-    UnlikelyFinish "unlikely-finish" lint "a surface takes light away, or mirrors more than it gets";
-    TooClear "too-clear" lint "`filter` and `transmit` come to more than 1";
+    UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
+    UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";
+    TooClear "too-clear" lint "a colour is clearer than it can be";
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
+    MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     RepeatedParameter "repeated-parameter" lint "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
     // files

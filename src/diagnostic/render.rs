@@ -161,20 +161,30 @@ fn trace_labels(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)>
 /// The help, and each fix that no help already spells out.
 fn help(diagnostic: &Diagnostic, sources: &Sources) -> Option<String> {
     let mut lines: Vec<String> = diagnostic.help.iter().map(|text| visible(text)).collect();
+    // How often each is told, of fixes that read alike.
+    let mut alike: Vec<(String, usize)> = Vec::new();
     for fix in &diagnostic.fixes {
         let (old, new) = (sources.text(fix.span), visible(&fix.text));
         let said = |line: &String| !new.is_empty() && line.contains(&format!("`{new}`"));
         if lines.iter().any(said) {
             continue;
         }
-        lines.push(match (old.is_empty(), new.is_empty()) {
+        let line = match (old.is_empty(), new.is_empty()) {
             (true, _) => format!("insert `{new}`"),
             (false, true) if old.len() > 60 => "remove it".to_owned(),
             (false, true) => format!("remove `{}`", visible(old)),
             (false, false) if old.len() > 60 => format!("replace it with `{new}`"),
             (false, false) => format!("replace `{}` with `{new}`", visible(old)),
-        });
+        };
+        match alike.iter_mut().find(|(other, _)| *other == line) {
+            Some((_, times)) => *times += 1,
+            None => alike.push((line, 1)),
+        }
     }
+    lines.extend(alike.into_iter().map(|(line, times)| match times {
+        1 => line,
+        _ => format!("{line}, {times} times"),
+    }));
     (!lines.is_empty()).then(|| lines.join("\n"))
 }
 

@@ -49,10 +49,11 @@ fn letters(word: &str) -> (usize, u32) {
         .fold((0, 0), |(count, set), c| (count + 1, set | 1 << (c as u32 % 32)))
 }
 
-/// Our word for `word` as other tools, or people, call the same thing.
-pub fn foreign(word: &str) -> Option<&'static str> {
+/// Our words for `word` as other tools, or people, call the same thing; the likeliest first. Which it is
+/// depends on the place.
+pub fn foreign(word: &str) -> impl Iterator<Item = &'static str> {
     let lower = word.to_lowercase();
-    FOREIGN.iter().find(|(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
+    FOREIGN.iter().filter(move |(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
 }
 
 /// Other tools' words, in lower case, and ours.
@@ -61,6 +62,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("ball", "sphere"),
     ("orb", "sphere"),
     ("globe", "sphere"),
+    ("uv_sphere", "sphere"),
+    ("uvsphere", "sphere"),
+    ("ico_sphere", "sphere"),
     ("cube", "box"),
     ("cuboid", "box"),
     ("block", "box"),
@@ -92,20 +96,24 @@ const FOREIGN: &[(&str, &str)] = &[
     ("point_light", "light_source"),
     ("spot", "spotlight"),
     ("spot_light", "spotlight"),
+    ("spotlite", "spotlight"),
     ("arealight", "area_light"),
     ("sun", "light_source"),
     ("directional", "parallel"),
     ("directionallight", "parallel"),
     ("target", "point_at"),
+    ("target", "look_at"),
     // cameras
     ("fov", "angle"),
     ("field_of_view", "angle"),
     ("position", "location"),
+    ("position", "translate"),
     ("eye", "location"),
     ("pos", "location"),
     ("look_from", "location"),
     ("lookfrom", "location"),
     ("lookat", "look_at"),
+    ("lookat", "point_at"),
     ("look_to", "look_at"),
     ("vup", "sky"),
     ("ortho", "orthographic"),
@@ -120,6 +128,8 @@ const FOREIGN: &[(&str, &str)] = &[
     ("specularity", "specular"),
     ("gloss", "specular"),
     ("glossiness", "specular"),
+    ("glossy", "specular"),
+    ("shiny", "specular"),
     ("shininess", "phong_size"),
     ("phong_exp", "phong_size"),
     ("emissive", "emission"),
@@ -129,6 +139,8 @@ const FOREIGN: &[(&str, &str)] = &[
     ("reflect", "reflection"),
     ("reflectivity", "reflection"),
     ("reflective", "reflection"),
+    ("metalness", "metallic"),
+    ("metal", "metallic"),
     ("opacity", "transmit"),
     ("alpha", "transmit"),
     ("transparency", "transmit"),
@@ -157,6 +169,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("rot", "rotate"),
     ("turn", "rotate"),
     ("resize", "scale"),
+    ("size", "scale"),
     ("scaling", "scale"),
     ("scl", "scale"),
     // directives and functions
@@ -165,8 +178,10 @@ const FOREIGN: &[(&str, &str)] = &[
     ("var", "declare"),
     ("set", "declare"),
     ("import", "include"),
+    ("use", "include"),
     ("load", "include"),
     ("def", "macro"),
+    ("module", "macro"),
     ("elif", "elseif"),
     ("elsif", "elseif"),
     ("endif", "end"),
@@ -233,16 +248,17 @@ mod tests {
 
     #[test]
     fn other_tools_words_are_known_in_any_case() {
-        assert_eq!(foreign("Cube"), Some("box"));
-        assert_eq!(foreign("shininess"), Some("phong_size"));
-        assert_eq!(foreign("sphere"), None);
+        assert!(foreign("Cube").eq(["box"]));
+        assert!(foreign("shininess").eq(["phong_size"]));
+        assert!(foreign("target").eq(["point_at", "look_at"]));
+        assert_eq!(foreign("sphere").next(), None);
     }
 
     #[test]
-    fn each_foreign_word_stands_once() {
-        for (at, (word, ours)) in FOREIGN.iter().enumerate() {
+    fn each_pair_of_a_foreign_word_and_ours_stands_once() {
+        for (at, pair @ (word, ours)) in FOREIGN.iter().enumerate() {
             assert_ne!(word, ours);
-            assert_eq!(FOREIGN.iter().position(|(other, _)| other == word), Some(at), "{word}");
+            assert_eq!(FOREIGN.iter().position(|other| other == pair), Some(at), "{word}");
         }
     }
 }

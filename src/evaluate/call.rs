@@ -140,6 +140,11 @@ impl Evaluator<'_> {
         if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
             return Ok(poison.clone());
         }
+        if let ([Argument::Expression(id)], [Value::Number(angle)]) = (list, &values[..])
+            && matches!(word, Word::Sin | Word::Cos | Word::Tan)
+        {
+            self.lint_trigonometry(here, word, *id, *angle);
+        }
         let longest = usize::try_from(self.options.limits.string.saturating_mul(1 << 20))
             .unwrap_or(usize::MAX);
         builtin::call(word, &values, &mut self.streams, longest).map_err(|error| {

@@ -5,10 +5,10 @@ use crate::source::Span;
 use crate::syntax::ast::{
     DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target, Test,
 };
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::scope::Owner;
-use super::stream::{Token, TokenKind};
+use super::stream::{Hold, Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
@@ -161,20 +161,7 @@ impl Evaluator<'_> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
         let indices = self.target_indices(here, target);
-        let outer_poison = self.poison.take();
-        let outer_hold = self.hold.take();
-        let value = match self.next() {
-            Some(first) => {
-                self.hold = Some(self.frames.len());
-                self.value_of(&first)
-            }
-            None => Err(self.expected("a value", None, (here, target.span.after()))),
-        };
-        if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
-            self.next();
-        }
-        self.hold = outer_hold;
-        self.poison = outer_poison;
+        let value = self.declared_value(here, target);
         if !target.indices.is_empty() {
             return self.assign_element(here, target, indices, value);
         }
@@ -186,6 +173,36 @@ impl Evaluator<'_> {
         self.scopes.note_declaration(symbol, here.site(target.span), owner);
         self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
+    }
+
+    /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a
+    /// limit ends that.
+    fn declared_value(&mut self, here: &Here, target: &Target) -> Outcome<Value> {
+        let limit = self.options.limits.nesting;
+        // A macro that gives the value may declare something itself, and call itself for it.
+        if self.declaring >= limit.saturating_add(self.macro_depth) {
+            let message = format!("values of `#declare` are nested more than {limit} deep");
+            let diagnostic = Diagnostic::new(Code::NestingLimit, message)
+                .at(target.span, "reading stops here")
+                .help("`--limit nesting=N` raises the limit");
+            return Err(self.halt(here.expansion, diagnostic));
+        }
+        let (outer_poison, outer_hold) = (self.poison.take(), self.hold.take());
+        let own = self.frames.len();
+        self.declaring += 1;
+        let value = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || match self.next() {
+            Some(first) => {
+                self.hold = Some(Hold { own, first: self.frames.len() });
+                self.value_of(&first)
+            }
+            None => Err(self.expected("a value", None, (here, target.span.after()))),
+        });
+        if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
+            self.next();
+        }
+        self.declaring -= 1;
+        (self.poison, self.hold) = (outer_poison, outer_hold);
+        value
     }
 
     /// Evaluates an expression for what it does. Its vectors may have any number of components: those
@@ -201,12 +218,17 @@ impl Evaluator<'_> {
     pub(super) fn run_items(&mut self) {
         while let Some(Token { kind, here, span }) = self.next() {
             match kind {
-                TokenKind::Expression(id) => self.run_expression(&here, id),
+                TokenKind::Expression(id) => match self.unknown_name(&here, id) {
+                    Some(symbol) => drop(self.undeclared_among(&here, symbol, span, |word| {
+                        word.family() != Family::Directive
+                    })),
+                    None => self.run_expression(&here, id),
+                },
                 TokenKind::Block(contents) => {
                     self.inside_block(&here, contents, span, Self::run_items);
                 }
                 TokenKind::Entry(items) => self.inside(&here, items, Self::run_items),
-                TokenKind::Word(crate::vocabulary::Word::Function) => self.skip_function(),
+                TokenKind::Word(Word::Function) => self.skip_function(),
                 TokenKind::Word(_)
                 | TokenKind::Comma
                 | TokenKind::Semicolon

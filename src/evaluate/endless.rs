@@ -4,8 +4,9 @@
 //! **Invariant:** says so only when it is certain: a condition without a name or a call never changes,
 //! and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
 
+use crate::source::Span;
 use crate::syntax::ast::{
-    Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, ItemKind, Items,
+    Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
 };
 use crate::vocabulary::Word;
 
@@ -36,6 +37,57 @@ pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
         }
     }
     true
+}
+
+/// Where a condition asks a name that the body never sets, and the body sets one that differs from it only
+/// in capitals: the two, and where the second is set.
+pub(super) fn same_but_case(
+    ast: &Ast,
+    condition: ExpressionId,
+    body: Items,
+) -> Option<(&str, &str, Span)> {
+    let (asked, set) = (names(ast, condition), declared(ast, body));
+    asked.into_iter().find_map(|asked| {
+        let alike = |(name, _): &&(&str, Span)| name.eq_ignore_ascii_case(asked);
+        let sets = |(name, _): &(&str, Span)| *name == asked;
+        let &(name, span) = set.iter().find(alike).filter(|_| !set.iter().any(sets))?;
+        Some((asked, name, span))
+    })
+}
+
+/// The names in an expression of operators and parentheses.
+fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
+    let (mut open, mut names) = (vec![id], Vec::new());
+    while let Some(id) = open.pop() {
+        match ast.expression(id).kind {
+            ExpressionKind::Name(name) => names.push(ast.name(name)),
+            ExpressionKind::Unary(_, a) | ExpressionKind::Group(a) => open.push(a),
+            ExpressionKind::Binary(_, a, b) => open.extend([a, b]),
+            ExpressionKind::Conditional(a, b, c) => open.extend([a, b, c]),
+            ExpressionKind::Number(_)
+            | ExpressionKind::Word(_)
+            | ExpressionKind::String
+            | ExpressionKind::Vector(_)
+            | ExpressionKind::Call(..)
+            | ExpressionKind::Index(..)
+            | ExpressionKind::Component(..)
+            | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Missing => {}
+        }
+    }
+    names
+}
+
+/// What a loop's body declares, at its own level.
+fn declared(ast: &Ast, body: Items) -> Vec<(&str, Span)> {
+    let declares = |item: &Item| match item.kind {
+        ItemKind::Directive(id) => match &ast.directive(id).kind {
+            DirectiveKind::Declare { target, .. } => Some((ast.name(target.name), target.span)),
+            _ => None,
+        },
+        _ => None,
+    };
+    ast.items(body).iter().filter_map(declares).collect()
 }
 
 /// Whether something in a loop's body may end the loop.

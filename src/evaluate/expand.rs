@@ -20,6 +20,9 @@ use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
+/// How many brackets may stand around each of the macros that call each other, on average.
+const MOST_AROUND: u64 = 10;
+
 /// A macro as it was defined.
 #[derive(Debug)]
 pub(super) struct Macro {
@@ -68,6 +71,9 @@ impl Evaluator<'_> {
         body: &Body,
     ) {
         let symbol = here.symbol(name);
+        // Told already: its body would read the language's own word.
+        let is_reserved = |p: &Parameter| Word::from_name(here.unit.ast.name(p.name)).is_some();
+        let reserved = parameters.iter().any(is_reserved);
         let id = MacroId(self.macros.len() as u32);
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
         self.macros.push(Rc::new(Macro {
@@ -82,7 +88,7 @@ impl Evaluator<'_> {
         }));
         let owner = if self.in_main() { Owner::Main } else { Owner::Other };
         self.scopes.note_declaration(symbol, here.site(name_span), owner);
-        self.scopes.assign(symbol, Value::Macro(id));
+        self.scopes.assign(symbol, if reserved { Value::Broken } else { Value::Macro(id) });
     }
 
     /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
@@ -149,6 +155,15 @@ impl Evaluator<'_> {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
             let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit";
+            return Err(self.too_many_calls(here, definition, span, message, help));
+        }
+        // What stands around a call in each of them counts too: it is all waiting.
+        let around = self.enclosures.len() as u64 + self.calculating;
+        let Limits { nesting, macro_depth, .. } = self.options.limits;
+        let most = u64::from(nesting) + MOST_AROUND * u64::from(macro_depth);
+        if around > most {
+            let message = format!("macros call each other inside of more than {most} brackets");
+            let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         let mut bound = Vec::with_capacity(definition.parameters.len());

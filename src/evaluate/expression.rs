@@ -30,7 +30,12 @@ impl Evaluator<'_> {
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
             // Brackets in brackets.
-            _ => stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id)),
+            _ => {
+                self.calculating += 1;
+                let value = stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id));
+                self.calculating -= 1;
+                value
+            }
         }
     }
 

@@ -50,7 +50,19 @@ impl Evaluator<'_> {
                 let found = match self.files.read(&name, &from) {
                     Ok(found) => found,
                     Err(error) => {
+                        let slashed = name.replace('\\', "/");
                         let diagnostic = missing_file(&name, span, error);
+                        let diagnostic = if slashed == name {
+                            diagnostic
+                        } else if diagnostic.fixes.is_empty()
+                            && self.files.read(&slashed, &from).is_ok()
+                        {
+                            let quoted = format!("\"{slashed}\"");
+                            let help = format!("folders are parted by `/`: write `{quoted}`");
+                            diagnostic.help(help).fix(span, quoted)
+                        } else {
+                            diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
+                        };
                         self.lacks_include = true;
                         return Err(self.report(here, diagnostic));
                     }

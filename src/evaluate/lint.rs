@@ -1,6 +1,12 @@
 //! Lints: what a right scene might contain, and probably does not.
 
-use crate::color::Rgb;
+mod angle;
+mod color;
+mod finish;
+mod light;
+mod map;
+mod unit;
+
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
@@ -8,21 +14,12 @@ use crate::source::{FileId, Site, Span};
 use crate::vocabulary::{PREDECLARED, Word};
 
 use super::scope::Owner;
+pub(in crate::evaluate) use light::Cone;
+pub(in crate::evaluate) use map::Rise;
+
 use super::stream::Token;
 use super::value::Value;
 use super::{Evaluator, Here, Unit};
-
-/// Angles that people write in radians: fractions of π with at least two digits after the point.
-const RADIANS: [f64; 8] = [
-    std::f64::consts::FRAC_PI_6,
-    std::f64::consts::FRAC_PI_4,
-    std::f64::consts::FRAC_PI_3,
-    std::f64::consts::FRAC_PI_2,
-    std::f64::consts::PI * 2.0 / 3.0,
-    std::f64::consts::PI * 3.0 / 4.0,
-    std::f64::consts::PI,
-    std::f64::consts::TAU,
-];
 
 impl Evaluator<'_> {
     /// Names that were declared in the main file and never used: the scene knows them, and there is
@@ -120,81 +117,8 @@ impl Evaluator<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Degrees are wanted; these look like radians.
-    pub(super) fn lint_degrees(&mut self, here: &Here, span: Span, degrees: &[f64]) {
-        let text = self.sources.text(span);
-        let mentions_pi =
-            text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "pi")
-                && !text.contains("degrees")
-                && !text.contains("180");
-        let is_radians =
-            |value: f64| RADIANS.iter().any(|angle| (value.abs() - angle).abs() < 0.0011);
-        let literal = text.chars().all(|c| !c.is_alphabetic() || "xyz".contains(c));
-        let largest = degrees.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-        if largest == 0.0 || largest > 6.5 {
-            return;
-        }
-        let looks = degrees.iter().any(|value| is_radians(*value));
-        if mentions_pi || (literal && looks) {
-            let diagnostic = Diagnostic::new(
-                Code::SuspiciousUnit,
-                "this angle looks like radians, and is taken as degrees",
-            )
-            .at(span, format!("{largest:.4} degrees"))
-            .help("write degrees, or `degrees(…)` around it");
-            self.report(here, diagnostic);
-        }
-    }
-
-    /// A camera's angle in degrees. Of less than π, and with a fraction, it is rather one in radians than
-    /// that of a telescope.
-    pub(super) fn lint_camera_angle(&mut self, here: &Here, span: Span, degrees: f64) {
-        let text = self.sources.text(span);
-        let literal = text.chars().all(|c| c.is_ascii_digit() || c == '.');
-        if !(literal && degrees.fract() != 0.0 && (0.2..3.2).contains(&degrees)) {
-            return self.lint_degrees(here, span, &[degrees]);
-        }
-        let meant = degrees.to_degrees();
-        let diagnostic = Diagnostic::new(
-            Code::SuspiciousUnit,
-            "this angle looks like radians, and is taken as degrees",
-        )
-        .at(span, format!("{degrees} degrees: the view of a telescope"))
-        .help(format!("write degrees, or `degrees({text})`, which is {meant:.1}"));
-        self.report(here, diagnostic);
-    }
-
-    /// A colour is 0 to 1; this one looks like 0 to 255.
-    pub(super) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: [f64; 3]) {
-        let whole = rgb.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
-        let largest = rgb.iter().fold(0.0f64, |most, c| most.max(*c));
-        // Lights may be brighter than 1, and a grey of whole numbers may be meant so; not on a surface.
-        let gray = rgb[0] == rgb[1] && rgb[1] == rgb[2];
-        if !(whole && largest >= 16.0) || gray && largest != 255.0 && !self.in_pigment() {
-            return;
-        }
-        let text = self.sources.text(span);
-        let literal = |c: char| c.is_ascii_digit() || c == '.';
-        let vector = text.starts_with('<') && text.ends_with('>');
-        let written = match vector || text.chars().all(literal) {
-            true => text.to_owned(),
-            false => format!("<{}, {}, {}>", rgb[0], rgb[1], rgb[2]),
-        };
-        let divided = format!("{written}/255");
-        let mut diagnostic = Diagnostic::new(
-            Code::ColorRange,
-            "this colour looks as if written as 0 to 255; colours are 0 to 1",
-        )
-        .at(span, "far brighter than white")
-        .help(format!("write `{divided}`"));
-        if written == text {
-            diagnostic = diagnostic.fix(span, divided);
-        }
-        self.report(here, diagnostic);
-    }
-
     /// Whether what is read now is the colour of a surface.
-    fn in_pigment(&self) -> bool {
+    pub(super) fn in_pigment(&self) -> bool {
         let word = |span: &Span| self.sources.text(*span);
         self.openers
             .last()
@@ -212,19 +136,6 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// A surface that takes light away, or mirrors more than it gets.
-    pub(super) fn lint_strength(&mut self, here: &Here, span: Span, word: Word, light: Rgb) {
-        let name = word.name();
-        let (message, label) = if light.red.min(light.green).min(light.blue) < 0.0 {
-            (format!("a negative `{name}` takes light away"), "expected 0 or more")
-        } else if word == Word::Reflection && light.largest() > 1.0 {
-            (format!("this `{name}` gives back more light than arrives"), "expected 0 to 1")
-        } else {
-            return;
-        };
-        self.report(here, Diagnostic::new(Code::UnlikelyFinish, message).at(span, label));
-    }
-
     pub(super) fn lint_negative_radius(&mut self, here: &Here, span: Span, radius: f64) {
         let diagnostic = Diagnostic::new(
             Code::NegativeSize,
@@ -239,4 +150,10 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
         self.report(here, diagnostic);
     }
+}
+
+/// Whether a piece of text is one number as it is typed: what is computed may be meant.
+fn is_literal(text: &str) -> bool {
+    let text = text.trim_start_matches(['-', '+']).trim();
+    text.starts_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()
 }

@@ -27,10 +27,11 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod undeclared;
 pub mod value;
 mod vector;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
@@ -48,7 +49,7 @@ use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
 use scope::{Scopes, Symbol};
-use stream::{Frame, Token};
+use stream::{Frame, Hold, Token};
 use value::{Poison, Value};
 
 /// What the caller sets.
@@ -89,7 +90,8 @@ pub struct Limits {
     pub macro_depth: u32,
     /// Includes inside each other.
     pub include_depth: u32,
-    /// Brackets and directives inside each other, in one file.
+    /// Brackets and directives inside each other, in one file; and `#declare`s that wait for the values
+    /// of each other.
     pub nesting: u32,
     /// Objects of the scene, declared ones included.
     pub objects: u64,
@@ -211,9 +213,9 @@ struct Evaluator<'a> {
     peeked: Option<Token>,
     /// Where the item stood that a consumer took last: the end of what it is reading.
     taken: Option<Site>,
-    /// While the value of a `#declare` is read: how many frames there were at its first item. Looking
-    /// past its end runs nothing there, since that may already ask for the value.
-    hold: Option<usize>,
+    /// While the value of a `#declare` is read. Looking past its end runs nothing there, since that may
+    /// already ask for the value; what gave the value may end.
+    hold: Option<Hold>,
     /// Within [`Self::peek_on`].
     calls_wait: bool,
     /// Files already read and parsed, by the name they were found under.
@@ -227,8 +229,12 @@ struct Evaluator<'a> {
     /// Whether the scene said `#version`, and `assumed_gamma`.
     says_version: bool,
     says_gamma: bool,
+    /// The first colour that was converted before `assumed_gamma` was said.
+    srgb_before_gamma: Option<Site>,
     /// The first word inside the object being read that is not built yet.
     poison: Option<Poison>,
+    /// Other words in the same item that are not built either, by the place of the first.
+    beside: BTreeMap<Span, Vec<Poison>>,
     /// An include was not found: what is missing now may have been declared there.
     lacks_include: bool,
     /// Where a part was last found missing: what else is missing there says no more.
@@ -236,6 +242,10 @@ struct Evaluator<'a> {
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
+    /// How many `#declare`s wait for their values.
+    declaring: u32,
+    /// How many expressions are being calculated inside each other.
+    calculating: u64,
     /// Bytes of what the scene holds beside its objects, about.
     stored: u64,
     /// Turns of all loops so far.
@@ -248,6 +258,8 @@ struct Evaluator<'a> {
     openers: Vec<Span>,
     /// What stands between their braces, where it is written as one text.
     insides: Vec<Option<Site>>,
+    /// Whether an expression is an angle in radians, as far as lints have asked.
+    in_radians: HashMap<Span, bool>,
     /// What `trace` and its kin have looked at.
     probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
 }
@@ -322,17 +334,22 @@ impl<'a> Evaluator<'a> {
             version: 3.7,
             says_version: false,
             says_gamma: false,
+            srgb_before_gamma: None,
             poison: None,
+            beside: BTreeMap::new(),
             lacks_include: false,
             missing_at: None,
             halted: false,
             macro_depth: 0,
+            declaring: 0,
+            calculating: 0,
             stored: 0,
             turns: 0,
             misread: false,
             reports: 0,
             openers: Vec::new(),
             insides: Vec::new(),
+            in_radians: HashMap::new(),
             probes: HashMap::new(),
         }
     }

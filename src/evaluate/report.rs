@@ -2,15 +2,16 @@
 
 use std::ops::RangeInclusive;
 
-use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::color::{rounded, srgb_decode};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
-use crate::vocabulary::{Family, Role, Word};
+use crate::vocabulary::{Family, Word};
 
 use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
-use super::{Evaluator, Here, Outcome, Reported, Symbol};
+use super::{Evaluator, Here, Outcome, Reported, Symbol, endless};
 
 impl Evaluator<'_> {
     pub(super) fn report(&mut self, here: &Here, diagnostic: Diagnostic) -> Reported {
@@ -74,10 +75,14 @@ impl Evaluator<'_> {
         };
         let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
         if let Value::String(found) = found
-            && matches!(wanted, "a colour" | "a vector")
-            && let Some(color) = color_of_string(found)
+            && let Some(shown) = color_of_string(found)
+            && let Some(color) = match wanted {
+                "a colour" => Some(format!("srgb {}", rounded(shown))),
+                "display values" => Some(rounded(shown)),
+                "a vector" => Some(rounded(shown.map(srgb_decode))),
+                _ => None,
+            }
         {
-            let color = if wanted == "a colour" { format!("rgb {color}") } else { color };
             diagnostic = diagnostic.help(format!("write `{color}`"));
             if name.is_none() {
                 diagnostic = diagnostic.fix(span, color);
@@ -93,8 +98,36 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// Poison has reached a place that needs its value.
+    /// Something is not built that the item being read has: the first is its poison, and brings the
+    /// others along.
+    pub(super) fn set_poison(&mut self, poison: Poison) {
+        let first = *self.poison.get_or_insert(poison);
+        if first.word != poison.word {
+            let beside = self.beside.entry(first.site.span).or_default();
+            if beside.iter().all(|other| other.word != poison.word) {
+                beside.push(poison);
+            }
+        }
+    }
+
+    /// Poison has reached a place that needs its value: said of each word that is not built.
     pub(super) fn not_supported(&mut self, poison: Poison, used: Option<Span>) -> Reported {
+        let (mut told, mut all) = (vec![poison.word], vec![poison]);
+        let mut used = used;
+        while let Some(poison) = all.pop() {
+            self.not_built(poison, used.take());
+            let beside = self.beside.get(&poison.site.span).cloned().unwrap_or_default();
+            for other in beside {
+                if !told.contains(&other.word) {
+                    told.push(other.word);
+                    all.push(other);
+                }
+            }
+        }
+        Reported
+    }
+
+    fn not_built(&mut self, poison: Poison, used: Option<Span>) -> Reported {
         let mut diagnostic = Diagnostic::new(
             Code::NotSupportedYet,
             format!("{} not supported yet", what_is_not_built(poison.word)),
@@ -112,69 +145,6 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.also(used, "needed by this");
         }
         self.report_in(poison.site.expansion, diagnostic)
-    }
-
-    /// A name that was never declared: said once for each name.
-    pub(super) fn undeclared(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
-        let name = self.scopes.name(symbol).to_owned();
-        let mut diagnostic =
-            Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
-        let close = suggest::closest(&name, self.scopes.visible()).map(str::to_owned);
-        let value_word = |word: Word| !matches!(word.role(), Role::Statement);
-        let later = here.unit.declaration_of(symbol);
-        let was = self.scopes.declared(symbol).copied();
-        if let Some(was) = was {
-            diagnostic = diagnostic.at(span, "not declared any more");
-            diagnostic = match was.undone {
-                Some(undone) => diagnostic.also(undone.span, "forgotten here, by `#undef`"),
-                None => diagnostic
-                    .also(was.site.span, "declared here")
-                    .help("a `#local` name ends with the macro or the include that it stands in"),
-            };
-        } else if let Some(later) = later.filter(|later| later.start > span.start) {
-            diagnostic = diagnostic
-                .at(span, "not declared up to here")
-                .also(later, "declared only here: move it up");
-        } else if let Some(close) = close {
-            diagnostic = diagnostic
-                .at(span, "not declared up to here")
-                .help(format!("did you mean `{close}`?"))
-                .fix(span, close.clone());
-            if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s))
-            {
-                let declared = declared.site.span;
-                diagnostic = diagnostic.also(declared, format!("`{close}` is declared here"));
-            }
-        } else if let Some((close, later)) = here.unit.similar_declaration(&name) {
-            diagnostic = diagnostic
-                .at(span, "not declared up to here")
-                .also(later, format!("`{close}` is declared here"))
-                .help(format!("did you mean `{close}`, declared before its use?"));
-        } else if let Some(word) = word_like(&name, value_word)
-            // A name with a capital is rather one of the author's.
-            && (!name.starts_with(char::is_uppercase) || word.eq_ignore_ascii_case(&name))
-        {
-            diagnostic = diagnostic
-                .at(span, "not declared, and not a word of the language")
-                .help(format!("did you mean `{word}`?"))
-                .fix(span, word);
-        } else if self.lacks_include {
-            // It may stand in the include that was not found.
-            self.scopes.assign(symbol, Value::Broken);
-            return Reported;
-        } else {
-            diagnostic = diagnostic.at(span, "not declared up to here");
-            if let Some(include) = standard_include(&name)
-                && !self.parsed.keys().any(|file| file.ends_with(include))
-            {
-                diagnostic =
-                    diagnostic.help(format!("`{name}` comes with `#include \"{include}\"`"));
-            }
-        }
-        let reported = self.report(here, diagnostic);
-        // Known from now on, so that it is said once.
-        self.scopes.assign(symbol, Value::Broken);
-        reported
     }
 
     /// A macro's name without its arguments.
@@ -224,11 +194,20 @@ impl Evaluator<'_> {
         message: String,
         label: &str,
     ) -> Outcome<()> {
-        let directive = here.unit.ast.directive(directive);
+        let ast = &here.unit.ast;
+        let directive = ast.directive(directive);
         let diagnostic = Diagnostic::new(Code::LoopLimit, message).at(directive.head, label);
         let diagnostic = match directive.kind {
-            DirectiveKind::While { .. } => diagnostic
-                .help("change in its body what its condition asks, or leave it with `#break`"),
+            DirectiveKind::While { condition, body } => {
+                match endless::same_but_case(ast, condition, body) {
+                    Some((asked, set, span)) => diagnostic
+                        .also(span, format!("this sets `{set}`, the condition asks `{asked}`"))
+                        .help("names that differ in capitals are different names"),
+                    None => diagnostic.help(
+                        "change in its body what its condition asks, or leave it with `#break`",
+                    ),
+                }
+            }
             _ => diagnostic,
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
@@ -350,56 +329,4 @@ fn built_beside(word: Word) -> Vec<String> {
             && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())
     };
     Word::ALL.iter().filter(fits).map(|word| format!("`{}`", word.name())).collect()
-}
-
-/// The word of the language that an author who wrote `name` most likely meant.
-pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {
-    let words = || Word::ALL.iter().filter(|word| fits(**word)).map(|word| word.name());
-    suggest::closest(name, words())
-        .or_else(|| suggest::foreign(name).filter(|foreign| words().any(|word| word == *foreign)))
-}
-
-/// Where a well-known name is declared.
-pub(super) fn standard_include(name: &str) -> Option<&'static str> {
-    const COLORS: &[&str] = &[
-        "Red",
-        "Green",
-        "Blue",
-        "Yellow",
-        "Cyan",
-        "Magenta",
-        "Clear",
-        "White",
-        "Black",
-        "Gray",
-        "Orange",
-        "Brown",
-        "Pink",
-        "Gold",
-        "Silver",
-        "SkyBlue",
-        "Violet",
-        "Maroon",
-        "Navy",
-        "Turquoise",
-    ];
-    if COLORS.contains(&name) || name.starts_with("Gray") {
-        Some("colors.inc")
-    } else if name.starts_with("T_Stone") {
-        Some("stones.inc")
-    } else if name.starts_with("T_Wood") {
-        Some("woods.inc")
-    } else if name.starts_with("F_Glass")
-        || name.starts_with("T_Glass")
-        || name.starts_with("I_Glass")
-    {
-        Some("glass.inc")
-    } else if name.starts_with("T_Chrome")
-        || name.starts_with("T_Brass")
-        || name.starts_with("T_Silver")
-    {
-        Some("metals.inc")
-    } else {
-        None
-    }
 }

@@ -302,8 +302,8 @@ impl Scopes {
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
             let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
-            // A name that was itself reported is no suggestion for another.
-            value.is_some_and(|value| *value != Value::Broken)
+            // A name that is only known because it was reported is no suggestion for another.
+            value.is_some_and(|value| *value != Value::Broken || state.declared.is_some())
         });
         self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())
     }

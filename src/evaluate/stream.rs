@@ -61,6 +61,13 @@ pub(super) enum FrameKind {
     Include,
 }
 
+/// How many frames there were where a `#declare` stands, and at the first item of its value.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hold {
+    pub own: usize,
+    pub first: usize,
+}
+
 /// What a consumer gets.
 #[derive(Debug, Clone)]
 pub(super) struct Token {
@@ -266,20 +273,26 @@ impl Evaluator<'_> {
             if let Some(token) = self.peeked.take() {
                 return Some(token);
             }
-            let held = self.hold.is_some_and(|depth| self.frames.len() <= depth);
+            let depth = self.frames.len();
             let frame = self.frames.last_mut()?;
-            let waits = frame.at == frame.end || {
-                let ast = &frame.here.unit.ast;
-                match ast.items[frame.at as usize].kind {
-                    ItemKind::Directive(_) => true,
-                    ItemKind::Expression(id) => {
-                        self.calls_wait
-                            && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
-                    }
-                    _ => false,
+            let waits = self.hold.is_some_and(|hold| {
+                if frame.at == frame.end {
+                    let turns =
+                        matches!(frame.kind, FrameKind::While { .. } | FrameKind::For { .. });
+                    return depth <= hold.own || (depth <= hold.first && turns);
                 }
-            };
-            if held && waits {
+                let ast = &frame.here.unit.ast;
+                depth <= hold.first
+                    && match ast.items[frame.at as usize].kind {
+                        ItemKind::Directive(_) => true,
+                        ItemKind::Expression(id) => {
+                            self.calls_wait
+                                && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
+                        }
+                        _ => false,
+                    }
+            });
+            if waits {
                 return None;
             }
             if frame.at == frame.end {

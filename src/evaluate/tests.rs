@@ -50,6 +50,7 @@ macro_rules! facts {
     };
 }
 
+mod deep;
 mod made;
 
 facts! {
@@ -131,6 +132,13 @@ facts! {
     the_fourth_number_is_filter_or_transmit:
         "#declare A = rgbf <1,.5,.25,.1>; #declare B = rgbt <1,.5,.25,.1>; #declare D = rgbft <1,2,3,4,5>; C(A) C(B) C(D)"
         => "(1.00,0.50,0.25,0.10,0.00) (1.00,0.50,0.25,0.00,0.10) (1.00,2.00,3.00,4.00,5.00)";
+    display_values_are_converted_as_povray_prints_them:
+        "#declare A = srgb <1,.5,.02>; #declare B = srgbft <-0.5,.3,2,.5,.6>; #declare D = srgbt .5; C(A) C(B) C(D)"
+        => "(1.00,0.21,0.00,0.00,0.00) (-0.04,0.07,4.95,0.50,0.60) (0.21,0.21,0.21,0.00,0.50)";
+    what_follows_a_display_value_is_as_it_is:
+        "#declare R = rgbf <.5,.5,.5,.25>; #declare A = srgb <.5,.6,.7> filter .3; #declare B = srgb <.5,.6,.7> red .3;
+         #declare D = srgb R; #declare E = srgb <.25,.25,.5>*2; C(A) C(B) C(D) C(E)"
+        => "(0.21,0.32,0.45,0.30,0.00) (0.30,0.32,0.45,0.00,0.00) (0.21,0.21,0.21,0.25,0.00) (0.21,0.21,1.00,0.00,0.00)";
     colours_are_calculated_with:
         "#declare R = rgb <1,0,0>; #declare A = <.1,.2,.3> + R; #declare B = rgb R*2; #declare D = rgb <1,2,3>*.5; C(A) C(B) C(D)"
         => "(1.10,0.20,0.30,0.00,0.00) (2.00,0.00,0.00,0.00,0.00) (0.50,1.00,1.50,0.00,0.00)";

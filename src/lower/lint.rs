@@ -44,6 +44,7 @@ impl Lowering<'_, '_> {
         }
         self.lint_picture_shape();
         self.lint_clear();
+        let telescope = self.lint_angle();
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();
         if world.objects.is_empty() && empty_sky {
@@ -56,11 +57,14 @@ impl Lowering<'_, '_> {
             if let Some(dropped) =
                 self.origins.dropped.iter().find(|part| part.what == "light_source")
             {
-                diagnostic = diagnostic.at(dropped.site.span, "this light is black");
+                diagnostic =
+                    diagnostic.at(dropped.site.span, format!("of this light {}", dropped.why));
             }
             self.reporter.diagnostics.push(diagnostic);
         } else {
-            self.lint_view();
+            if !telescope {
+                self.lint_view();
+            }
             self.lint_pigment();
         }
     }

@@ -21,11 +21,7 @@ struct Inherited {
     surface: Surface,
     /// For whatever has no interior of its own.
     interior: Option<InteriorId>,
-    casts_shadow: bool,
-    in_image: bool,
-    in_reflections: bool,
-    double_illuminate: bool,
-    inverse: bool,
+    flags: Flags,
     /// The innermost of those above that could be taken out of the text.
     item: Option<Site>,
     /// One of the transforms is near-singular by itself.
@@ -39,15 +35,46 @@ struct Modified {
     /// Its place is in the parent's space.
     surface: Option<Surface>,
     interior: Option<InteriorId>,
-    casts_shadow: bool,
-    in_image: bool,
-    in_reflections: bool,
+    flags: Flags,
+    strained: bool,
+    calls: Calls,
+}
+
+/// What an object is that most are not.
+#[derive(Debug, Clone, Copy, Default)]
+struct Flags {
+    no_shadow: bool,
+    no_image: bool,
+    no_reflection: bool,
     double_illuminate: bool,
     inverse: bool,
-    strained: bool,
+}
+
+impl Flags {
+    /// Those of an object inside another.
+    fn under(self, above: Self) -> Self {
+        Self {
+            no_shadow: self.no_shadow || above.no_shadow,
+            no_image: self.no_image || above.no_image,
+            no_reflection: self.no_reflection || above.no_reflection,
+            double_illuminate: self.double_illuminate || above.double_illuminate,
+            inverse: self.inverse != above.inverse,
+        }
+    }
+}
+
+/// Which modifiers call for an effect, if there is a solid that they hold for: without all of them it has
+/// none.
+#[derive(Debug, Clone, Default)]
+struct Calls {
+    hidden: Vec<Site>,
+    double_illuminate: Vec<Site>,
 }
 
 struct Frame<'s> {
+    /// Of the union that is gone through, and how many solids there were before it.
+    calls: Calls,
+    before: usize,
     children: std::slice::Iter<'s, ObjectId>,
     inherited: Inherited,
     default_texture: TextureId,
@@ -75,19 +102,19 @@ impl<'s> Lowering<'s, '_> {
                 world_from_here: Affine::IDENTITY,
                 surface,
                 interior: None,
-                casts_shadow: true,
-                in_image: true,
-                in_reflections: true,
-                double_illuminate: false,
-                inverse: false,
+                flags: Flags::default(),
                 item: None,
                 strained: false,
             };
             let children = std::slice::from_ref(object).iter();
-            stack.push(Frame { children, inherited, default_texture: *default_texture });
+            let (calls, before) = (Calls::default(), self.world.objects.len());
+            let default_texture = *default_texture;
+            stack.push(Frame { calls, before, children, inherited, default_texture });
             while let Some(frame) = stack.last_mut() {
                 let Some(&id) = frame.children.next() else {
-                    stack.pop();
+                    if let Some(Frame { calls, before, .. }) = stack.pop() {
+                        self.note_calls(calls, before);
+                    }
                     continue;
                 };
                 visits += 1;
@@ -102,10 +129,12 @@ impl<'s> Lowering<'s, '_> {
                     return;
                 }
                 let default_texture = frame.default_texture;
-                if let Some((children, inherited)) =
+                let before = self.world.objects.len();
+                if let Some((children, inherited, calls)) =
                     self.visit(id, &frame.inherited, default_texture)
                 {
-                    stack.push(Frame { children: children.iter(), inherited, default_texture });
+                    let children = children.iter();
+                    stack.push(Frame { calls, before, children, inherited, default_texture });
                 }
             }
         }
@@ -117,7 +146,7 @@ impl<'s> Lowering<'s, '_> {
         id: ObjectId,
         inherited: &Inherited,
         default_texture: TextureId,
-    ) -> Option<(&'s [ObjectId], Inherited)> {
+    ) -> Option<(&'s [ObjectId], Inherited, Calls)> {
         let scene = self.scene;
         // A use goes on where the object it names left off: its texture replaces that one's.
         let mut uses = vec![id];
@@ -138,11 +167,7 @@ impl<'s> Lowering<'s, '_> {
             world_from_here,
             surface,
             interior: modified.interior.or(inherited.interior),
-            casts_shadow: inherited.casts_shadow && modified.casts_shadow,
-            in_image: inherited.in_image && modified.in_image,
-            in_reflections: inherited.in_reflections && modified.in_reflections,
-            double_illuminate: inherited.double_illuminate || modified.double_illuminate,
-            inverse: inherited.inverse != modified.inverse,
+            flags: modified.flags.under(inherited.flags),
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
         };
@@ -151,15 +176,17 @@ impl<'s> Lowering<'s, '_> {
                 if children.is_empty() {
                     self.drop_part(object.site, "union", "it is empty");
                 }
-                return Some((children, here));
+                return Some((children, here, modified.calls));
             }
             ObjectKind::LightSource(light) => {
                 let item = here.item.unwrap_or(object.site);
                 self.light(light, &world_from_here, object.site, item);
             }
             solid => {
+                let before = self.world.objects.len();
                 let spent = self.solid(solid, &here, object.site);
                 self.reporter.made(spent, object.site);
+                self.note_calls(modified.calls, before);
             }
         }
         None
@@ -173,15 +200,13 @@ impl<'s> Lowering<'s, '_> {
             map: Affine::IDENTITY,
             surface: None,
             interior: None,
-            casts_shadow: true,
-            in_image: true,
-            in_reflections: true,
-            double_illuminate: false,
-            inverse: false,
+            flags: Flags::default(),
             strained: false,
+            calls: Calls::default(),
         };
         for modifier in uses.iter().rev().flat_map(|id| &scene.objects[id.index()].modifiers) {
             let map = modified.map;
+            let (flags, calls) = (&mut modified.flags, &mut modified.calls);
             match modifier.kind {
                 ModifierKind::Transform(id) => {
                     let step = self.transforms.get(id);
@@ -205,12 +230,29 @@ impl<'s> Lowering<'s, '_> {
                     modified.surface = Some(surface.polished(id));
                 }
                 ModifierKind::Interior(id) => modified.interior = Some(id),
-                ModifierKind::NoShadow => modified.casts_shadow = false,
-                ModifierKind::NoImage(on) => modified.in_image = !on,
-                ModifierKind::NoReflection(on) => modified.in_reflections = !on,
-                ModifierKind::DoubleIlluminate(on) => modified.double_illuminate = on,
-                ModifierKind::Inverse => modified.inverse = !modified.inverse,
+                ModifierKind::NoShadow => flags.no_shadow = true,
+                ModifierKind::NoImage(on) => {
+                    flags.no_image = on;
+                    calls.hidden.extend(on.then_some(modifier.site));
+                }
+                ModifierKind::NoReflection(on) => {
+                    flags.no_reflection = on;
+                    calls.hidden.extend(on.then_some(modifier.site));
+                }
+                ModifierKind::DoubleIlluminate(on) => {
+                    flags.double_illuminate = on;
+                    calls.double_illuminate.extend(on.then_some(modifier.site));
+                }
+                ModifierKind::Inverse => flags.inverse = !flags.inverse,
             }
+        }
+        // What was undone calls for nothing.
+        let (flags, calls) = (modified.flags, &mut modified.calls);
+        if !(flags.no_image || flags.no_reflection) {
+            calls.hidden.clear();
+        }
+        if !flags.double_illuminate {
+            calls.double_illuminate.clear();
         }
         Some(modified)
     }
@@ -237,15 +279,15 @@ impl<'s> Lowering<'s, '_> {
             ObjectKind::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {
                 Round::Sphere(sphere) => {
                     let shape = Shape::Sphere(next(&mut self.world.spheres, sphere));
-                    self.place(shape, here, here.inverse, &[], site)
+                    self.place(shape, here, here.flags.inverse, &[], site)
                 }
                 Round::Ellipsoid(ellipsoid) => {
                     let shape = Shape::Ellipsoid(next(&mut self.world.ellipsoids, ellipsoid));
-                    self.place(shape, here, here.inverse, &[], site)
+                    self.place(shape, here, here.flags.inverse, &[], site)
                 }
             },
             ObjectKind::Plane { normal, distance } => {
-                let (plane, face) = shape::plane(normal, distance, here.inverse, map)?;
+                let (plane, face) = shape::plane(normal, distance, here.flags.inverse, map)?;
                 let shape = Shape::Plane(next(&mut self.world.planes, plane));
                 // An inverse plane is the plane with the opposite normal.
                 self.place(shape, here, false, &[face], site)
@@ -257,7 +299,7 @@ impl<'s> Lowering<'s, '_> {
                     self.reporter.fault(flat.label("one of its sides has no length"), site);
                 }
                 let shape = Shape::Box(next(&mut self.world.boxes, solid));
-                self.place(shape, here, here.inverse, &faces, site)
+                self.place(shape, here, here.flags.inverse, &faces, site)
             }
             ObjectKind::Union(_) | ObjectKind::Use(_) | ObjectKind::LightSource(_) => Ok(()),
         }
@@ -285,18 +327,18 @@ impl<'s> Lowering<'s, '_> {
         };
         self.note_near_singular(here, site);
         let interior = self.interior(here.interior, surface.finish, site);
-        let &Inherited { casts_shadow, in_image, in_reflections, double_illuminate, .. } = here;
+        let Flags { no_shadow, no_image, no_reflection, double_illuminate, .. } = here.flags;
         let object = Object {
-            shape,
             material,
             texture_from_world,
             faces,
             interior,
-            casts_shadow,
-            in_image,
-            in_reflections,
+            casts_shadow: !no_shadow,
+            in_image: !no_image,
+            in_reflections: !no_reflection,
             double_illuminate,
             inverse,
+            ..Object::plain(shape)
         };
         self.world.objects.push(object);
         self.origins.objects.push(site);
@@ -305,6 +347,14 @@ impl<'s> Lowering<'s, '_> {
 }
 
 impl Lowering<'_, '_> {
+    /// Notes modifiers that hold for solids made since there were `before`.
+    fn note_calls(&mut self, calls: Calls, before: usize) {
+        if self.world.objects.len() > before {
+            self.origins.hidden.extend(calls.hidden);
+            self.origins.double_illuminate.extend(calls.double_illuminate);
+        }
+    }
+
     /// Notes an object whose transforms together nearly flatten space, while none alone does.
     fn note_near_singular(&mut self, here: &Inherited, site: Site) {
         let map = &here.world_from_here;

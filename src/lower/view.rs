@@ -1,12 +1,14 @@
-//! Whether the camera sees anything at all.
+//! Whether the camera sees anything at all, or only a speck of what is there.
 //!
-//! **In:** the World. **Out:** a lint, when every object lies outside of the view. **Invariant:** told only
-//! when boxes around the objects prove it; what reaches everywhere is always in view.
+//! **In:** the World. **Out:** a lint, when every object lies outside of the view, or the view is that of a
+//! telescope that fits nothing. **Invariant:** told only when boxes around the objects prove it; what
+//! reaches everywhere is always in view.
 
 use super::Lowering;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::math::{Matrix, Vector};
+use crate::scene::CameraItemKind;
 use crate::shape::Bounds;
 use crate::world::{Camera, CameraKind};
 
@@ -20,7 +22,46 @@ enum Outside {
 /// How far outside a corner has to be, relative to its place: 2⁻³⁰, far more than was rounded on the way.
 const CLEARLY: f64 = 1.0 / (1u64 << 30) as f64;
 
+/// Angles that may be meant in radians: of less than a degree or two up to about π.
+const LIKE_RADIANS: std::ops::Range<f64> = 0.2..3.2;
+/// What a telescope looks at is smaller than this many of its pictures.
+const TOO_LARGE: f64 = 4.0;
+
 impl Lowering<'_, '_> {
+    /// An angle that is rather one in radians: by it no object with an end is in view but such as are far
+    /// larger than the picture. Whether it is told.
+    pub(super) fn lint_angle(&mut self) -> bool {
+        let items = self.scene.cameras.last().map_or(&[][..], |camera| &camera.items);
+        let angle = items.iter().rev().find_map(|item| match item.kind {
+            CameraItemKind::Angle(degrees) => Some((degrees, item.site)),
+            _ => None,
+        });
+        let Some((degrees, site)) = angle else { return false };
+        if !LIKE_RADIANS.contains(&degrees) || degrees.fract() == 0.0 {
+            return false;
+        }
+        let (world, view) = (&self.world, View::of(&self.world.camera));
+        let fits = (0..world.objects.len())
+            .filter_map(|i| bounds(world, i as u32))
+            .any(|bounds| view.outside(&bounds).is_none() && view.pictures(&bounds) <= TOO_LARGE);
+        if fits {
+            return false;
+        }
+        let (written, meant) = (shown(degrees), degrees.to_degrees());
+        let diagnostic = Diagnostic::new(
+            Code::SuspiciousUnit,
+            "this angle looks like radians, and is taken as degrees",
+        )
+        .at(
+            site.span,
+            format!("{written} degrees: the view of a telescope, which nothing here fits"),
+        )
+        .help(format!("write degrees, or `degrees({written})`, which is {meant:.1}"))
+        .traced(site, self.reporter.expansions);
+        self.reporter.diagnostics.push(diagnostic);
+        true
+    }
+
     pub(super) fn lint_view(&mut self) {
         let (world, view) = (&self.world, View::of(&self.world.camera));
         let mut all: Option<(Bounds, Outside)> = None;
@@ -64,14 +105,37 @@ impl View {
         Self { kind, location, view_from_world: Matrix::from_cols(right, up, forward).inverse() }
     }
 
-    /// Where a box is, if surely no part of it is in view.
-    fn outside(&self, &Bounds { low, high }: &Bounds) -> Option<Outside> {
-        let corners: [Vector; 8] = std::array::from_fn(|i| {
+    /// The corners of a box, in the camera's coordinates.
+    fn corners(&self, &Bounds { low, high }: &Bounds) -> [Vector; 8] {
+        std::array::from_fn(|i| {
             let side = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
             let corner =
                 Vector::new(side(0, low.x, high.x), side(1, low.y, high.y), side(2, low.z, high.z));
             self.view_from_world * (corner - self.location)
+        })
+    }
+
+    /// How many pictures wide or high a box is seen; without end where the camera stands beside it.
+    fn pictures(&self, bounds: &Bounds) -> f64 {
+        let corners = self.corners(bounds).map(|at| match self.kind {
+            CameraKind::Perspective if at.z <= 0.0 => None,
+            CameraKind::Perspective => Some([at.x / at.z, at.y / at.z]),
+            CameraKind::Orthographic => Some([at.x, at.y]),
         });
+        let wide = |axis: usize| {
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for corner in corners {
+                let Some(corner) = corner else { return f64::INFINITY };
+                (low, high) = (low.min(corner[axis]), high.max(corner[axis]));
+            }
+            high - low
+        };
+        wide(0).max(wide(1))
+    }
+
+    /// Where a box is, if surely no part of it is in view.
+    fn outside(&self, bounds: &Bounds) -> Option<Outside> {
+        let corners = self.corners(bounds);
         // Numbers too large to tell are not beyond anything.
         let all = |beyond: fn(Vector, f64) -> f64| {
             corners.iter().all(|&at| {
@@ -103,6 +167,20 @@ mod tests {
     fn seen(kind: CameraKind, low: [f64; 3], high: [f64; 3]) -> Option<Outside> {
         let camera = Camera { kind, ..Camera::default() };
         View::of(&camera).outside(&Bounds { low: Vector::from(low), high: Vector::from(high) })
+    }
+
+    #[test]
+    fn a_box_is_as_many_pictures_wide_as_its_nearest_side() {
+        let pictures = |kind, low: [f64; 3], high: [f64; 3]| {
+            let camera = Camera { kind, ..Camera::default() };
+            let bounds = Bounds { low: Vector::from(low), high: Vector::from(high) };
+            View::of(&camera).pictures(&bounds)
+        };
+        let (low, high) = ([-2.0, -1.0, -9.0], [2.0, 1.0, -0.5]);
+        assert!((pictures(CameraKind::Perspective, low, high) - 6.0).abs() < 1e-12);
+        assert!((pictures(CameraKind::Orthographic, low, high) - 3.0).abs() < 1e-12);
+        let around = pictures(CameraKind::Perspective, low, [2.0, 1.0, 0.5]);
+        assert_eq!(around, f64::INFINITY);
     }
 
     #[test]

@@ -70,11 +70,14 @@ impl Census<'_> {
             Effect::Diffuse => self.diffuse(),
             Effect::Highlights => self.highlights(),
             Effect::Shadows => self.shadows(),
+            Effect::Attenuation => self.attenuation(),
+            Effect::DoubleIllumination => self.double_illumination(),
             Effect::Reflection => self.reflection(),
             Effect::Transparency => self.transparency(),
             Effect::Refraction => self.refraction(),
             Effect::ColoredShadows => self.colored_shadows(),
             Effect::Patterns => self.patterns(),
+            Effect::Hiding => self.hiding(),
             Effect::Sky => self.sky(),
             Effect::Antialiasing => antialiasing(self.options.antialias),
         }
@@ -121,6 +124,35 @@ impl Census<'_> {
         }
         let by = self.lights(|light| light.casts_shadows);
         Ok((by, "one ray a casting light and lit hit".to_owned()))
+    }
+
+    fn attenuation(&self) -> Decision {
+        let attenuated = |light: &Light| light.attenuation.is_some();
+        if !self.world.lights.iter().any(attenuated) {
+            return because("every light shines everywhere in its colour", None);
+        }
+        if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
+            return because("no surface answers a light", None);
+        }
+        Ok((self.lights(attenuated), "up to three powers a light and hit".to_owned()))
+    }
+
+    fn double_illumination(&self) -> Decision {
+        if !self.world.objects.iter().any(|object| object.double_illuminate) {
+            return because("no object is lit from behind", None);
+        }
+        if self.world.lights.is_empty() {
+            return because("no light", None);
+        }
+        let by = self.origins.double_illuminate.clone();
+        Ok((by, "light for hits that face away from it".to_owned()))
+    }
+
+    fn hiding(&self) -> Decision {
+        if self.world.objects.iter().all(|object| object.in_image && object.in_reflections) {
+            return because("every object is seen", None);
+        }
+        Ok((self.origins.hidden.clone(), "a second tree of boxes".to_owned()))
     }
 
     fn reflection(&self) -> Decision {

@@ -96,6 +96,10 @@ pub enum Effect {
     Diffuse,
     Highlights,
     Shadows,
+    /// Lights that are less than their colour somewhere: beams, and light that fades with the distance.
+    Attenuation,
+    /// Light on one side of a surface that lights the other, too.
+    DoubleIllumination,
     Reflection,
     /// Rays that go on behind clear surfaces.
     Transparency,
@@ -104,21 +108,26 @@ pub enum Effect {
     /// Light that comes through clear surfaces.
     ColoredShadows,
     Patterns,
+    /// Objects that the camera or mirrors do not see.
+    Hiding,
     Sky,
     Antialiasing,
 }
 
 impl Effect {
     /// In the order the plan lists them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
+        Self::Attenuation,
+        Self::DoubleIllumination,
         Self::Reflection,
         Self::Transparency,
         Self::Refraction,
         Self::ColoredShadows,
         Self::Patterns,
+        Self::Hiding,
         Self::Sky,
         Self::Antialiasing,
     ];
@@ -129,11 +138,14 @@ impl Effect {
             Self::Diffuse => "diffuse light",
             Self::Highlights => "highlights",
             Self::Shadows => "shadows",
+            Self::Attenuation => "beams and fading",
+            Self::DoubleIllumination => "light from behind",
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",
             Self::Refraction => "refraction",
             Self::ColoredShadows => "coloured shadows",
             Self::Patterns => "patterns",
+            Self::Hiding => "hidden objects",
             Self::Sky => "sky",
             Self::Antialiasing => "antialiasing",
         }

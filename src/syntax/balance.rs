@@ -60,9 +60,9 @@ pub(super) fn balance(
     options: &ParseOptions,
     diagnostics: &mut Diagnostics,
 ) -> (Vec<Token>, bool) {
-    if let Some(at) = too_deep(&tokens, options.nesting_limit) {
+    if let Some((at, what)) = too_deep(&tokens, options.nesting_limit) {
         let span = Span::new(file, tokens[at].start as usize, tokens[at].end as usize);
-        diagnostics.push(super::nesting_limit(span, options.nesting_limit));
+        diagnostics.push(super::nesting_limit(span, what, options.nesting_limit));
         // Nothing behind it can be understood.
         tokens.truncate(at);
         return (tokens, true);
@@ -92,15 +92,21 @@ pub(super) fn pairs(tokens: &[Token]) -> bool {
     open.is_empty()
 }
 
-/// The first token that opens more than `limit` levels.
-fn too_deep(tokens: &[Token], limit: usize) -> Option<usize> {
-    let mut depth = 0_usize;
-    tokens.iter().position(|token| {
-        match turn(token.kind) {
-            Some(Turn::Open(_)) => depth += 1,
-            Some(Turn::Close(_)) => depth = depth.saturating_sub(1),
-            Some(Turn::Divide) | None => {}
+/// The first token that opens more than `limit` levels, and what most of them are.
+fn too_deep(tokens: &[Token], limit: usize) -> Option<(usize, &'static str)> {
+    let (mut depth, mut directives) = (0_usize, 0_usize);
+    let at = tokens.iter().position(|token| {
+        let (opener, opens) = match turn(token.kind) {
+            Some(Turn::Open(opener)) => (opener, true),
+            Some(Turn::Close(opener)) => (opener, false),
+            Some(Turn::Divide) | None => return false,
+        };
+        let levels =
+            [Some(&mut depth), Some(&mut directives).filter(|_| opener == Opener::Directive)];
+        for level in levels.into_iter().flatten() {
+            *level = if opens { *level + 1 } else { level.saturating_sub(1) };
         }
         depth > limit
-    })
+    })?;
+    Some((at, if 2 * directives > depth { "directives" } else { "brackets" }))
 }

@@ -177,7 +177,7 @@ impl<'a> Nest<'a> {
     pub(super) fn open_vector(&mut self, span: Span) {
         self.before_operand();
         if self.frames.len() > self.nesting_limit {
-            return self.too_deep(span);
+            return self.too_deep(span, "brackets");
         }
         self.open(FrameKind::Vector, span, false);
     }

@@ -82,10 +82,18 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
 }
 
-/// A string without its quote swallows the closers on its line: that what they would close is never closed
-/// is the same mistake. `found` is in the order of the text.
+/// A string without its quote swallows the closers on its line, and a comment without its end all that
+/// follow: that what they would close is never closed is the same mistake. `found` is in the order of the
+/// text.
 pub(super) fn drop_swallowed(found: &mut Vec<Diagnostic>, text: &str) {
     let place = |one: &Diagnostic| one.primary().map_or(0, |label| label.span.start as usize);
+    if let Some(comment) = found.iter().find(|one| one.code == Code::UnclosedComment).map(place) {
+        found.retain(|one| {
+            let unclosed = matches!(one.code, Code::UnclosedBlock | Code::MissingEnd);
+            let ends = one.labels.iter().map(|label| label.span.end as usize).max().unwrap_or(0);
+            !(unclosed && ends > comment)
+        });
+    }
     let Some(at) = found.iter().position(|one| one.code == Code::UnclosedString) else { return };
     let start = place(&found[at]);
     let line = text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");

@@ -37,8 +37,9 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
         let (start, end) = (tokens[body.start - 1].end, tokens[body.end].start);
         tokens.splice(body, [Token { kind: TokenKind::Raw, start, end }]);
     }
-    if !pairs(&tokens) {
-        loosen_across(&mut tokens, text);
+    // A brace in a branch that need not be run may be loose already, and still be what another waits for.
+    if !pairs(&tokens) && !loosen_across(&mut tokens, text, false) {
+        loosen_across(&mut tokens, text, true);
     }
     tokens
 }
@@ -188,6 +189,9 @@ struct Effect {
     opens: u64,
 }
 
+const OPENS: Effect = Effect { closes: 0, opens: 1 };
+const CLOSES: Effect = Effect { closes: 1, opens: 0 };
+
 impl Effect {
     fn then(&mut self, next: Self) {
         let within = self.opens.min(next.closes);
@@ -211,8 +215,9 @@ struct Run<'t> {
     branches: Branches,
 }
 
-/// Loosens what one macro opens and another, or the text that calls it, closes.
-fn loosen_across(tokens: &mut [Token], text: &str) {
+/// Loosens what one macro opens and another, or the text that calls it, closes; with the braces that are
+/// loose already, or without them. `false` when that does not pair.
+fn loosen_across(tokens: &mut [Token], text: &str, with_loose: bool) -> bool {
     let slice = |token: Token| text.get(token.start as usize..token.end as usize).unwrap_or("");
     let mut effects: HashMap<&str, Effect> = HashMap::new();
     let mut called: HashSet<&str> = HashSet::new();
@@ -230,7 +235,7 @@ fn loosen_across(tokens: &mut [Token], text: &str) {
         }
         let ends = turn(token.kind) == Some(Turn::Close(Opener::Directive));
         if ends && run.branches.0.is_empty() {
-            let Some(caller) = outer.pop() else { return };
+            let Some(caller) = outer.pop() else { return false };
             let Run { name, body, effect, .. } = std::mem::replace(&mut run, caller);
             if effect == Effect::default() {
                 effects.remove(name);
@@ -245,8 +250,10 @@ fn loosen_across(tokens: &mut [Token], text: &str) {
             continue;
         }
         match token.kind {
-            OPEN => run.effect.then(Effect { closes: 0, opens: 1 }),
-            CLOSE => run.effect.then(Effect { closes: 1, opens: 0 }),
+            OPEN => run.effect.then(OPENS),
+            CLOSE => run.effect.then(CLOSES),
+            TokenKind::LooseOpen if with_loose => run.effect.then(OPENS),
+            TokenKind::LooseClose if with_loose => run.effect.then(CLOSES),
             TokenKind::Name => {
                 let calls = tokens
                     .get(at + 1)
@@ -267,15 +274,18 @@ fn loosen_across(tokens: &mut [Token], text: &str) {
     let file_pairs = outer.is_empty() && run.effect == Effect::default();
     let among_all = surplus(&|_| true) == 0;
     let among_uncalled = surplus(&|name| !called.contains(name)) == 0;
-    if file_pairs && !called.is_empty() && (among_all || among_uncalled) {
-        if let Some(loose) = loose_braces(tokens) {
-            mark(tokens, &loose);
-        }
-    } else if among_all {
-        for body in unpaired {
-            if let Some(loose) = loose_braces(&tokens[body.clone()]) {
-                mark(&mut tokens[body], &loose);
-            }
+    let whole = file_pairs && !called.is_empty() && (among_all || among_uncalled);
+    if !whole && !among_all {
+        return false;
+    }
+    if whole {
+        unpaired.clear();
+        unpaired.push(0..tokens.len());
+    }
+    for part in unpaired {
+        if let Some(loose) = loose_braces(&tokens[part.clone()]) {
+            mark(&mut tokens[part], &loose);
         }
     }
+    pairs(tokens)
 }

@@ -109,7 +109,7 @@ impl<'a> Nest<'a> {
         self.before_operand();
         let base = self.top().operators;
         if self.stacks.operators.len() - base > self.nesting_limit {
-            return self.too_deep(span);
+            return self.too_deep(span, "signs");
         }
         self.stacks.operators.push(Operator { kind: OperatorKind::Unary(operator), span });
         self.top().state = State::Wanting;
@@ -119,7 +119,7 @@ impl<'a> Nest<'a> {
         let (base, full) = (self.top().operators, self.top().full);
         if mark == Mark::Question {
             if self.stacks.operators.len() - base > self.nesting_limit {
-                return self.too_deep(span);
+                return self.too_deep(span, "conditions");
             }
             self.before_operator(span);
             if !full {

@@ -84,8 +84,9 @@ pub fn parse(
     ast
 }
 
-fn nesting_limit(span: Span, limit: usize) -> Diagnostic {
-    let message = format!("brackets are nested more than {limit} deep");
+/// `what` is nested: "brackets", "directives", "signs".
+fn nesting_limit(span: Span, what: &str, limit: usize) -> Diagnostic {
+    let message = format!("{what} are nested more than {limit} deep");
     Diagnostic::new(Code::NestingLimit, message)
         .at(span, "reading stops here")
         .help("`--limit nesting=N` raises the limit")

@@ -306,9 +306,9 @@ impl<'a> Nest<'a> {
         }
     }
 
-    pub(super) fn too_deep(&mut self, span: Span) {
+    pub(super) fn too_deep(&mut self, span: Span, what: &str) {
         if !self.ends_early {
-            self.report(super::nesting_limit(span, self.nesting_limit));
+            self.report(super::nesting_limit(span, what, self.nesting_limit));
         }
         // Nothing behind it can be understood: the text ends here.
         self.at = self.tokens.len();

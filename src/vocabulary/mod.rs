@@ -137,8 +137,10 @@ macro_rules! vocabulary {
     (@block $block:ident) => { Some(Word::$block) };
 }
 
+mod standard;
 mod words;
 
+pub use standard::{is_standard_include, standard_include_of};
 use words::ROWS;
 pub use words::Word;
 
@@ -265,56 +267,6 @@ const fn hash(name: &[u8]) -> usize {
         i += 1;
     }
     (hash ^ (hash >> 15)) as usize
-}
-
-/// The includes that come with POV-Ray, without their `.inc`.
-///
-/// **Source:** POV-Ray 3.7 manual, section 3.4.9 "Include Files".
-const STANDARD_INCLUDES: &[&str] = &[
-    "arrays",
-    "chars",
-    "colors",
-    "consts",
-    "debug",
-    "finish",
-    "functions",
-    "glass",
-    "glass_old",
-    "golds",
-    "ior",
-    "logo",
-    "makegrass",
-    "math",
-    "meshmaker",
-    "metals",
-    "rad_def",
-    "rand",
-    "screen",
-    "shapes",
-    "shapes2",
-    "shapes3",
-    "shapes_old",
-    "shapesq",
-    "skies",
-    "stage1",
-    "stars",
-    "stdcam",
-    "stdinc",
-    "stoneold",
-    "stones",
-    "stones1",
-    "stones2",
-    "strings",
-    "sunpos",
-    "textures",
-    "transforms",
-    "woodmaps",
-    "woods",
-];
-
-/// Whether a file of this name comes with POV-Ray.
-pub fn is_standard_include(file: &str) -> bool {
-    file.strip_suffix(".inc").is_some_and(|name| STANDARD_INCLUDES.contains(&name))
 }
 
 #[cfg(test)]

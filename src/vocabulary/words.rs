@@ -292,10 +292,10 @@ vocabulary! {
         Rgbf "rgbf" statement built "`rgbf <red, green, blue, filter>`";
         Rgbft "rgbft" statement built "`rgbft <red, green, blue, filter, transmit>`";
         Rgbt "rgbt" statement built "`rgbt <red, green, blue, transmit>`";
-        Srgb "srgb" statement later "`srgb <red, green, blue>` in display values";
-        Srgbf "srgbf" statement later "`srgbf <red, green, blue, filter>` in display values";
-        Srgbft "srgbft" statement later "`srgbft <red, green, blue, filter, transmit>` in display values";
-        Srgbt "srgbt" statement later "`srgbt <red, green, blue, transmit>` in display values";
+        Srgb "srgb" statement built "`srgb <red, green, blue>` in display values";
+        Srgbf "srgbf" statement built "`srgbf <red, green, blue, filter>` in display values";
+        Srgbft "srgbft" statement built "`srgbft <red, green, blue, filter, transmit>` in display values";
+        Srgbt "srgbt" statement built "`srgbt <red, green, blue, transmit>` in display values";
         Transmit "transmit" statement built "light let through unchanged, 0 to 1; also a component, `.transmit`";
     }
     Camera {

@@ -109,7 +109,6 @@ impl Evaluator<'_> {
                 "less than 180 for a perspective camera",
             ));
         }
-        self.lint_camera_angle(&given.here, given.span, given.value);
         Ok(CameraItemKind::Angle(given.value))
     }
 

@@ -1,14 +1,16 @@
-//! Colours: `rgb <…>`, `color Red filter 0.5`, `color red 1 green 0.5`.
+//! Colours: `rgb <…>`, `srgb <…>`, `color Red filter 0.5`, `color red 1 green 0.5`.
 //!
-//! **Source:** POV-Ray manual, section 3.3.1.3 "Specifying Colors".
+//! **Source:** POV-Ray manual, sections 3.3.1.7 "Specifying Colors" and 3.3.1.7.2 "sRGB Colors".
 
-use crate::color::Color;
+use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
+use super::Given;
 
 impl Evaluator<'_> {
     /// The colour that starts with `token`, a word of the colour family.
@@ -18,59 +20,64 @@ impl Evaluator<'_> {
         };
         let color = match word {
             Word::Color => match self.peek().map(|next| &next.kind) {
-                Some(TokenKind::Word(Word::Rgb | Word::Rgbf | Word::Rgbt | Word::Rgbft)) => {
-                    match self.next() {
-                        Some(next) => return self.color_from(&next),
-                        None => Color::BLACK,
-                    }
-                }
                 Some(TokenKind::Word(next)) if is_component(*next) => {
                     let first = self.peek().cloned();
                     let first = first.as_ref().unwrap_or(token);
                     return self.color_of_components(first, Color::BLACK);
                 }
+                Some(TokenKind::Word(next)) if next.family() == Family::Color => {
+                    return match self.next() {
+                        Some(next) => self.color_from(&next),
+                        None => Ok(Color::BLACK),
+                    };
+                }
                 _ => {
                     let given = self.given(token, "a colour")?;
-                    match given.value.as_color() {
-                        Some(color) => color,
-                        None => {
-                            return Err(self.wrong_type(
-                                &given.here,
-                                given.span,
-                                "a colour",
-                                &given.value,
-                            ));
-                        }
-                    }
+                    self.bare_components(token, &given)?;
+                    self.plain_color(&given, "a colour")?
                 }
             },
-            Word::Rgb | Word::Rgbf | Word::Rgbt | Word::Rgbft => self.color_vector(token, word)?,
+            whole if is_whole(whole) => self.color_vector(token, whole)?,
             component if is_component(component) => {
                 let mut color = Color::BLACK;
                 self.color_component(token, component, &mut color)?;
                 return self.color_of_components(token, color);
             }
-            _ => {
-                let outcome = self.word_not_built(token, word);
-                return Err(outcome);
-            }
+            _ => return Err(self.word_not_built(token, word)),
         };
         self.color_components(color)
     }
 
-    /// `rgb`, `rgbf`, `rgbt` or `rgbft` and its numbers.
+    /// A value that stands for a colour without a word before it.
+    pub(super) fn plain_color(&mut self, given: &Given<Value>, wanted: &str) -> Outcome<Color> {
+        let Some(color) = given.value.as_color() else {
+            return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
+        };
+        self.lint_color(given, color.rgb);
+        Ok(color)
+    }
+
+    /// `rgb`, `srgbft` and the like, and their numbers.
     fn color_vector(&mut self, token: &Token, word: Word) -> Outcome<Color> {
-        let given = self.given(token, "a vector")?;
+        let is_display = matches!(word, Word::Srgb | Word::Srgbf | Word::Srgbt | Word::Srgbft);
+        let what = if is_display { "display values" } else { "a vector" };
+        let given = self.given(token, what)?;
+        if is_display && !self.says_gamma {
+            self.srgb_before_gamma.get_or_insert(given.site());
+        }
+        let gamma = self.scene.settings.assumed_gamma;
+        let meant = |rgb: Rgb| if is_display { rgb.map(|c| gamma.of_srgb(c)) } else { rgb };
         // A colour passes through whole: `rgb Red`.
         if let Value::Color(color) = given.value {
-            return Ok(color);
+            return Ok(Color { rgb: meant(color.rgb), ..color });
         }
+        self.bare_components(token, &given)?;
         let Some(numbers) = given.value.numbers() else {
-            return Err(self.wrong_type(&given.here, given.span, "a vector", &given.value));
+            return Err(self.wrong_type(&given.here, given.span, what, &given.value));
         };
         let wanted = match word {
-            Word::Rgbf | Word::Rgbt => 4,
-            Word::Rgbft => 5,
+            Word::Rgbf | Word::Rgbt | Word::Srgbf | Word::Srgbt => 4,
+            Word::Rgbft | Word::Srgbft => 5,
             _ => 3,
         };
         let given_numbers = numbers.as_slice();
@@ -99,12 +106,51 @@ impl Evaluator<'_> {
             }
         };
         all[wanted..].fill(0.0);
-        if word == Word::Rgbt {
+        if matches!(word, Word::Rgbt | Word::Srgbt) {
             all.swap(3, 4);
         }
         let [red, green, blue, filter, transmit] = all;
-        self.lint_color_range(&given.here, given.span, [red, green, blue]);
-        Ok(Color { rgb: crate::color::Rgb::new(red, green, blue), filter, transmit })
+        let rgb = Rgb::new(red, green, blue);
+        self.lint_color(&given, rgb);
+        Ok(Color { rgb: meant(rgb), filter, transmit })
+    }
+
+    /// `rgb 1 0 0`: numbers where a vector stands. A lone number is a grey.
+    fn bare_components(&mut self, token: &Token, given: &Given<Value>) -> Outcome<()> {
+        let text = &self.sources.get(given.span.file).text;
+        let commas = self.in_pigment();
+        let Some((end, numbers)) = numbers_at(text, given.span, commas) else { return Ok(()) };
+        let goes_on = |next: &Token| next.span.file == given.span.file && next.span.start < end;
+        if !self.peek_on().is_some_and(goes_on) {
+            return Ok(());
+        }
+        let whole = Span { end, ..given.span };
+        let of_255 = numbers.iter().take(3).any(|c| *c >= 16.0)
+            && numbers.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
+        let list: Vec<String> = numbers.iter().map(f64::to_string).collect();
+        let word = match token.kind {
+            TokenKind::Word(word) if is_whole(word) => word.name(),
+            _ => "rgb",
+        };
+        let vector = format!("<{}>{}", list.join(", "), if of_255 { "/255" } else { "" });
+        let ours = format!("{word} {vector}");
+        // `color` takes a colour of any form.
+        let (place, of_color) = match token.kind == TokenKind::Word(Word::Color) {
+            false if token.span.file == whole.file => (token.span.to(whole), false),
+            is_color => (whole, is_color),
+        };
+        let fix = if place == whole && !of_color { vector } else { ours.clone() };
+        while self.peek().is_some_and(goes_on) {
+            self.next();
+        }
+        let diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            "the numbers of a colour stand between `<` and `>`",
+        )
+        .at(whole, "expected a vector")
+        .help(format!("write `{ours}`"))
+        .fix(place, fix);
+        Err(self.report(&given.here, diagnostic))
     }
 
     /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
@@ -124,8 +170,7 @@ impl Evaluator<'_> {
     /// A colour that is written by its components alone.
     fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
         let color = self.color_components(color)?;
-        let rgb = [color.rgb.red, color.rgb.green, color.rgb.blue];
-        self.lint_color_range(&first.here, first.span, rgb);
+        self.lint_color_range(&first.here, first.span, color.rgb);
         Ok(color)
     }
 
@@ -165,6 +210,48 @@ impl Evaluator<'_> {
             _ => false,
         }
     }
+}
+
+/// Words that take all components at once.
+fn is_whole(word: Word) -> bool {
+    matches!(
+        word,
+        Word::Rgb
+            | Word::Rgbf
+            | Word::Rgbt
+            | Word::Rgbft
+            | Word::Srgb
+            | Word::Srgbf
+            | Word::Srgbt
+            | Word::Srgbft
+    )
+}
+
+/// Three to five plain numbers side by side, the first of them at `first`; and where they end.
+fn numbers_at(text: &str, first: Span, commas: bool) -> Option<(u32, Vec<f64>)> {
+    let plain = |c: char| c.is_ascii_digit() || c == '.';
+    let (mut numbers, mut at, mut end) = (Vec::new(), first.start as usize, 0);
+    loop {
+        let rest = text.get(at..)?;
+        let digits = rest.len() - rest.trim_start_matches(plain).len();
+        let Ok(number) = rest[..digits].parse::<f64>() else { break };
+        // `1e3`, `0.5*x`, `1 + 2`: no plain number.
+        let behind = &rest[digits..];
+        if behind.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
+            || behind.trim_start().starts_with(['*', '/', '+', '-'])
+        {
+            return None;
+        }
+        numbers.push(number);
+        end = at + digits;
+        let blank = behind.trim_start_matches([' ', '\t']);
+        let next = match blank.strip_prefix(',').filter(|_| commas) {
+            Some(after) => after.trim_start_matches([' ', '\t']),
+            None => blank,
+        };
+        at = text.len() - next.len();
+    }
+    ((3..=5).contains(&numbers.len()) && end > first.end as usize).then_some((end as u32, numbers))
 }
 
 fn is_component(word: Word) -> bool {

@@ -12,8 +12,7 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
-use super::Place;
-use albedo::Albedo;
+use super::{Given, Place};
 use whole::Written;
 
 /// A loop may go through one place again and again.
@@ -53,6 +52,9 @@ impl Evaluator<'_> {
                 return Err(Reported);
             }
             evaluator.whole_finish(&opener, &mut finish, &written)?;
+            if let Some(ambient) = &written.ambient {
+                evaluator.lint_ambient(ambient, &finish);
+            }
             if let Finish::Classic(classic) = &mut finish {
                 written.albedo.spend(classic);
             }
@@ -145,7 +147,7 @@ impl Evaluator<'_> {
             // POV-Ray's words replace a seed's finish that came by default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
-        let known = self.classic_item(token, word, &mut classic, &mut written.albedo)?;
+        let known = self.classic_item(token, word, &mut classic, written)?;
         if known {
             written.classic.get_or_insert((word, token.span));
             let weightless = match word {
@@ -174,11 +176,16 @@ impl Evaluator<'_> {
         token: &Token,
         word: Word,
         finish: &mut ClassicFinish,
-        albedo: &mut Albedo,
+        written: &mut Written,
     ) -> Outcome<bool> {
+        let albedo = &mut written.albedo;
         match word {
-            Word::Ambient => finish.ambient = self.intensity_after(token)?,
-            Word::Emission => finish.emission = self.intensity_after(token)?,
+            Word::Ambient => {
+                let given = self.intensity_after(token)?;
+                finish.ambient = given.value;
+                written.ambient = Some(given);
+            }
+            Word::Emission => finish.emission = self.intensity_after(token)?.value,
             Word::Diffuse => {
                 albedo.diffuse |= self.skip_albedo();
                 finish.diffuse = self.strength_after(token, word)?;
@@ -216,12 +223,13 @@ impl Evaluator<'_> {
     }
 
     /// A colour of light, or a number for white light.
-    fn intensity_after(&mut self, token: &Token) -> Outcome<Rgb> {
+    fn intensity_after(&mut self, token: &Token) -> Outcome<Given<Rgb>> {
         let given = self.color_after(token, "a number or a colour")?;
         if let TokenKind::Word(word) = token.kind {
             self.lint_strength(&given.here, given.span, word, given.value.rgb);
         }
-        Ok(given.value.rgb)
+        let light = given.value.rgb;
+        Ok(given.with(light))
     }
 
     /// `diffuse front, back`: light from behind is not built yet, but for none.

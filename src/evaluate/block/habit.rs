@@ -2,10 +2,10 @@
 //!
 //! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
 
-use crate::color;
+use crate::color::{self, Rgb};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::vocabulary::Family;
+use crate::vocabulary::{Family, Word};
 
 use super::super::Evaluator;
 use super::Place;
@@ -65,24 +65,43 @@ impl Evaluator<'_> {
     }
 }
 
+/// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.
+pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
+    match (place.word?, name.to_lowercase().as_str()) {
+        (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
+            Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
+        }
+        (Word::Camera, "aspect" | "aspect_ratio") => {
+            Some("the picture's width and height give its shape, or `right` does")
+        }
+        (Word::Camera, "near" | "far" | "znear" | "zfar" | "clip_start" | "clip_end") => {
+            Some("a camera sees what is before it at any distance: leave this out")
+        }
+        (Word::Camera, "lens" | "focal" | "focal_length" | "zoom") => {
+            Some("`angle` gives the field of view, in degrees")
+        }
+        _ => None,
+    }
+}
+
 fn digits(text: &str) -> Option<&str> {
     (!text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())).then_some(text)
 }
 
-/// `"#ff0000"`, `"red"`: how a colour of the web is written, if `text` is one.
-pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<String> {
-    let named = match text.to_ascii_lowercase().as_str() {
-        "red" => "<1, 0, 0>",
-        "green" | "lime" => "<0, 1, 0>",
-        "blue" => "<0, 0, 1>",
-        "yellow" => "<1, 1, 0>",
-        "cyan" => "<0, 1, 1>",
-        "magenta" => "<1, 0, 1>",
-        "orange" => "<1, 0.5, 0>",
-        "white" => "1",
-        "black" => "0",
-        "gray" | "grey" => "0.5",
-        _ => return color::web(text).map(|rgb| rgb.to_string()),
+/// `"#ff0000"`, `"red"`: what a display shows of a colour of the web, if `text` is one.
+pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<Rgb> {
+    let code = match text.to_ascii_lowercase().as_str() {
+        "red" => "#f00",
+        "green" | "lime" => "#0f0",
+        "blue" => "#00f",
+        "yellow" => "#ff0",
+        "cyan" => "#0ff",
+        "magenta" => "#f0f",
+        "orange" => "#ffa500",
+        "white" => "#fff",
+        "black" => "#000",
+        "gray" | "grey" => "#808080",
+        _ => text,
     };
-    Some(named.to_owned())
+    color::web(code)
 }

@@ -1,17 +1,24 @@
 //! `light_source`: a point, a beam, parallel rays, or the seed's direction.
 
+mod doubt;
+mod order;
+
+use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::{
     Beam, Dialect, Fade, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId,
     ObjectKind,
 };
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
+use super::super::lint::Cone;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::part::Given;
+use order::Late;
 
 impl Evaluator<'_> {
     pub(super) fn light_source(&mut self, token: &Token) -> Outcome<ObjectId> {
@@ -24,22 +31,22 @@ impl Evaluator<'_> {
                 if let Some(name) = name
                     && let Some(reported) = evaluator.wrong_kind(&name, Word::LightSource, declared)
                 {
-                    let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None);
+                    let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None, None);
                     return Err(reported);
                 }
                 // A light of its own from here on: its words can change it.
                 let (mut light, mut all) = evaluator.light_of(declared);
-                let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut());
+                let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut(), None);
                 all.append(&mut modifiers);
                 let kind = light.map_or(ObjectKind::Use(declared), ObjectKind::LightSource);
                 return outcome.map(|()| (kind, all));
             }
             if evaluator.takes_poison() {
-                let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None);
+                let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None, None);
                 return Err(Reported);
             }
-            let mut light = evaluator.light_parts(&opener);
-            let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok());
+            let (mut light, late) = evaluator.light_parts(&opener);
+            let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok(), late);
             let light = light?;
             outcome?;
             Ok((ObjectKind::LightSource(light), modifiers))
@@ -80,17 +87,33 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place and the colour; or, in a `.scene`, `direction` and the colour.
-    fn light_parts(&mut self, opener: &Token) -> Outcome<LightSource> {
+    /// The place and the colour; or, in a `.scene`, `direction` and the colour. Where another word of the
+    /// light stands instead of the colour, that may come late.
+    fn light_parts(&mut self, opener: &Token) -> (Outcome<LightSource>, Option<Late>) {
+        if self.at_color_word() {
+            return (self.color_before_place(opener), None);
+        }
+        let kind = self.light_place(opener);
+        let late = self.late_color(opener);
+        let color = match late {
+            // It is told where it comes, or that it never does.
+            Some(_) => Ok(Rgb::BLACK),
+            None => self.color_after(opener, "a colour for the light").map(|given| given.value.rgb),
+        };
+        let light = kind.and_then(|kind| {
+            Ok(LightSource { kind, color: color?, shadowless: false, fade: None })
+        });
+        (light, late)
+    }
+
+    fn light_place(&mut self, opener: &Token) -> Outcome<LightKind> {
         let ours = self.options.dialect == Dialect::Scene;
-        let kind = match self.peek().map(|token| &token.kind) {
+        match self.peek().map(|token| &token.kind) {
             Some(TokenKind::Word(Word::Direction)) if ours => self.seed_direction(),
             _ => self
                 .vector_after(opener, "a vector for the light's place")
                 .map(|given| LightKind::Point { location: given.value }),
-        };
-        let color = self.color_after(opener, "a colour for the light");
-        Ok(LightSource { kind: kind?, color: color?.value.rgb, shadowless: false, fade: None })
+        }
     }
 
     fn seed_direction(&mut self) -> Outcome<LightKind> {
@@ -104,11 +127,23 @@ impl Evaluator<'_> {
         &mut self,
         modifiers: &mut Vec<Modifier>,
         mut light: Option<&mut LightSource>,
+        mut late: Option<Late>,
     ) -> Outcome<()> {
         let mut failed = false;
         let mut written = Written::of(light.as_deref(), self.options.dialect);
+        let mut cone = Cone::default();
+        let ours = self.options.dialect == Dialect::Scene;
         while let Some(token) = self.next() {
+            if is_of_a_place(&token) {
+                written.of_a_place.push(token.clone());
+            }
             let outcome = match token.kind {
+                TokenKind::Word(word) if word.family() == Family::Color => {
+                    self.take_late_color(&token, late.take(), light.as_deref_mut())
+                }
+                TokenKind::Word(Word::Direction) if ours => {
+                    self.second_direction(&token, light.as_deref())
+                }
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
                     written.shapes.push(word);
                     written.last = Some(token.clone());
@@ -116,23 +151,19 @@ impl Evaluator<'_> {
                 }
                 TokenKind::Word(Word::PointAt) => {
                     written.last = Some(token.clone());
+                    cone.word(&token);
                     self.vector_after(&token, "a point").map(|given| written.point_at = given.value)
                 }
-                TokenKind::Word(Word::Radius) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.radius = Some(given.value)),
-                TokenKind::Word(Word::Falloff) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.falloff = Some(given.value)),
-                TokenKind::Word(Word::Tightness) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.tightness = given.value),
-                TokenKind::Word(Word::FadeDistance) => self
-                    .number_after(&token, "a distance")
-                    .map(|given| written.fade.distance = given.value.abs()),
-                TokenKind::Word(Word::FadePower) => self
-                    .number_after(&token, "a number")
-                    .map(|given| written.fade.power = given.value),
+                TokenKind::Word(
+                    word @ (Word::Radius
+                    | Word::Falloff
+                    | Word::Tightness
+                    | Word::FadeDistance
+                    | Word::FadePower),
+                ) => self.number_after(&token, "a number").map(|given| {
+                    cone.say(&token, word, &given);
+                    written.say(word, given);
+                }),
                 TokenKind::Word(Word::Shadowless) => {
                     if let Some(light) = &mut light {
                         light.shadowless = true;
@@ -151,7 +182,15 @@ impl Evaluator<'_> {
             };
             failed |= outcome.is_err();
         }
-        if let Some(light) = light
+        if let Some(late) = late {
+            failed |= self.no_color(&late).is_err();
+        }
+        if let Some(light) = light.as_deref()
+            && !failed
+        {
+            failed = self.doubt_light(light, &written).is_err();
+        }
+        if let Some(light) = light.as_deref_mut()
             && let Some(token) = written.spend(light)
         {
             let diagnostic =
@@ -159,6 +198,12 @@ impl Evaluator<'_> {
                     .at(token.span, "expected a `point_at` other than the light's place");
             self.report(&token.here, diagnostic);
             failed = true;
+        }
+        // What failed may be the word that is missing.
+        if let Some(light) = light
+            && !failed
+        {
+            self.lint_light(&cone, &light.kind);
         }
         if failed { Err(Reported) } else { Ok(()) }
     }
@@ -173,6 +218,24 @@ impl Evaluator<'_> {
     }
 }
 
+/// A word that says how light leaves a place, or loses strength with the distance from it.
+fn is_of_a_place(token: &Token) -> bool {
+    matches!(
+        token.kind,
+        TokenKind::Word(
+            Word::Parallel
+                | Word::Spotlight
+                | Word::Cylinder
+                | Word::PointAt
+                | Word::Radius
+                | Word::Falloff
+                | Word::Tightness
+                | Word::FadeDistance
+                | Word::FadePower
+        )
+    )
+}
+
 /// What a light's words say, in whatever order.
 struct Written {
     /// `parallel`, `spotlight`, `cylinder`. The last counts; but what is `parallel` is no spotlight.
@@ -185,6 +248,10 @@ struct Written {
     tightness: f64,
     /// Of distance or power 0 or less: none.
     fade: Fade,
+    /// The numbers as they stand in the text.
+    numbers: Vec<(Word, Given<f64>)>,
+    /// Words that a light without a place has no use for.
+    of_a_place: Vec<Token>,
 }
 
 impl Written {
@@ -205,6 +272,8 @@ impl Written {
             falloff: None,
             tightness: 0.0,
             fade: light.and_then(|light| light.fade).unwrap_or(Fade { distance: 0.0, power: 0.0 }),
+            numbers: Vec::new(),
+            of_a_place: Vec::new(),
         };
         match light.map(|light| &light.kind) {
             Some(LightKind::Parallel { point_at, .. }) => written.point_at = *point_at,
@@ -221,23 +290,54 @@ impl Written {
         written
     }
 
+    /// Notes the number of a word.
+    fn say(&mut self, word: Word, given: Given<f64>) {
+        match word {
+            Word::Radius => self.radius = Some(given.value),
+            Word::Falloff => self.falloff = Some(given.value),
+            Word::Tightness => self.tightness = given.value,
+            Word::FadeDistance => self.fade.distance = given.value.abs(),
+            _ => self.fade.power = given.value,
+        }
+        self.numbers.push((word, given));
+    }
+
+    /// The last number of a word, where one is written here.
+    fn said(&self, word: Word) -> Option<&Given<f64>> {
+        self.numbers.iter().rev().find(|(other, _)| *other == word).map(|(_, given)| given)
+    }
+
+    /// The kind of beam it is, as [`Self::spend`] makes it: `spotlight`, `cylinder`, or none.
+    fn round(&self, light: &LightSource) -> Option<Word> {
+        let before = match light.kind {
+            LightKind::Spotlight { .. } => Some(Word::Spotlight),
+            LightKind::Cylinder { .. } => Some(Word::Cylinder),
+            LightKind::Parallel { .. } => Some(Word::Parallel),
+            LightKind::Point { .. } | LightKind::Direction { .. } => None,
+        };
+        let parallel = before == Some(Word::Parallel) || self.shapes.contains(&Word::Parallel);
+        let mut round = self.shapes.iter().rev().copied().chain(before);
+        let round = round.find(|word| *word != Word::Parallel)?;
+        (round == Word::Cylinder || !parallel).then_some(round)
+    }
+
     /// Makes the light what is written; returns the word that needs another `point_at`.
     fn spend(self, light: &mut LightSource) -> Option<Token> {
-        let Self { shapes, last, point_at, radius, falloff, tightness, fade } = self;
+        let round = self.round(light);
+        let Self { shapes, last, point_at, radius, falloff, tightness, fade, .. } = self;
         light.fade = (fade.distance > 0.0 && fade.power > 0.0).then_some(fade);
-        let (location, before) = match light.kind {
-            LightKind::Point { location } => (location, None),
-            LightKind::Parallel { location, .. } => (location, Some(Word::Parallel)),
-            LightKind::Spotlight { location, .. } => (location, Some(Word::Spotlight)),
-            LightKind::Cylinder { location, .. } => (location, Some(Word::Cylinder)),
+        let (location, shaped) = match light.kind {
+            LightKind::Point { location } => (location, !shapes.is_empty()),
+            LightKind::Parallel { location, .. }
+            | LightKind::Spotlight { location, .. }
+            | LightKind::Cylinder { location, .. } => (location, true),
             // Light from infinitely far has neither a distance nor an axis.
             LightKind::Direction { .. } => {
                 light.fade = None;
                 return None;
             }
         };
-        let said = |word: Word| before == Some(word) || shapes.contains(&word);
-        if shapes.is_empty() && before.is_none() {
+        if !shaped {
             return None;
         }
         let beam = |least: f64, most: f64| Beam {
@@ -245,14 +345,12 @@ impl Written {
             falloff: falloff.unwrap_or(most),
             tightness,
         };
-        let mut round = shapes.iter().rev().copied().chain(before);
-        let round = round.find(|word| *word != Word::Parallel);
-        light.kind = match (round, said(Word::Parallel)) {
-            (Some(Word::Cylinder), _) => {
+        light.kind = match round {
+            Some(Word::Cylinder) => {
                 LightKind::Cylinder { location, point_at, beam: beam(0.75, 1.0) }
             }
-            (Some(_), false) => LightKind::Spotlight { location, point_at, beam: beam(30.0, 45.0) },
-            (None, _) | (Some(_), true) => LightKind::Parallel { location, point_at },
+            Some(_) => LightKind::Spotlight { location, point_at, beam: beam(30.0, 45.0) },
+            None => LightKind::Parallel { location, point_at },
         };
         last.filter(|_| location == point_at)
     }

@@ -20,6 +20,7 @@ mod skip;
 mod texture;
 mod transform;
 mod unexpected;
+mod unknown;
 
 pub(super) use habit::color_of_string;
 
@@ -33,6 +34,7 @@ use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 pub(in crate::evaluate) use object::Made;
+pub(in crate::evaluate) use part::Given;
 pub(in crate::evaluate) use place::Place;
 
 impl Evaluator<'_> {
@@ -123,7 +125,10 @@ impl Evaluator<'_> {
     pub(super) fn value_of(&mut self, token: &Token) -> Outcome<Value> {
         let outer = self.poison.take();
         let value = match &token.kind {
-            TokenKind::Expression(id) => self.expression(&token.here, *id),
+            TokenKind::Expression(id) => match self.misspelt_block(token, *id) {
+                Some(reported) => Err(reported),
+                None => self.expression(&token.here, *id),
+            },
             TokenKind::Literal(value) => Ok(value.clone()),
             TokenKind::Word(word) => self.word_block(token, *word),
             TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
@@ -226,7 +231,12 @@ impl Evaluator<'_> {
                     here.site(Span::new(span.file, start, start + text.len()))
                 });
                 self.insides.push(inside);
+                // What stands in here is no part of what is not built before it.
+                let outer = self.poison.take();
                 let outcome = self.inside_block(&here, contents, span, consumer);
+                if let Some(inner) = std::mem::replace(&mut self.poison, outer) {
+                    self.set_poison(inner);
+                }
                 self.insides.pop();
                 self.openers.pop();
                 outcome
@@ -239,4 +249,22 @@ impl Evaluator<'_> {
 /// Words that open an object and are no shapes.
 fn is_object_word(word: Word) -> bool {
     matches!(word, Word::Object | Word::LightSource | Word::LightGroup)
+}
+
+/// Words with a block that is a value.
+fn opens_value(word: Word) -> bool {
+    matches!(word.family(), Family::Shape | Family::Csg)
+        || is_object_word(word)
+        || matches!(
+            word,
+            Word::Texture
+                | Word::Pigment
+                | Word::Finish
+                | Word::Interior
+                | Word::Material
+                | Word::ColorMap
+                | Word::TransformWord
+                | Word::Camera
+                | Word::SkySphere
+        )
 }

@@ -1,7 +1,7 @@
 //! What follows an object's parts: its transforms, textures, interior and flags, in written order.
 
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
@@ -17,8 +17,8 @@ impl Evaluator<'_> {
         modifiers: &mut Vec<Modifier>,
     ) -> Outcome<()> {
         let mut textured = used.is_some_and(|used| self.made[used.index()].textured);
-        let place = match word {
-            Word::Union => Place::csg(word),
+        let place = match word.family() {
+            Family::Csg => Place::csg(word),
             _ => Place::shape(word),
         };
         let mut failed = false;
@@ -27,7 +27,14 @@ impl Evaluator<'_> {
             match self.modifier(&token, used, modifiers, &mut textured) {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {
-                        modifiers.push(Modifier { kind, site: token.here.site(token.span) });
+                        let site = match kind {
+                            // With its `on`: a piece that can be taken out.
+                            ModifierKind::NoImage(_)
+                            | ModifierKind::NoReflection(_)
+                            | ModifierKind::DoubleIlluminate(_) => self.whole(&token),
+                            _ => token.here.site(token.span),
+                        };
+                        modifiers.push(Modifier { kind, site });
                     }
                 }
                 Some(Err(Reported)) => failed = true,

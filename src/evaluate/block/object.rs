@@ -40,6 +40,7 @@ impl Evaluator<'_> {
             Word::Union => self.shape(token, word, Self::union),
             Word::Object => self.shape(token, word, Self::object_use),
             Word::LightSource => self.light_source(token),
+            _ if word.family() == Family::Csg => Err(self.union_not_built(token, word)),
             _ => {
                 self.set_poison(Poison { word, site: token.here.site(token.span) });
                 self.skip_arguments(word);
@@ -50,6 +51,20 @@ impl Evaluator<'_> {
             (Some(poison), _) => Ok(Value::Poison(poison)),
             (None, built) => built.map(Value::Object),
         }
+    }
+
+    /// `difference { … }` and its kin: read like a union, for the mistakes in it.
+    fn union_not_built(&mut self, token: &Token, word: Word) -> Reported {
+        let _: Outcome<()> = self.block(token, word, |evaluator| {
+            let _: Outcome<ObjectKind> = evaluator.union(token);
+            evaluator.modifiers(word, None, &mut Vec::new())
+        });
+        let inside = self.poison.take();
+        self.set_poison(Poison { word, site: token.here.site(token.span) });
+        if let Some(inside) = inside {
+            self.set_poison(inside);
+        }
+        Reported
     }
 
     pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {
@@ -190,8 +205,9 @@ impl Evaluator<'_> {
     }
 
     fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let centre = self.vector_after(token, "a vector for the centre");
-        let radius = self.number_after(token, "a number for the radius");
+        const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
+        let (centre, radius) = self.vector_and_number(token, WANTED);
+        let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
@@ -211,8 +227,11 @@ impl Evaluator<'_> {
     }
 
     fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        let normal = self.direction_after(token, "the normal");
-        let distance = self.number_after(token, "a number for the distance");
+        const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
+        let (normal, distance) = self.vector_and_number(token, WANTED);
+        let normal = normal
+            .and_then(|given| self.as_vector(given, WANTED.0))
+            .and_then(|given| self.as_direction(given, "the normal"));
         let (normal, distance) = (normal?, distance?);
         Ok(ObjectKind::Plane { normal: normal.value, distance: distance.value })
     }
@@ -247,7 +266,10 @@ impl Evaluator<'_> {
             {
                 self.object(&next, word)?
             }
-            TokenKind::Expression(id) => self.expression(&next.here, id)?,
+            TokenKind::Expression(id) => match self.misspelt_block(&next, id) {
+                Some(reported) => return Err(reported),
+                None => self.expression(&next.here, id)?,
+            },
             _ => {
                 return Err(self.expected(
                     "a declared object",

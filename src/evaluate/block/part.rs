@@ -5,6 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::ObjectId;
 use crate::source::{Site, Span};
+use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -13,10 +14,12 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
-pub(super) struct Given<T> {
+pub(in crate::evaluate) struct Given<T> {
     pub value: T,
     pub span: Span,
     pub here: Here,
+    /// How it is written, where that is one expression.
+    pub expression: Option<ExpressionId>,
 }
 
 impl<T> Given<T> {
@@ -24,8 +27,8 @@ impl<T> Given<T> {
         self.here.site(self.span)
     }
 
-    fn with<U>(self, value: U) -> Given<U> {
-        Given { value, span: self.span, here: self.here }
+    pub fn with<U>(self, value: U) -> Given<U> {
+        Given { value, span: self.span, here: self.here, expression: self.expression }
     }
 }
 
@@ -90,16 +93,16 @@ impl Evaluator<'_> {
             return Err(self.report(&after.here, diagnostic));
         }
         let Some(token) = self.next() else { return Err(Reported) };
-        let value = match &token.kind {
-            TokenKind::Expression(id) => self.expression(&token.here, *id)?,
-            TokenKind::Literal(value) => value.clone(),
+        let (value, expression) = match &token.kind {
+            TokenKind::Expression(id) => (self.expression(&token.here, *id)?, Some(*id)),
+            TokenKind::Literal(value) => (value.clone(), None),
             _ => return Err(Reported),
         };
         if let Value::Poison(poison) = value {
             self.set_poison(poison);
             return Err(Reported);
         }
-        Ok(Given { value, span: token.span, here: token.here })
+        Ok(Given { value, span: token.span, here: token.here, expression })
     }
 
     pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
@@ -123,6 +126,57 @@ impl Evaluator<'_> {
 
     pub(super) fn vector_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
         let given = self.given(after, wanted)?;
+        self.as_vector(given, wanted)
+    }
+
+    /// A vector and a number, in this order.
+    pub(super) fn vector_and_number(
+        &mut self,
+        after: &Token,
+        (vector, number): (&str, &str),
+    ) -> (Outcome<Given<Value>>, Outcome<Given<f64>>) {
+        let first = self.given(after, vector);
+        let second = self.given(after, number);
+        if let (Ok(a), Ok(b)) = (&first, &second)
+            && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)
+            // A sphere of radius 0 was not meant.
+            && (*a_number != 0.0 || after.kind != TokenKind::Word(Word::Sphere))
+        {
+            let reported = self.swapped(a.site(), b.site(), vector, number);
+            return (Err(reported), Err(reported));
+        }
+        let second = second.and_then(|given| {
+            let number = self.as_number(&given.here, given.span, &given.value, number)?;
+            Ok(given.with(number))
+        });
+        (first, second)
+    }
+
+    /// Two parts stand in each other's place.
+    pub(super) fn swapped(&mut self, a: Site, b: Site, first: &str, second: &str) -> Reported {
+        let message = format!("expected {first}, then {second}: the two are swapped");
+        let text = |site: Site| self.sources.text(site.span).to_owned();
+        let (text_a, text_b) = (text(a), text(b));
+        let mut diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(a.span, format!("expected {first}"))
+            .also(b.span, format!("expected {second}"))
+            .help(format!("write `{text_b}, {text_a}`"));
+        if a.expansion == b.expansion && a.span.file == b.span.file {
+            let between =
+                self.sources.text(Span { start: a.span.end, end: b.span.start, ..a.span });
+            diagnostic = match between.trim() {
+                "" | "," => diagnostic.fix(a.span.to(b.span), format!("{text_b}, {text_a}")),
+                _ => diagnostic.fix(a.span, text_b).fix(b.span, text_a),
+            };
+        }
+        self.report_in(a.expansion, diagnostic)
+    }
+
+    pub(super) fn as_vector(
+        &mut self,
+        given: Given<Value>,
+        wanted: &str,
+    ) -> Outcome<Given<Vector>> {
         match given.value.as_vector3() {
             Some(vector) => Ok(given.with(vector)),
             None => Err(self.wrong_vector(&given, wanted)),
@@ -153,6 +207,14 @@ impl Evaluator<'_> {
     /// A direction: any vector but zero.
     pub(super) fn direction_after(&mut self, after: &Token, what: &str) -> Outcome<Given<Vector>> {
         let given = self.vector_after(after, &format!("a vector for {what}"))?;
+        self.as_direction(given, what)
+    }
+
+    pub(super) fn as_direction(
+        &mut self,
+        given: Given<Vector>,
+        what: &str,
+    ) -> Outcome<Given<Vector>> {
         if given.value == Vector::ZERO {
             let diagnostic = Diagnostic::new(
                 Code::ZeroVector,
@@ -187,16 +249,17 @@ impl Evaluator<'_> {
             && let Some(token) = self.next()
         {
             let color = self.color_from(&token)?;
-            return Ok(Given { value: color, span: token.span, here: token.here });
+            return Ok(Given {
+                value: color,
+                span: token.span,
+                here: token.here,
+                expression: None,
+            });
         }
         let given = self.given(after, wanted)?;
-        match given.value.as_color() {
-            Some(color) => {
-                let color = self.color_components(color)?;
-                Ok(given.with(color))
-            }
-            None => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
-        }
+        let color = self.plain_color(&given, wanted)?;
+        let color = self.color_components(color)?;
+        Ok(given.with(color))
     }
 
     /// Reports a number outside of what its place allows.
@@ -219,6 +282,7 @@ impl Evaluator<'_> {
         if given.value < 0.0 {
             return Err(self.out_of_range(&given, word, "0 or more"));
         }
+        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 
@@ -227,6 +291,7 @@ impl Evaluator<'_> {
         if given.value <= 0.0 {
             return Err(self.out_of_range(&given, word, "more than 0"));
         }
+        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 }

@@ -9,11 +9,12 @@ use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
 use crate::source::Site;
 use crate::vocabulary::{Family, Word};
 
+use super::super::lint::Rise;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::Place;
 use super::finish::list_once;
+use super::{Given, Place};
 
 /// Entries of one map: more are a mistake, and soon more than memory holds.
 const MOST_ENTRIES: usize = 1 << 20;
@@ -166,7 +167,9 @@ impl Evaluator<'_> {
                         written.pattern = None;
                     }
                     Value::Color(_) | Value::Vector(_) => {
-                        let color = value.as_color().unwrap_or_default();
+                        let (span, here) = (token.span, token.here.clone());
+                        let given = Given { value, span, here, expression: Some(id) };
+                        let color = self.plain_color(&given, "a colour")?;
                         let color = self.color_components(color)?;
                         self.color_of(pigment, color, token);
                     }
@@ -238,6 +241,7 @@ impl Evaluator<'_> {
     /// `color_map { [value color] … }` or `color_map { Name }`.
     pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
         let mut entries: Vec<(f64, Color)> = Vec::new();
+        let mut rise = Rise::default();
         let opener = token.clone();
         self.block(token, Word::ColorMap, |evaluator| {
             let mut failed = false;
@@ -245,8 +249,9 @@ impl Evaluator<'_> {
                 match &token.kind {
                     TokenKind::Entry(items) => {
                         let here = token.here.clone();
-                        let read = evaluator
-                            .inside(&here, *items, |evaluator| evaluator.map_entry(&token));
+                        let read = evaluator.inside(&here, *items, |evaluator| {
+                            evaluator.map_entry(&token, &mut rise)
+                        });
                         match read {
                             Ok(read) => entries.extend(read),
                             Err(Reported) => failed = true,
@@ -256,13 +261,15 @@ impl Evaluator<'_> {
                         Some(Value::ColorMap(map))
                             if entries.len() + map.0.len() > MOST_ENTRIES =>
                         {
-                            let message =
-                                format!("this map has more than {MOST_ENTRIES} entries");
+                            let message = format!("this map has more than {MOST_ENTRIES} entries");
                             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
                                 .at(token.span, "these are too many");
                             return Err(evaluator.report(&token.here, diagnostic));
                         }
-                        Some(Value::ColorMap(map)) => entries.extend(map.0.iter().copied()),
+                        Some(Value::ColorMap(map)) => {
+                            rise.named(&map, token.here.site(token.span));
+                            entries.extend(map.0.iter().copied());
+                        }
                         Some(Value::Poison(poison)) => evaluator.set_poison(poison),
                         _ => {
                             evaluator.unexpected(&token, Place::COLOR_MAP);
@@ -283,13 +290,7 @@ impl Evaluator<'_> {
                     .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
                 return Err(evaluator.report(&opener.here, diagnostic));
             }
-            if let Some(pair) = entries.windows(2).find(|pair| pair[1].0 < pair[0].0) {
-                let (before, after) = (pair[0].0, pair[1].0);
-                let diagnostic = Diagnostic::new(Code::UnsortedMap, format!("the entries of this `color_map` go down from {before} to {after}"))
-                    .at(opener.span, "expected values that rise from entry to entry")
-                    .help("POV-Ray reads such a map otherwise than it is written: put the entries in order");
-                evaluator.report(&opener.here, diagnostic);
-            }
+            evaluator.lint_map(rise);
             // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
             entries.sort_by(|a, b| a.0.total_cmp(&b.0));
             Ok(Value::ColorMap(Arc::new(ColorMap(entries))))
@@ -297,8 +298,10 @@ impl Evaluator<'_> {
     }
 
     /// `[value color]`, or the old `[from, to color a color b]`.
-    fn map_entry(&mut self, token: &Token) -> Outcome<Vec<(f64, Color)>> {
-        let from = self.number_after(token, "a number and a colour")?.value;
+    fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<Vec<(f64, Color)>> {
+        let given = self.number_after(token, "a number and a colour")?;
+        let from = given.value;
+        rise.entry(given, self.sources);
         self.skip_commas();
         let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
         if starts_color {
@@ -309,6 +312,7 @@ impl Evaluator<'_> {
         let second = self.given(token, "a colour")?;
         let entries = match second.value {
             Value::Number(to) => {
+                rise.entry(second.with(to), self.sources);
                 let first = self.color_after(token, "a colour")?.value;
                 let last = self.color_after(token, "a second colour")?.value;
                 self.lint_legacy(
@@ -319,10 +323,10 @@ impl Evaluator<'_> {
                 );
                 vec![(from, first), (to, last)]
             }
-            value => match value.as_color() {
-                Some(color) => vec![(from, self.color_components(color)?)],
-                None => return Err(self.wrong_type(&second.here, second.span, "a colour", &value)),
-            },
+            _ => {
+                let color = self.plain_color(&second, "a colour")?;
+                vec![(from, self.color_components(color)?)]
+            }
         };
         self.end_of_entry(token)?;
         Ok(entries)

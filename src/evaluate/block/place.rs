@@ -89,7 +89,6 @@ impl Place {
             Word::Cylinder,
             Word::Orient,
             Word::NoImage,
-            Word::NoShadow,
             Word::NoReflection,
             Word::Photons,
         ],
@@ -140,6 +139,17 @@ impl Place {
         Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 
+    /// The word that was rather meant, where one of the language has no meaning here.
+    pub(super) fn meant(self, word: Word, has_block: bool) -> Option<Word> {
+        match (self.word, word) {
+            (None, Word::Sky) if has_block => Some(Word::SkySphere),
+            (None, Word::Floor) if has_block => Some(Word::Plane),
+            (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
+            (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
+            _ => None,
+        }
+    }
+
     pub(super) fn name(self) -> String {
         match self.word {
             Some(word) => format!("in `{}`", word.name()),
@@ -176,10 +186,17 @@ fn is_part(word: Word) -> bool {
     }
 }
 
+/// Whether a word and its block stand in the scene itself.
+pub(super) fn is_at_top_level(word: Word) -> bool {
+    Place::SCENE.holds(word) && !is_part(word)
+}
+
 /// The block that a word is for, where it is not the one it stands in.
 pub(super) fn home(word: Word) -> Option<Word> {
     match word.family() {
         _ if word.block().is_some() => word.block(),
+        // Reserved, and nobody knows what for.
+        _ if word == Word::Size => None,
         Family::FinishItem => Some(Word::Finish),
         Family::Color | Family::Pattern | Family::PatternItem => Some(Word::Pigment),
         Family::Camera => Some(Word::Camera),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::color::Gamma;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Background, SkySphere};
 use crate::vocabulary::Word;
 
@@ -36,6 +37,16 @@ impl Evaluator<'_> {
                 };
                 // Said twice, the first counts, as in POV-Ray.
                 if !std::mem::replace(&mut self.says_gamma, true) {
+                    if let Some(site) = self.srgb_before_gamma
+                        && gamma != Gamma::LINEAR
+                    {
+                        let message = "`assumed_gamma` stands behind a colour that it changes";
+                        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                            .at(token.span, "expected before the first `srgb`")
+                            .also(site.span, "this colour is converted already")
+                            .help("write `global_settings` first in the file");
+                        return Err(self.report(&token.here, diagnostic));
+                    }
                     self.scene.settings.assumed_gamma = gamma;
                 }
             }
@@ -66,7 +77,9 @@ impl Evaluator<'_> {
         let site = token.here.site(token.span);
         let opener = token.clone();
         self.block(token, Word::Background, |evaluator| {
-            let color = evaluator.color_after(&opener, "a colour")?.value;
+            let given = evaluator.color_after(&opener, "a colour")?;
+            evaluator.lint_background(&given);
+            let color = given.value;
             while let Some(token) = evaluator.next() {
                 evaluator.unexpected(&token, Place::BACKGROUND);
             }

@@ -2,11 +2,12 @@
 //!
 //! **Invariant:** what is passed over is no second mistake, but for a name that is not declared.
 
-use crate::syntax::ast::ExpressionKind;
+use crate::syntax::ast::{Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Family, Word};
 
-use super::super::Evaluator;
+use super::super::scope::Symbol;
 use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Here};
 use super::place::home;
 
 impl Evaluator<'_> {
@@ -80,6 +81,26 @@ impl Evaluator<'_> {
         self.diagnostics.forget_after(before);
     }
 
+    /// The name that an expression is, where it was never declared.
+    pub(in crate::evaluate) fn unknown_name(
+        &self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<Symbol> {
+        let ExpressionKind::Name(name) = here.unit.expression(id).kind else { return None };
+        Some(here.symbol(name)).filter(|symbol| self.scopes.slot(*symbol).is_none())
+    }
+
+    /// Whether an expression is a call of what was never declared.
+    fn unknown_callee(&self, here: &Here, id: ExpressionId) -> bool {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Call(Callee::Name(name, _), _) => {
+                self.scopes.slot(here.symbol(name)).is_none()
+            }
+            _ => false,
+        }
+    }
+
     /// Passes over the values after a word, running what is in them.
     pub(in crate::evaluate) fn skip_values(&mut self) {
         loop {
@@ -88,11 +109,9 @@ impl Evaluator<'_> {
                 Some((TokenKind::Expression(id), here)) => {
                     let id = *id;
                     // A name that is not declared is the next mistake, not a part of this one.
-                    if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
-                        let symbol = here.symbol(name);
-                        if self.scopes.slot(symbol).is_none() {
-                            return;
-                        }
+                    let here = here.clone();
+                    if self.unknown_callee(&here, id) || self.unknown_name(&here, id).is_some() {
+                        return;
                     }
                     if let Some(token) = self.next() {
                         let before = self.diagnostics.len();
@@ -113,10 +132,14 @@ impl Evaluator<'_> {
         loop {
             match self.peek().map(|token| &token.kind) {
                 Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
-                Some(TokenKind::Expression(_)) => {
-                    if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() {
-                        self.run_expression(&here, id);
+                Some(&TokenKind::Expression(id)) => {
+                    let Some(Token { here, .. }) = self.peek().cloned() else { return };
+                    // Rather a misspelt word than a part of this one.
+                    if self.unknown_name(&here, id).is_some() {
+                        return;
                     }
+                    self.next();
+                    self.run_expression(&here, id);
                 }
                 Some(TokenKind::Entry(_)) => {
                     if let Some(Token { kind: TokenKind::Entry(items), here, .. }) = self.next() {

@@ -11,8 +11,8 @@ use crate::vocabulary::{Dialect, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
+use super::Given;
 use super::Place;
-use super::part::Given;
 
 impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
@@ -48,8 +48,8 @@ impl Evaluator<'_> {
             Word::Translate => Ok(Step::Translate(self.vector_after(token, "a vector")?.value)),
             Word::Rotate => {
                 let given = self.vector_after(token, "a vector of degrees")?;
-                self.lint_degrees(&given.here, given.span, &given.value.to_array());
                 self.no_angle_after(&given)?;
+                self.lint_rotation(&given);
                 Ok(Step::Rotate(given.value))
             }
             Word::Matrix => self.matrix(token),

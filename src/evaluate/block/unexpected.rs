@@ -3,14 +3,15 @@
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
-use crate::vocabulary::{Dialect, Family, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 use super::super::Evaluator;
-use super::super::report::{standard_include, word_like};
 use super::super::stream::{Token, TokenKind};
+use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::Place;
-use super::place::home;
+use super::place::{home, is_at_top_level};
+use super::unknown::is_transform;
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
@@ -19,7 +20,14 @@ impl Evaluator<'_> {
         let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma | TokenKind::Semicolon => {}
-            TokenKind::Word(word) if of_poison => self.skip_arguments(*word),
+            TokenKind::Word(word) if of_poison => {
+                let poison = Poison { word: *word, site: token.here.site(token.span) };
+                self.skip_arguments(*word);
+                // What a pattern that is not built has goes with it.
+                if place.holds(*word) && !word.is_built() && word.family() != Family::PatternItem {
+                    self.set_poison(poison);
+                }
+            }
             TokenKind::Literal(_) if of_poison => {}
             TokenKind::Block(contents) if of_poison => {
                 self.inside_block(&token.here, *contents, token.span, Self::run_items);
@@ -57,7 +65,9 @@ impl Evaluator<'_> {
                                 self.run_arguments(&token.here, arguments);
                                 let text = self.sources.text(span).to_owned();
                                 // `translate(…)`, as other languages write it, or a macro.
-                                match suggest::closest(&text, place.words(self.options.dialect)) {
+                                let words = place.words(self.options.dialect);
+                                let near = suggest::closest(&text, words);
+                                match near.filter(|near| is_built(near)) {
                                     Some(_) => self.unknown_word(token, span, place),
                                     None => drop(self.undeclared(&token.here, symbol, span)),
                                 }
@@ -101,10 +111,6 @@ impl Evaluator<'_> {
         }
     }
 
-    pub(in crate::evaluate) fn set_poison(&mut self, poison: Poison) {
-        self.poison.get_or_insert(poison);
-    }
-
     fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
         if let Value::Poison(poison) = value {
             self.set_poison(*poison);
@@ -115,7 +121,13 @@ impl Evaluator<'_> {
             Code::ExtraPart,
             format!("{kind} has no meaning here {}", place.name()),
         )
-        .at(token.span, "expected a word of this block, or its end");
+        .at(
+            token.span,
+            match place.word {
+                Some(_) => "expected a word of this block, or its end",
+                None => "expected an object, a light, a camera, or settings",
+            },
+        );
         let text = self.sources.text(token.span).to_owned();
         let of_object = place.families.contains(&Family::Modifier);
         let of_texture = of_object || matches!(place.word, Some(Word::Texture | Word::Default));
@@ -179,11 +191,19 @@ impl Evaluator<'_> {
         let name = word.name();
         let dialect = self.options.dialect;
         let near =
-            suggest::foreign(name).filter(|near| place.words(dialect).any(|word| word == *near));
+            suggest::foreign(name).find(|near| place.words(dialect).any(|word| word == *near));
         if word.family() == Family::Directive {
             return self.directive_without_sign(token, word);
         }
-        let diagnostic = if let (Some(near), false) = (near, word.is_built()) {
+        let diagnostic = if let Some(meant) = place.meant(word, has_block) {
+            let (meant, sentence) = (meant.name(), meant.sentence());
+            let message = format!("`{name}` has no meaning {}", place.name());
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, format!("did you mean `{meant}`?"))
+                .help(sentence.to_owned());
+            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
+        } else if let (Some(near), false) = (near, word.is_built()) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))
@@ -204,8 +224,11 @@ impl Evaluator<'_> {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }
-                _ if Place::SCENE.holds(word) => "it belongs at the top level".to_owned(),
+                _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
+                None if !matches!(word.role(), Role::Statement) => {
+                    "it stands for a value, in expressions".to_owned()
+                }
                 None if place.word.is_none() => "it belongs in an object".to_owned(),
                 None => "it belongs elsewhere".to_owned(),
             };
@@ -221,6 +244,9 @@ impl Evaluator<'_> {
                 diagnostic = diagnostic.help(format!("it belongs in `{} {{ … }}`", home.name()));
             } else if let Some(home) = place.word {
                 diagnostic = diagnostic.help(home.sentence().to_owned());
+            } else if matches!(word.family(), Family::Transform | Family::Modifier) {
+                diagnostic =
+                    diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"));
             }
             diagnostic
         };
@@ -229,81 +255,9 @@ impl Evaluator<'_> {
             _ => diagnostic,
         };
         self.report(&token.here, diagnostic);
-        self.skip_arguments(word);
-    }
-
-    /// A name that is no word of the language and was never declared, where a word should stand.
-    fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
-        let name = self.sources.text(span).to_owned();
-        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
-        let dialect = self.options.dialect;
-        let words = || place.words(dialect);
-        // A word that another tool has is meant as there, whatever it resembles.
-        let here = suggest::foreign(&name)
-            .filter(|word| *word == "transmit" || words().any(|other| other == *word))
-            .or_else(|| {
-                Some("translate").filter(|word| name == "position" && words().any(|w| w == *word))
-            })
-            .or_else(|| suggest::closest(&name, words()));
-        let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
-        if let Some(symbol) = symbol {
-            let declared = suggest::closest(&name, self.scopes.visible()).is_some();
-            let was = self.scopes.declared(symbol).is_some() || self.lacks_include;
-            let later = token.here.unit.declaration_of(symbol).is_some();
-            let included = |file: &str| self.parsed.keys().any(|name| name.ends_with(file));
-            let standard = standard_include(&name).is_some_and(|file| !included(file));
-            // A name with a capital is rather one of the author's.
-            let word = here.is_some() && !name.starts_with(char::is_uppercase);
-            if !word && (standard || declared || later || (was && here.is_none())) {
-                self.undeclared(&token.here, symbol, span);
-                return;
-            }
-        }
-        let near = match here {
-            Some(word) => Some(word.to_owned()),
-            None => word_like(&name, |word| {
-                word.family() != Family::Directive
-                    && (dialect == Dialect::Scene || word.block().is_none())
-            })
-            .map(str::to_owned),
-        };
-        let is_foreign = near.as_deref().is_some_and(|near| suggest::foreign(&name) == Some(near))
-            && suggest::closest(&name, near.as_deref()).is_none();
-        let code = if is_foreign { Code::ForeignWord } else { Code::UnknownWord };
-        let mut diagnostic =
-            Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
-        diagnostic = match near {
-            Some(near) if near == "transmit" && is_foreign => {
-                self.clear_word(diagnostic, &name, span, place)
-            }
-            // The right word would be the next error: no fix.
-            Some(near) if !is_built(&near) => diagnostic
-                .at(span, format!("did you mean `{near}`?"))
-                .help(format!("`{near}` is not supported yet")),
-            Some(near) => diagnostic
-                .at(span, format!("did you mean `{near}`?"))
-                .help(format!("replace it with `{near}`"))
-                .fix(span, near),
-            None => match contextual(&name) {
-                Some(_) if dialect == Dialect::Pov => {
-                    diagnostic.at(span, "it is a word only in `.scene` files")
-                }
-                Some(block) => diagnostic.at(span, format!("it is a word only in `{block}`")),
-                None => diagnostic.at(span, "neither a word of the language nor a declared name"),
-            },
-        };
-        self.report(&token.here, diagnostic);
-        self.skip_values();
-        if !place.families.contains(&Family::Color) {
-            self.skip_color(token);
-        }
-        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
-            // What is inside belongs to a word that is not known: run, but not judged.
-            let before = self.diagnostics.len();
-            if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
-                self.inside_block(&here, contents, span, Self::run_items);
-            }
-            self.diagnostics.forget_after(before);
+        match near {
+            Some(near) if is_transform(near) => self.skip_values(),
+            _ => self.skip_arguments(word),
         }
     }
 
@@ -323,14 +277,4 @@ impl Evaluator<'_> {
 /// The first character of a bracketed span.
 fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
-}
-
-fn is_built(name: &str) -> bool {
-    Word::ALL.iter().any(|word| word.name() == name && word.is_built())
-}
-
-/// The block in which a name is a word.
-fn contextual(name: &str) -> Option<&'static str> {
-    let word = Word::ALL.iter().find(|word| word.block().is_some() && word.name() == name)?;
-    word.block().map(Word::name)
 }

@@ -135,6 +135,36 @@ fn highlights_need_a_lobe_and_a_light_that_makes_them() {
 }
 
 #[test]
+fn what_lights_and_objects_do_apart_from_the_rest_is_called_for_by_them() {
+    assert!(why_not(Effect::Attenuation, |_| {}).0.contains("everywhere in its colour"));
+    assert_eq!(why_not(Effect::DoubleIllumination, |_| {}).0, "no object is lit from behind");
+    assert_eq!(why_not(Effect::Hiding, |_| {}).0, "every object is seen");
+    let fade = crate::world::Fade { distance: 3.0, power: 2.0 };
+    let attenuation = Some(crate::world::Attenuation { beam: None, fade: Some(fade) });
+    let dark = |w: &mut World| {
+        w.objects[0].double_illuminate = true;
+        w.lights.clear();
+    };
+    assert_eq!(why_not(Effect::DoubleIllumination, dark).0, "no light");
+    let dull = |w: &mut World| {
+        w.lights[0].attenuation = attenuation;
+        w.materials[0].finish.diffuse = 0.0;
+        w.materials[0].finish.lobes.clear();
+    };
+    assert_eq!(why_not(Effect::Attenuation, dull).0, "no surface answers a light");
+    let (mut world, mut origins) = lit_mirror();
+    world.lights[0].attenuation = attenuation;
+    world.objects[0].in_reflections = false;
+    world.objects[0].double_illuminate = true;
+    (origins.hidden, origins.double_illuminate) = (vec![site(31)], vec![site(32)]);
+    let plan = plan(&world, &origins, &OPTIONS);
+    let by = |effect| plan.called(effect).map(|called| called.by.clone());
+    assert_eq!(by(Effect::Attenuation), Some(vec![site(20)]));
+    assert_eq!(by(Effect::Hiding), Some(vec![site(31)]));
+    assert_eq!(by(Effect::DoubleIllumination), Some(vec![site(32)]));
+}
+
+#[test]
 fn reflection_needs_a_surface_that_reflects_and_a_second_level() {
     let dull = |w: &mut World| w.materials[0].finish.reflection = None;
     assert_eq!(why_not(Effect::Reflection, dull), ("no surface reflects".to_owned(), None));

@@ -4,6 +4,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::{Role, Word};
 
 /// What declares a name elsewhere.
 const DECLARERS: &[&str] = &[
@@ -30,6 +31,49 @@ impl Reader<'_> {
             self.diagnostics.push(diagnostic);
             meant.push(Token { kind: TokenKind::Directive(Head::Declare), ..self.tokens[self.at] });
             self.at += 1;
+        }
+        fits
+    }
+
+    /// `$fn = 50;`: a name with a sign of another language, and its value.
+    pub(super) fn dollar(&mut self, meant: &mut Vec<Token>) -> bool {
+        let named = self.slice(0) == "$"
+            && self.kind(1) == Some(TokenKind::Name)
+            && self.touches(1)
+            && self.is(2, Mark::Equal);
+        if named {
+            let (sign, name) = (self.span(0, 0), self.slice(1).to_owned());
+            let message = "names have no `$`, and get their values in a `#declare`";
+            let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(sign, "not a sign of the language")
+                .help(format!("write `#declare {name} = …`"))
+                .fix(sign, "#declare ");
+            self.diagnostics.push(diagnostic);
+            meant.push(Token { kind: TokenKind::Directive(Head::Declare), ..self.tokens[self.at] });
+            self.at += 1;
+        }
+        named
+    }
+
+    /// `difference() {`: what opens a block takes nothing in parentheses.
+    pub(super) fn empty_parentheses(&mut self, word: Word, meant: &mut Vec<Token>) -> bool {
+        let [open, close, block] =
+            [Mark::Open(Bracket::Round), Mark::Close(Bracket::Round), Mark::Open(Bracket::Brace)];
+        let empty = self.is(1, open) && self.is(2, close) && self.is(3, block);
+        let fits = empty && word.role() == Role::Statement;
+        if fits {
+            let (name, parentheses) = (word.name(), self.span(1, 2));
+            // That a word is not built says enough.
+            if word.is_built() {
+                let message = format!("`{name}` takes no parentheses");
+                let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(parentheses, "expected `{` here")
+                    .help(format!("write `{name} {{ … }}`"))
+                    .fix(parentheses, "");
+                self.diagnostics.push(diagnostic);
+            }
+            meant.push(self.tokens[self.at]);
+            self.at += 3;
         }
         fits
     }

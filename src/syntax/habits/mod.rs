@@ -145,7 +145,11 @@ impl Reader<'_> {
             return true;
         }
         match kind {
-            TokenKind::Word(word) => self.head_without_hash(word, meant) || self.part(meant),
+            TokenKind::Word(word) => {
+                self.head_without_hash(word, meant)
+                    || self.empty_parentheses(word, meant)
+                    || self.part(meant)
+            }
             TokenKind::Name => {
                 self.declarer(meant)
                     || self.changes(meant)
@@ -157,11 +161,12 @@ impl Reader<'_> {
             TokenKind::Directive(head) => self.head(head, meant),
             TokenKind::Stray => {
                 self.web_color(meant)
+                    || self.dollar(meant)
                     || self.single_quotes(meant)
                     || (!self.ascii && self.sign(meant))
             }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
-            TokenKind::Number => self.map(meant),
+            TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {

@@ -124,7 +124,7 @@ impl Reader<'_> {
         match self.kind(0) {
             Some(TokenKind::Word(word)) => word.role() == Role::Statement,
             _ => {
-                suggest::foreign(name).is_some()
+                suggest::foreign(name).next().is_some()
                     || Word::from_name(&name.to_lowercase()).is_some()
                     || Word::ALL.iter().any(|word| word.block().is_some() && word.name() == name)
             }

@@ -23,7 +23,16 @@ impl Reader<'_> {
             }
             _ => return false,
         };
-        let fits = match meant.last().map(|token| token.kind) {
+        let before = |back: usize| {
+            let token = meant.len().checked_sub(back).and_then(|at| meant.get(at));
+            token.map(|token| token.kind)
+        };
+        // `translate([2, 0, 0])`
+        let argument = bracket == Bracket::Square
+            && before(1) == Some(TokenKind::Mark(Mark::Open(Bracket::Round)))
+            && matches!(before(2), Some(TokenKind::Word(_) | TokenKind::Name));
+        let fits = match before(1) {
+            _ if argument => true,
             Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
             // `= [1, 2, 3]` is rather an array.
             Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
@@ -37,7 +46,7 @@ impl Reader<'_> {
             _ => false,
         };
         let inside_brace = self.inside.last().is_none_or(|inside| inside.is(Bracket::Brace));
-        if !fits || !(inside_brace || made) || (made && bracket != Bracket::Round) {
+        if !fits || !(inside_brace || made || argument) || (made && bracket != Bracket::Round) {
             return false;
         }
         // Numbers and commas, and nothing else.

@@ -60,7 +60,11 @@ impl Repair<'_> {
             }
             Opener::Bracket(Bracket::Round | Bracket::Square) => {
                 let ends = self.tokens[at].kind == TokenKind::Mark(Mark::Semicolon);
-                (ends || beside).then_some(true)
+                // `#macro G(a, b sphere {`: parameters are names.
+                let head = open.token.checked_sub(2).map(|head| self.tokens[head].kind);
+                let body =
+                    head == Some(TokenKind::Directive(Head::Macro)) && self.begins_statement(at);
+                (ends || beside || body).then_some(true)
             }
         }
     }

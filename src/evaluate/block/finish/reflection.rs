@@ -22,15 +22,18 @@ impl Evaluator<'_> {
             Reflection { minimum: color, maximum: color, falloff, fresnel, exponent, metallic }
         };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
-            return Ok(plain(self.intensity_after(token)?));
+            return Ok(plain(self.intensity_after(token)?.value));
         }
         let opener = token.clone();
         self.block(token, Word::Reflection, |evaluator| {
-            let mut reflection = plain(evaluator.intensity_after(&opener)?);
+            let least = evaluator.intensity_after(&opener)?;
+            let mut reflection = plain(least.value);
             evaluator.skip_commas();
             let both = evaluator.at_color();
             if both {
-                reflection.maximum = evaluator.intensity_after(&opener)?;
+                let most = evaluator.intensity_after(&opener)?;
+                evaluator.lint_reflection_order(&least, &most);
+                reflection.maximum = most.value;
             }
             while let Some(token) = evaluator.next() {
                 match token.kind {

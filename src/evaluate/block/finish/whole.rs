@@ -3,7 +3,9 @@
 
 use super::albedo::Albedo;
 use super::list_once;
+use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::Given;
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome};
 use crate::scene::{Finish, FinishOrigin};
@@ -22,6 +24,8 @@ pub(super) struct Written {
     pub seed_item: Option<Site>,
     pub classic: Option<(Word, Span)>,
     pub albedo: Albedo,
+    /// The last `ambient`.
+    pub ambient: Option<Given<Rgb>>,
     /// Where it starts from: its words count as written here.
     pub origin: FinishOrigin,
 }

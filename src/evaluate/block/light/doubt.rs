@@ -1,0 +1,103 @@
+//! Words of a light that do nothing, or hardly what is meant.
+//!
+//! **Invariant:** what POV-Ray's own scenes do with them is no mistake: `radius -90 falloff 90 tightness 1`
+//! falls off with the cosine.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{LightKind, LightSource};
+use crate::vocabulary::Word;
+
+use super::super::super::{Evaluator, Outcome};
+use super::super::part::Given;
+use super::Written;
+
+/// What is said of the number of a word: a message, and what was expected.
+struct Doubt<'a>(&'a Given<f64>, String, &'static str);
+
+impl Evaluator<'_> {
+    /// Tells what is doubtful in a light, before it is spent; of one from infinitely far, what is wrong.
+    pub(super) fn doubt_light(&mut self, light: &LightSource, written: &Written) -> Outcome<()> {
+        if self.poison.is_some() {
+            return Ok(());
+        }
+        if let (LightKind::Direction { .. }, [first, others @ ..]) =
+            (&light.kind, written.of_a_place.as_slice())
+        {
+            let word = self.describe(first);
+            let message = format!("{word} has no meaning for a light with a `direction`");
+            let mut diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                .at(first.span, "its light comes on parallel rays from infinitely far");
+            for other in others {
+                diagnostic = diagnostic.also(other.span, "nor has this");
+            }
+            let help = "give the light a place: `light_source { <place>, rgb 1 … }`";
+            return Err(self.report(&first.here, diagnostic.help(help)));
+        }
+        for Doubt(given, message, label) in doubts(light, written) {
+            let diagnostic = Diagnostic::new(Code::UnlikelyLight, message).at(given.span, label);
+            self.report(&given.here, diagnostic);
+        }
+        Ok(())
+    }
+}
+
+fn doubts<'a>(light: &LightSource, written: &'a Written) -> Vec<Doubt<'a>> {
+    let mut found = beam_doubts(light, written);
+    let distance = written.said(Word::FadeDistance);
+    let power = written.said(Word::FadePower);
+    if let Some(given) = distance {
+        if given.value < 0.0 {
+            let (is, used) = (given.value, -given.value);
+            let message = format!("this `fade_distance` is {is}; {used} is used");
+            found.push(Doubt(given, message, "expected more than 0"));
+        }
+        if power.is_none() && light.fade.is_none() && given.value != 0.0 {
+            let message = "`fade_distance` does nothing without a `fade_power`".to_owned();
+            found.push(Doubt(given, message, "expected `fade_power 2`, or the like, beside it"));
+        }
+    }
+    if let Some(given) = power {
+        if given.value < 0.0 {
+            let message = format!("this `fade_power` is {}; the light does not fade", given.value);
+            found.push(Doubt(given, message, "expected more than 0"));
+        } else if distance.is_none() && light.fade.is_none() && given.value != 0.0 {
+            let message = "`fade_power` does nothing without a `fade_distance`".to_owned();
+            found.push(Doubt(given, message, "expected a `fade_distance` beside it"));
+        }
+    }
+    found
+}
+
+fn beam_doubts<'a>(light: &LightSource, written: &'a Written) -> Vec<Doubt<'a>> {
+    let mut found = Vec::new();
+    let Some(round) = written.round(light) else { return found };
+    let [radius, falloff] = [Word::Radius, Word::Falloff].map(|word| written.said(word));
+    if round == Word::Cylinder {
+        if let Some(given) = falloff.filter(|given| given.value <= 0.0) {
+            let message = "this cylinder of light has no width, and gives no light".to_owned();
+            found.push(Doubt(given, message, "expected more than 0"));
+        }
+        if let Some(given) = radius.filter(|given| given.value < 0.0) {
+            let message = format!("the `radius` of this cylinder of light is {}", given.value);
+            found.push(Doubt(given, message, "expected 0 or more"));
+        }
+    } else {
+        for (name, given) in [("radius", radius), ("falloff", falloff)] {
+            let Some(given) = given.filter(|given| given.value.abs() > 180.0) else { continue };
+            let message = format!("the `{name}` of this spotlight is {} degrees", given.value);
+            found.push(Doubt(given, message, "expected 90 at most"));
+        }
+        if let (Some(radius), Some(falloff)) = (written.radius, written.falloff)
+            && radius.max(falloff) < 0.0
+        {
+            let given = written.said(Word::Radius).or(written.said(Word::Falloff));
+            let message = "`radius` and `falloff` of this spotlight are both negative".to_owned();
+            found.extend(given.map(|given| Doubt(given, message, "expected 0 or more")));
+        }
+    }
+    if let Some(given) = written.said(Word::Tightness).filter(|given| given.value < 0.0) {
+        let message = "with a negative `tightness` a beam is darkest in its middle".to_owned();
+        found.push(Doubt(given, message, "expected 0 or more"));
+    }
+    found
+}

@@ -1,0 +1,252 @@
+//! What to say of a name that is neither a word of the language nor declared, where a word should stand.
+//!
+//! **Invariant:** it is one mistake: what belongs to it is passed over, and what only follows it is not.
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::ast::ExpressionId;
+use crate::vocabulary::{Dialect, Family, Role, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::undeclared::{is_built, is_likely, word_like};
+use super::super::{Evaluator, Outcome, Reported, Symbol};
+use super::habit::custom;
+use super::place::home;
+use super::{Place, opens_value};
+
+impl Evaluator<'_> {
+    /// A name that is no word of the language and was never declared, where a word should stand.
+    pub(super) fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
+        let name = self.sources.text(span).to_owned();
+        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let dialect = self.options.dialect;
+        let words = || place.words(dialect);
+        // A word that another tool has is meant as there, whatever it resembles.
+        let here = suggest::foreign(&name)
+            .find(|word| *word == "transmit" || words().any(|other| other == *word))
+            .or_else(|| suggest::closest(&name, words()));
+        let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
+        if let Some(symbol) = symbol
+            && self.is_rather_a_name(token, &name, symbol, here)
+        {
+            self.undeclared(&token.here, symbol, span);
+            return;
+        }
+        let elsewhere = |word: Word| {
+            word.role() == Role::Statement
+                && word.family() != Family::Directive
+                && (dialect == Dialect::Scene || word.block().is_none())
+        };
+        // It may stand in the include that was not found.
+        let may_be_included =
+            self.lacks_include && !has_block && name.starts_with(char::is_uppercase);
+        let near = here
+            .filter(|word| has_block || is_built(word) || is_likely(&name, word))
+            .or_else(|| word_like(&name, elsewhere))
+            .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name));
+        if near.is_none() && self.foreign_directive(token, &name, span, place) {
+            return;
+        }
+        if near.is_none() && self.lacks_include && !has_block {
+            self.skip_values();
+            return;
+        }
+        let is_foreign = near.is_some_and(|near| suggest::foreign(&name).any(|word| word == near))
+            && suggest::closest(&name, near).is_none();
+        let custom = if near.is_none() { custom(&name, place) } else { None };
+        let code =
+            if is_foreign || custom.is_some() { Code::ForeignWord } else { Code::UnknownWord };
+        let mut diagnostic =
+            Diagnostic::new(code, format!("`{name}` is not a word {}", place.name()));
+        diagnostic = match near {
+            Some("transmit") if is_foreign => self.clear_word(diagnostic, &name, span, place),
+            // It would be the next mistake here.
+            Some(near) if here.is_none() && is_built(near) => {
+                let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
+                diagnostic.help(match Word::from_name(near).and_then(home) {
+                    Some(home) => format!("`{near}` belongs in `{} {{ … }}`", home.name()),
+                    None => format!("`{near}` belongs elsewhere"),
+                })
+            }
+            Some(near) => meant(diagnostic, span, near),
+            None => match (custom, contextual(&name)) {
+                (Some(custom), _) => diagnostic.at(span, custom),
+                (None, Some(_)) if dialect == Dialect::Pov => {
+                    diagnostic.at(span, "it is a word only in `.scene` files")
+                }
+                (None, Some(block)) => {
+                    diagnostic.at(span, format!("it is a word only in `{block}`"))
+                }
+                (None, None) => diagnostic.at(span, UNKNOWN),
+            },
+        };
+        self.report(&token.here, diagnostic);
+        let meant = near.filter(|near| has_block && is_built(near)).and_then(Word::from_name);
+        if let Some(word) = meant
+            && self.judge_block(token, word)
+        {
+            return;
+        }
+        self.skip_values();
+        if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
+            self.skip_color(token);
+        }
+        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
+            // What is inside belongs to a word that is not known: run, but not judged.
+            let before = self.diagnostics.len();
+            if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
+                self.inside_block(&here, contents, span, Self::run_items);
+            }
+            self.diagnostics.forget_after(before);
+        }
+    }
+
+    /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
+    /// when that word has no block, and nothing was read.
+    fn judge_block(&mut self, token: &Token, word: Word) -> bool {
+        let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+        let poison = self.poison.take();
+        let judged = match word {
+            Word::Background | Word::GlobalSettings => {
+                let _: Outcome<()> = self.scene_item(&token);
+                true
+            }
+            _ if opens_value(word) => {
+                drop(self.word_block(&token, word));
+                true
+            }
+            _ => false,
+        };
+        self.poison = poison;
+        judged
+    }
+
+    /// Whether a name that may be meant as the word `here` is rather meant as a declared one.
+    fn is_rather_a_name(
+        &mut self,
+        token: &Token,
+        name: &str,
+        symbol: Symbol,
+        here: Option<&str>,
+    ) -> bool {
+        let close = suggest::closest(name, self.scopes.visible());
+        if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
+            return true;
+        }
+        // A name with a capital is rather one of the author's.
+        if here.is_some_and(is_built) && !name.starts_with(char::is_uppercase) {
+            return false;
+        }
+        close.is_some()
+            || self.lacking_include(name).is_some()
+            || token.here.unit.declaration_of(symbol).is_some()
+            || (here.is_none() && self.scopes.declared(symbol).is_some())
+    }
+
+    /// `use <a.scad>`, `import "a"`, `module A() { … }`: a directive, as another language writes it.
+    fn foreign_directive(&mut self, token: &Token, name: &str, span: Span, place: Place) -> bool {
+        let is_directive = |ours: &&str| {
+            Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive)
+        };
+        let Some(ours) = suggest::foreign(name).find(is_directive) else { return false };
+        let message = format!("`{name}` is not a word {}", place.name());
+        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(span, format!("did you mean `#{ours}`?"))
+            .help(Word::from_name(ours).map_or("", Word::sentence));
+        self.report(&token.here, diagnostic);
+        let before = self.diagnostics.len();
+        let line = |evaluator: &Self, span: Span| {
+            evaluator.sources.get(span.file).position(span.start as usize).line
+        };
+        while let Some(next) = self.peek().cloned()
+            && next.span.file == span.file
+            && line(self, next.span) == line(self, span)
+        {
+            self.next();
+            match next.kind {
+                TokenKind::Block(contents) => {
+                    self.inside_block(&next.here, contents, next.span, Self::run_items);
+                    break;
+                }
+                TokenKind::Semicolon => break,
+                TokenKind::Word(_)
+                | TokenKind::Expression(_)
+                | TokenKind::Entry(_)
+                | TokenKind::Comma
+                | TokenKind::Literal(_) => {}
+            }
+        }
+        self.diagnostics.forget_after(before);
+        true
+    }
+
+    /// `camra { … }` where a value should stand.
+    pub(in crate::evaluate) fn misspelt_block(
+        &mut self,
+        token: &Token,
+        id: ExpressionId,
+    ) -> Option<Reported> {
+        self.unknown_name(&token.here, id)?;
+        let Some(Token { kind: TokenKind::Block(contents), here, span: block }) =
+            self.peek_on().cloned()
+        else {
+            return None;
+        };
+        let name = self.sources.text(token.span).to_owned();
+        let opens = |word: Word| {
+            word.role() == Role::Statement
+                && (matches!(word.family(), Family::Shape | Family::Csg | Family::Texture)
+                    || OPENERS.contains(&word))
+        };
+        let message = format!("`{name}` is not a word that begins a value");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message);
+        // Before a block a capital does not make it one of the author's names.
+        let diagnostic = match word_like(&name.to_lowercase(), opens) {
+            Some(near) => meant(diagnostic, token.span, near),
+            None => diagnostic.at(token.span, UNKNOWN),
+        };
+        let reported = self.report(&token.here, diagnostic);
+        self.next();
+        // What is inside belongs to a word that is not known: run, but not judged.
+        let before = self.diagnostics.len();
+        self.inside_block(&here, contents, block, Self::run_items);
+        self.diagnostics.forget_after(before);
+        Some(reported)
+    }
+}
+
+const UNKNOWN: &str = "neither a word of the language nor a declared name";
+
+fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnostic {
+    let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
+    match is_built(near) {
+        true => diagnostic.help(format!("replace it with `{near}`")).fix(span, near),
+        // The right word would be the next error: no fix.
+        false => diagnostic.help(format!("`{near}` is not supported yet")),
+    }
+}
+
+/// Whether a word takes a vector or a number, and no colour.
+pub(super) fn is_transform(name: &str) -> bool {
+    Word::from_name(name).is_some_and(|word| word.family() == Family::Transform)
+}
+
+/// The words beside shapes and textures whose block is a value.
+const OPENERS: &[Word] = &[
+    Word::Camera,
+    Word::LightSource,
+    Word::Object,
+    Word::TransformWord,
+    Word::Interior,
+    Word::ColorMap,
+    Word::SkySphere,
+    Word::Fog,
+    Word::Media,
+    Word::Function,
+];
+
+/// The block in which a name is a word.
+fn contextual(name: &str) -> Option<&'static str> {
+    let word = Word::ALL.iter().find(|word| word.block().is_some() && word.name() == name)?;
+    word.block().map(Word::name)
+}

@@ -1,0 +1,254 @@
+//! Angles in radians where degrees are meant, and the reverse.
+
+use super::is_literal;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::Given;
+use crate::evaluate::stream::FrameKind;
+use crate::evaluate::{Evaluator, Here};
+use crate::math::Vector;
+use crate::source::Span;
+use crate::syntax::ast::{
+    Argument, BinaryOperator, Callee, DirectiveKind, ExpressionId, ExpressionKind, NameId,
+    UnaryOperator,
+};
+use crate::vocabulary::Word;
+
+/// Degrees above this are no radians: a full turn is 2π.
+const FULL_TURN: f64 = 6.5;
+/// How far off a typed angle may be, when it is cut to three digits after the point.
+const TYPED: f64 = 0.0011;
+/// Turns of a counter, in degrees, that look like one: 0, 30 … 330 or 360.
+const FEWEST_DEGREES: f64 = 5.0;
+
+/// Whether a number was typed as a fraction of π: 0.785, 1.5708; with two digits only where it is known.
+fn is_typed_in_radians(angle: f64) -> bool {
+    let hundredths = (angle.abs() * 100.0).round();
+    if hundredths / 100.0 == angle.abs() {
+        return matches!(hundredths as u32, 157 | 314 | 471 | 628);
+    }
+    // Steps of 15° and of 22.5°.
+    let near = |step: f64| {
+        let steps = (angle.abs() / step).round();
+        steps >= 1.0 && (angle.abs() - steps * step).abs() < TYPED
+    };
+    near(std::f64::consts::PI / 12.0) || near(std::f64::consts::PI / 8.0)
+}
+
+impl Evaluator<'_> {
+    /// The vector of a `rotate`: degrees about each axis.
+    pub(in crate::evaluate) fn lint_rotation(&mut self, given: &Given<Vector>) {
+        if self.lint_degrees(given, &given.value.to_array()) {
+            return;
+        }
+        let text = self.sources.text(given.span);
+        if given.value == Vector::ZERO || !is_literal(text) {
+            return;
+        }
+        let message = "a number turns about all three axes, one after the other";
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(given.span, format!("this is <{text}, {text}, {text}>"))
+            .help(format!("did you mean `rotate {text}*y`?"));
+        self.report(&given.here, diagnostic);
+    }
+
+    /// Degrees are wanted; these look like radians. Says whether it said so.
+    fn lint_degrees<T>(&mut self, given: &Given<T>, degrees: &[f64]) -> bool {
+        let largest = degrees.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        if largest == 0.0 || largest > FULL_TURN {
+            return false;
+        }
+        let text = self.sources.text(given.span);
+        let literal = text.chars().all(|c| !c.is_alphabetic() || "xyz".contains(c));
+        let looks = literal && degrees.iter().any(|value| is_typed_in_radians(*value));
+        let certain = given.expression.filter(|id| looks || self.is_in_radians(&given.here, *id));
+        let Some(expression) = certain else { return false };
+        let diagnostic = Diagnostic::new(
+            Code::SuspiciousUnit,
+            "this angle looks like radians, and is taken as degrees",
+        )
+        .at(given.span, format!("{largest:.4} degrees"));
+        let written = match literal {
+            true => None,
+            false => self.in_degrees(&given.here, expression, degrees.len() == 1),
+        };
+        let diagnostic = match written {
+            Some(written) => diagnostic.help(format!("write `{written}`")).fix(given.span, written),
+            None => {
+                // 3.14 is meant for 180.
+                let meant = largest.to_degrees();
+                let meant = match (meant - meant.round()).abs() < 0.2 {
+                    true => format!("{}", meant.round()),
+                    false => format!("{meant:.1}"),
+                };
+                diagnostic.help(format!("as radians it is {meant} degrees: write these"))
+            }
+        };
+        self.report(&given.here, diagnostic);
+        true
+    }
+
+    /// The angle of a spotlight, if it is in radians for certain. Says whether it said so.
+    pub(super) fn lint_cone_angle(&mut self, given: &Given<f64>) -> bool {
+        !is_literal(self.sources.text(given.span)) && self.lint_degrees(given, &[given.value])
+    }
+
+    /// An expression with its radians turned into degrees, where they are a factor or a component of it.
+    fn in_degrees(&mut self, here: &Here, id: ExpressionId, is_number: bool) -> Option<String> {
+        let unit = here.unit.clone();
+        let whole = unit.expression(id).span;
+        let axis = |id: ExpressionId| {
+            matches!(unit.expression(id).kind, ExpressionKind::Word(Word::X | Word::Y | Word::Z))
+        };
+        // Each with the expression that it begins with.
+        let pieces: Vec<(Span, ExpressionId)> = match unit.expression(id).kind {
+            ExpressionKind::Vector(list) => unit
+                .ast
+                .arguments(list)
+                .iter()
+                .filter_map(|argument| match *argument {
+                    Argument::Expression(id) if self.is_in_radians(here, id) => {
+                        Some((unit.expression(id).span, id))
+                    }
+                    Argument::Expression(_) | Argument::Items(_) => None,
+                })
+                .collect(),
+            ExpressionKind::Binary(BinaryOperator::Multiply, left, right) if axis(right) => {
+                vec![(unit.expression(left).span, left)]
+            }
+            _ if is_number => vec![(whole, id)],
+            _ => {
+                // `y*pi/4`: all that follows the axis.
+                let (mut at, mut rest) = (id, None);
+                while let ExpressionKind::Binary(
+                    operator @ (BinaryOperator::Multiply | BinaryOperator::Divide),
+                    left,
+                    right,
+                ) = unit.expression(at).kind
+                {
+                    if operator == BinaryOperator::Multiply && axis(left) {
+                        let start = unit.expression(right).span;
+                        rest = Some((Span { end: whole.end, ..start }, right));
+                    }
+                    at = left;
+                }
+                rest.into_iter().collect()
+            }
+        };
+        let mut text = self.sources.text(whole).to_owned();
+        for &(piece, first) in pieces.iter().rev() {
+            let at = (piece.start - whole.start) as usize..(piece.end - whole.start) as usize;
+            let alone = unit.expression(first).span == piece;
+            let replaced = match within_radians(here, first).filter(|_| alone) {
+                Some(inner) => self.sources.text(inner).to_owned(),
+                None => format!("degrees({})", &text[at.clone()]),
+            };
+            text.replace_range(at, &replaced);
+        }
+        (!pieces.is_empty()).then_some(text)
+    }
+
+    /// `sin`, `cos` and `tan` take radians; this looks like degrees.
+    pub(in crate::evaluate) fn lint_trigonometry(
+        &mut self,
+        here: &Here,
+        word: Word,
+        id: ExpressionId,
+        angle: f64,
+    ) {
+        // Nothing else is worth a look, and these are often called.
+        if angle.fract() != 0.0 || angle.abs() < FEWEST_DEGREES {
+            return;
+        }
+        if !self.is_typed_in_degrees(here, id) {
+            return;
+        }
+        let span = here.unit.expression(id).span;
+        let (text, name) = (self.sources.text(span), word.name());
+        let right = format!("radians({text})");
+        let message = format!("`{name}` takes radians, and this looks like degrees");
+        let diagnostic = Diagnostic::new(Code::SuspiciousUnit, message)
+            .at(span, format!("{angle} radians"))
+            .help(format!("write `{right}`"))
+            .fix(span, right);
+        self.report(here, diagnostic);
+    }
+
+    /// A literal multiple of 15, or the counter of a loop that goes round by whole degrees.
+    fn is_typed_in_degrees(&self, here: &Here, id: ExpressionId) -> bool {
+        let unit = &here.unit;
+        let (mut id, mut shifted) = (id, false);
+        loop {
+            match unit.expression(id).kind {
+                ExpressionKind::Unary(UnaryOperator::Minus, inner)
+                | ExpressionKind::Group(inner) => id = inner,
+                ExpressionKind::Binary(
+                    BinaryOperator::Add | BinaryOperator::Subtract,
+                    left,
+                    right,
+                ) if !shifted => match number(here, right) {
+                    Some(turn) if turn % 15.0 == 0.0 => (id, shifted) = (left, true),
+                    _ => return false,
+                },
+                ExpressionKind::Number(degrees) => {
+                    return !shifted && degrees % 15.0 == 0.0 && degrees <= 720.0;
+                }
+                ExpressionKind::Name(name) => return self.counts_degrees(here, name),
+                _ => return false,
+            }
+        }
+    }
+
+    /// Whether a name counts once round, or half, by whole degrees: `#for (I, 0, 360, 30)`.
+    fn counts_degrees(&self, here: &Here, name: NameId) -> bool {
+        let symbol = here.symbol(name);
+        let counter = self.frames.iter().rev().take(64).find_map(|frame| match frame.kind {
+            FrameKind::For { symbol: counter, directive, .. } if counter == symbol => {
+                Some((&frame.here, directive))
+            }
+            _ => None,
+        });
+        let Some((there, directive)) = counter else { return false };
+        // In a macro that the loop calls, the name may be its own.
+        if there.expansion != here.expansion {
+            return false;
+        }
+        let DirectiveKind::For { from, to, step: Some(step), .. } =
+            there.unit.ast.directive(directive).kind
+        else {
+            return false;
+        };
+        let [Some(from), Some(to), Some(step)] = [from, to, step].map(|id| number(there, id))
+        else {
+            return false;
+        };
+        let (range, step) = ((to - from).abs(), step.abs());
+        let whole = from.fract() == 0.0 && step.fract() == 0.0;
+        let round = range == 180.0 || (360.0 - step..=360.0).contains(&range);
+        whole && round && (FEWEST_DEGREES..=120.0).contains(&step)
+    }
+}
+
+/// The name or number that an expression turns into radians.
+fn within_radians(here: &Here, id: ExpressionId) -> Option<Span> {
+    let ExpressionKind::Call(Callee::Word(Word::Radians, _), list) = here.unit.expression(id).kind
+    else {
+        return None;
+    };
+    let [Argument::Expression(inner)] = here.unit.ast.arguments(list) else { return None };
+    let inner = here.unit.expression(*inner);
+    matches!(inner.kind, ExpressionKind::Number(_) | ExpressionKind::Name(_)).then_some(inner.span)
+}
+
+/// A number as it is typed, with its sign.
+fn number(here: &Here, id: ExpressionId) -> Option<f64> {
+    match here.unit.expression(id).kind {
+        ExpressionKind::Number(number) => Some(number),
+        ExpressionKind::Unary(UnaryOperator::Minus, inner) => {
+            match here.unit.expression(inner).kind {
+                ExpressionKind::Number(number) => Some(-number),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}

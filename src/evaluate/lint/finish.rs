@@ -1,0 +1,116 @@
+//! Numbers of a finish that no surface has.
+
+use super::is_literal;
+use crate::color::Rgb;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::Evaluator;
+use crate::evaluate::Here;
+use crate::evaluate::block::Given;
+use crate::scene::{ClassicFinish, Finish};
+use crate::source::Span;
+use crate::vocabulary::Word;
+
+/// Roughness ends at 1, says the manual; a little beyond it a surface still has a highlight.
+const ROUGHEST: f64 = 2.0;
+/// From here on a strength of a whole number, up to 100, is a percentage. Ambient light may be a lamp's.
+const PERCENTAGE: std::ops::RangeInclusive<f64> = 10.0..=100.0;
+const BRIGHT_AMBIENT: f64 = 20.0;
+
+impl Evaluator<'_> {
+    /// A surface that takes light away, or gives back more than it gets.
+    pub(in crate::evaluate) fn lint_strength(
+        &mut self,
+        here: &Here,
+        span: Span,
+        word: Word,
+        light: Rgb,
+    ) {
+        let name = word.name();
+        let text = self.sources.text(span);
+        let percentage = is_literal(text)
+            && light.red.fract() == 0.0
+            && PERCENTAGE.contains(&light.red)
+            && matches!(word, Word::Diffuse | Word::Phong | Word::Specular | Word::Reflection);
+        let diagnostic = if light.red.min(light.green).min(light.blue) < 0.0 {
+            Diagnostic::new(Code::UnlikelyFinish, format!("a negative `{name}` takes light away"))
+                .at(span, "expected 0 or more")
+        } else if percentage {
+            percentage_of(span, name, light.red)
+        } else if word == Word::Reflection && light.largest() > 1.0 {
+            let message = format!("this `{name}` gives back more light than arrives");
+            Diagnostic::new(Code::UnlikelyFinish, message).at(span, "expected 0 to 1")
+        } else {
+            return;
+        };
+        self.report(here, diagnostic);
+    }
+
+    /// `ambient 50`: where the surface also scatters light it is no lamp.
+    pub(in crate::evaluate) fn lint_ambient(&mut self, given: &Given<Rgb>, finish: &Finish) {
+        let Finish::Classic(ClassicFinish { diffuse, .. }) = finish else { return };
+        let ambient = given.value.red;
+        let whole = ambient.fract() == 0.0 && (BRIGHT_AMBIENT..=100.0).contains(&ambient);
+        if *diffuse != 0.0 && whole && is_literal(self.sources.text(given.span)) {
+            self.report(&given.here, percentage_of(given.span, Word::Ambient.name(), ambient));
+        }
+    }
+
+    /// `roughness 30`, `phong_size 0.5`: each has the other's numbers.
+    pub(in crate::evaluate) fn lint_highlight(&mut self, given: &Given<f64>, word: Word) {
+        let value = given.value;
+        if !is_literal(self.sources.text(given.span)) {
+            return;
+        }
+        let diagnostic = match word {
+            Word::Roughness if value > ROUGHEST => {
+                let message = format!("a `roughness` of {value} leaves no highlight");
+                Diagnostic::new(Code::UnlikelyFinish, message)
+                    .at(given.span, "expected 0.0005 (smooth) to 1 (rough)")
+                    .help("`phong_size` goes the other way: 1 (dull) to 250 (polished)")
+            }
+            Word::PhongSize if 0.0 < value && value < 1.0 => {
+                let message = format!("a `phong_size` of {value} leaves no highlight");
+                Diagnostic::new(Code::UnlikelyFinish, message)
+                    .at(given.span, "expected 1 (dull) to 250 (polished)")
+                    .help("`roughness` goes the other way: 1 (rough) to 0.0005 (smooth)")
+            }
+            _ => return,
+        };
+        self.report(&given.here, diagnostic);
+    }
+
+    /// `reflection { 0.9, 0.1 }`: more where one looks straight at it than at a glance.
+    pub(in crate::evaluate) fn lint_reflection_order(
+        &mut self,
+        least: &Given<Rgb>,
+        most: &Given<Rgb>,
+    ) {
+        let [a, b] = [least.value, most.value].map(|c| [c.red, c.green, c.blue]);
+        let above = a.iter().zip(&b).all(|(a, b)| a >= b);
+        if !above || a == b {
+            return;
+        }
+        let diagnostic =
+            Diagnostic::new(Code::UnlikelyFinish, "the least reflection is more than the most")
+                .at(least.span, "the least, where one looks straight at the surface")
+                .also(most.span, "the most, at a glance");
+        let texts = [least.span, most.span].map(|span| self.sources.text(span).to_owned());
+        let diagnostic = match texts.iter().all(|text| is_literal(text)) {
+            true => {
+                let [a, b] = texts;
+                let right = format!("{b}, {a}");
+                diagnostic.help(format!("write `{right}`")).fix(least.span.to(most.span), right)
+            }
+            false => diagnostic.help("the least comes first: `reflection { 0.1, 0.9 }`"),
+        };
+        self.report(&least.here, diagnostic);
+    }
+}
+
+fn percentage_of(span: Span, name: &str, value: f64) -> Diagnostic {
+    let part = format!("{}", value / 100.0);
+    Diagnostic::new(Code::UnlikelyFinish, format!("this `{name}` looks like a percentage"))
+        .at(span, "expected 0 to 1")
+        .help(format!("write `{part}`"))
+        .fix(span, part)
+}

@@ -1,0 +1,82 @@
+//! Entries of a map that go down, or lie where a pattern has no values.
+
+use super::is_literal;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::Evaluator;
+use crate::evaluate::block::Given;
+use crate::scene::ColorMap;
+use crate::source::{Site, Sources};
+
+/// How far beyond 0 to 1 an entry may lie that only closes the map: `[1.001 …]` is an old habit.
+const BEYOND: f64 = 0.05;
+/// Entries that are remembered to be divided by a hundred.
+const MOST_PERCENTAGES: usize = 64;
+
+/// The values of a map's entries, as they are read.
+#[derive(Default)]
+pub(in crate::evaluate) struct Rise {
+    last: Option<f64>,
+    /// The first that is below the one before it, and that one.
+    fall: Option<(f64, f64, Site)>,
+    /// The literal ones; of a map that has others, none.
+    literal: Vec<Given<f64>>,
+    computed: bool,
+}
+
+impl Rise {
+    pub fn entry(&mut self, given: Given<f64>, sources: &Sources) {
+        self.value(given.value, given.site());
+        match is_literal(sources.text(given.span)) && self.literal.len() < MOST_PERCENTAGES {
+            true => self.literal.push(given),
+            false => self.computed = true,
+        }
+    }
+
+    /// All entries of a declared map.
+    pub fn named(&mut self, map: &ColorMap, site: Site) {
+        self.computed = true;
+        map.0.iter().for_each(|(value, _)| self.value(*value, site));
+    }
+
+    fn value(&mut self, value: f64, site: Site) {
+        if let Some(last) = self.last.replace(value)
+            && value < last
+        {
+            self.fall.get_or_insert((last, value, site));
+        }
+    }
+}
+
+impl Evaluator<'_> {
+    pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise) {
+        if let Some((before, after, site)) = rise.fall {
+            let message =
+                format!("the entries of this `color_map` go down from {before} to {after}");
+            let diagnostic = Diagnostic::new(Code::UnsortedMap, message)
+                .at(site.span, "expected values that rise from entry to entry")
+                .help("POV-Ray reads such a map otherwise than it is written: put the entries in order");
+            self.report_in(site.expansion, diagnostic);
+        }
+        let within = -BEYOND..=1.0 + BEYOND;
+        let Some(outside) = rise.literal.iter().find(|given| !within.contains(&given.value)) else {
+            return;
+        };
+        let message = format!("an entry at {} lies where the pattern has no values", outside.value);
+        let mut diagnostic =
+            Diagnostic::new(Code::MapRange, message).at(outside.span, "expected 0 to 1");
+        let whole = |given: &Given<f64>| given.value.fract() == 0.0 && given.value >= 0.0;
+        let largest = rise.literal.iter().fold(0.0, |most, given| given.value.max(most));
+        diagnostic = match largest == 100.0 && !rise.computed && rise.literal.iter().all(whole) {
+            true => rise
+                .literal
+                .iter()
+                .filter(|given| given.value > 0.0)
+                .fold(diagnostic.help("write parts of 1, not of 100"), |diagnostic, given| {
+                    diagnostic.fix(given.span, format!("{}", given.value / 100.0))
+                }),
+            false => diagnostic.help("a pattern goes from 0 to 1; beyond it colours are cut off"),
+        };
+        let here = outside.here.clone();
+        self.report(&here, diagnostic);
+    }
+}

@@ -1,0 +1,46 @@
+//! The includes that come with POV-Ray, and the names that each declares.
+
+/// One line for each include, without its `.inc`: `colors: Aquamarine BakersChoc …`. Names that only tell
+/// that an include was read are left out. The first line that has a name is the include to name: `stones`
+/// and `glass` have those of the files that they include, too.
+///
+/// **Source:** every `#declare` and `#macro` outside of macros in the includes of POV-Ray 3.7; their
+/// list is in its manual, section 3.4.9 "Include Files".
+const TABLE: &str = include_str!("includes.txt");
+
+fn rows() -> impl Iterator<Item = (&'static str, &'static str)> {
+    TABLE.lines().filter_map(|line| line.split_once(':'))
+}
+
+/// Whether a file of this name comes with POV-Ray.
+pub fn is_standard_include(file: &str) -> bool {
+    file.strip_suffix(".inc").is_some_and(|name| rows().any(|(include, _)| include == name))
+}
+
+/// The include, as `#include` names it, that declares `name`.
+pub fn standard_include_of(name: &str) -> Option<String> {
+    let declares = |names: &str| names.split_whitespace().any(|other| other == name);
+    rows().find(|(_, names)| declares(names)).map(|(include, _)| format!("{include}.inc"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_leads_to_its_include() {
+        let include = |name| standard_include_of(name);
+        assert_eq!(include("Red").as_deref(), Some("colors.inc"));
+        assert_eq!(include("Phong_Shiny").as_deref(), Some("finish.inc"));
+        assert_eq!(include("Round_Box").as_deref(), Some("shapes.inc"));
+        assert_eq!(include("T_Stone1").as_deref(), Some("stones.inc"));
+        assert_eq!(include("red"), None);
+        assert_eq!(include("colors:"), None);
+    }
+
+    #[test]
+    fn an_include_is_known_by_its_whole_name() {
+        assert!(is_standard_include("colors.inc") && is_standard_include("stdcam.inc"));
+        assert!(!is_standard_include("colors") && !is_standard_include("color.inc"));
+    }
+}
