@@ -2,7 +2,7 @@
 //!
 //! **In:** calls to [`Builder`], one for each operation, operands first.
 //! **Out:** a [`Function`]; its [`Run`] over `f64`, [`Batch`] or
-//! [`Interval`](crate::math::interval::Interval) allocates nothing for each point.
+//! [`Interval`] allocates nothing for each point.
 //! **Invariant:** all three say the same: a batch gives the bits of its points, and a value that is
 //! a number lies within the bounds of any box around its point. A tape has no operation that does
 //! not reach its result, none twice, and none inside a loop that does not need its counter.
@@ -17,7 +17,7 @@ mod tape;
 
 use crate::math::interval::Interval;
 
-pub use build::{Builder, Loop, Node, TooLong};
+pub use build::{Builder, DEEPEST_LOOP, Loop, MOST_ARGUMENTS, MOST_OPERATIONS, Node, TooLong};
 pub use number::{Batch, LANES, Number};
 pub use operation::{Binary, Unary};
 pub use tape::{Function, Run};

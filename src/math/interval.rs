@@ -3,7 +3,7 @@
 //! **Invariant:** the exact result for every choice of numbers in the operands lies in the result;
 //! so does the rounded one. Sums, products and roots are correctly rounded, so one step outward
 //! holds them; the functions of [`super::elementary`] err by less than one unit in the last place,
-//! and get [`SLACK`] steps. What may be undefined for some choice (a root of a negative number) is
+//! and get two steps. What may be undefined for some choice (a root of a negative number) is
 //! [`Interval::EVERYTHING`], and no other interval stands for what may be not a number.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*, 2009.
