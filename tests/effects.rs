@@ -142,10 +142,10 @@ fn what_is_off_is_counted_zero() {
         let counters = traced(&world, &plan).counters;
         for (effect, rays) in [
             (Effect::Shadows, counters.shadow),
-            // At a clear surface that lets nothing through all is reflected.
+            // Beyond the critical angle all is reflected.
             (
                 Effect::Reflection,
-                if plan.simulates(Effect::Transparency) { 0 } else { counters.reflection },
+                if plan.simulates(Effect::Refraction) { 0 } else { counters.reflection },
             ),
             (Effect::Transparency, counters.transmission),
         ] {

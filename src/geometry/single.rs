@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn a_crossing_in_single_precision_is_as_far_off_as_its_bound_says() {
         let mut random = Random(41);
-        let (mut crossings, mut loose) = (0, 0);
+        let mut crossings = 0;
         for _ in 0..2000 * long() {
             let far = random.size(0.0, 6.0);
             let world = world(&mut random, far);
@@ -216,13 +216,17 @@ mod tests {
                     crossings += 1;
                     let off = (exact.t - rough.t).abs();
                     assert!(off <= rough.error + exact.error, "{entry:?} {ray:?} {off} {rough:?}");
-                    loose += usize::from(rough.error > 1e-2 * rough.t.max(1e-3));
+                    // Along a plane the direction's own rounding is what is told.
+                    let slope = match &entry.solid {
+                        Solid::Plane(plane) => ray.direction.dot(plane.normal.get()).abs(),
+                        Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => 1.0,
+                    };
+                    let share = if slope < 1e-4 { 1e-6 / slope } else { 1e-2 };
+                    assert!(rough.error < share * rough.t.max(1e-3), "{slope:e} {rough:?}");
                 }
             }
         }
         assert!(crossings > 1000, "{crossings}");
-        // Only rays along a surface are told no better.
-        assert!(loose * 1000 < crossings, "{loose} of {crossings}");
     }
 
     #[test]
