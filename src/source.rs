@@ -33,6 +33,11 @@ impl Span {
         Self { end: other.end.max(self.end), ..self }
     }
 
+    /// Whether all of `other` lies in this span.
+    pub fn contains(self, other: Self) -> bool {
+        self.file == other.file && self.start <= other.start && other.end <= self.end
+    }
+
     /// The empty span just after this one.
     pub fn after(self) -> Self {
         Self { start: self.end, ..self }

@@ -41,6 +41,13 @@ impl Lowering<'_, '_> {
             return false;
         }
         let (world, view) = (&self.world, View::of(&self.world.camera));
+        let is_told = |told: &Diagnostic| {
+            told.code == Code::SuspiciousUnit
+                && told.primary().is_some_and(|label| site.span.contains(label.span))
+        };
+        if self.reporter.diagnostics.iter().any(is_told) {
+            return true;
+        }
         let fits = (0..world.objects.len())
             .filter_map(|i| bounds(world, i as u32))
             .any(|bounds| view.outside(&bounds).is_none() && view.pictures(&bounds) <= TOO_LARGE);

@@ -93,7 +93,7 @@ impl Evaluator<'_> {
                 return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
             }
         };
-        camera.items.push(CameraItem { kind, site });
+        camera.items.push(CameraItem { kind, site: self.whole(token) });
         Ok(())
     }
 
@@ -109,6 +109,7 @@ impl Evaluator<'_> {
                 "less than 180 for a perspective camera",
             ));
         }
+        self.lint_angle_in_radians(&given);
         Ok(CameraItemKind::Angle(given.value))
     }
 

@@ -87,8 +87,8 @@ impl Evaluator<'_> {
         true
     }
 
-    /// The angle of a spotlight, if it is in radians for certain. Says whether it said so.
-    pub(super) fn lint_cone_angle(&mut self, given: &Given<f64>) -> bool {
+    /// A lone angle, if it is in radians for certain. Says whether it said so.
+    pub(in crate::evaluate) fn lint_angle_in_radians(&mut self, given: &Given<f64>) -> bool {
         !is_literal(self.sources.text(given.span)) && self.lint_degrees(given, &[given.value])
     }
 

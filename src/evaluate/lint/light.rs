@@ -52,7 +52,7 @@ impl Evaluator<'_> {
             LightKind::Spotlight { beam, .. } => {
                 let mut told = false;
                 for given in cone.angles() {
-                    told |= self.lint_cone_angle(given);
+                    told |= self.lint_angle_in_radians(given);
                 }
                 if !told && !self.lint_beam_in_radians(cone) {
                     self.lint_inside_out(cone, beam, "degrees");
