@@ -298,6 +298,17 @@ fn no_beginning_of_a_text_makes_it_panic() {
     }
 }
 
+#[test]
+fn what_is_read_without_an_error_is_so_in_print_whichever_byte_is_left_out() {
+    for at in 0..SAMPLE.len() {
+        let mut bytes = SAMPLE.as_bytes().to_vec();
+        bytes.remove(at);
+        let (text, _) = crate::source::decode(bytes);
+        let (_, printed, _, errors) = shape(&text, Dialect::Scene);
+        assert!(errors || !shape(&printed, Dialect::Scene).3, "without byte {at}: {printed}");
+    }
+}
+
 proptest::proptest! {
     #[test]
     fn no_change_of_bytes_makes_it_panic(
