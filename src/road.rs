@@ -5,7 +5,7 @@
 
 mod echo;
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Allowance, Code, Diagnostic, Diagnostics, Levels, allowances};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -17,8 +17,8 @@ use crate::world::{Origins, World};
 /// What the caller may choose about a scene.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Keep lints.
-    pub lints: bool,
+    /// Which lints are told, and as what.
+    pub levels: Levels,
     /// Width and height in pixels of the picture that will be made, where it is known.
     pub picture: Option<(u32, u32)>,
     pub evaluate: EvaluateOptions,
@@ -28,7 +28,7 @@ impl Options {
     /// The defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
         let evaluate = EvaluateOptions { dialect, ..EvaluateOptions::default() };
-        Self { lints: dialect == Dialect::Scene, picture: None, evaluate }
+        Self { levels: Levels::new(dialect == Dialect::Scene), picture: None, evaluate }
     }
 }
 
@@ -47,12 +47,16 @@ pub struct Road<'a> {
     options: Options,
     pub sources: Sources,
     pub diagnostics: Diagnostics,
+    /// What the comments of the first `heard` sources allow.
+    allowances: Vec<Allowance>,
+    heard: usize,
 }
 
 impl<'a> Road<'a> {
     pub fn new(files: &'a dyn Files, options: Options) -> Self {
-        let diagnostics = Diagnostics::new(options.lints);
-        Self { files, options, sources: Sources::default(), diagnostics }
+        let diagnostics = Diagnostics::with_levels(options.levels.clone());
+        let sources = Sources::default();
+        Self { files, options, sources, diagnostics, allowances: Vec::new(), heard: 0 }
     }
 
     /// Takes in the main file as it lies on disk.
@@ -65,8 +69,7 @@ impl<'a> Road<'a> {
         });
         let (text, _) = decode(bytes);
         let file = self.sources.add(Source::new(name, text));
-        // Old POV-Ray files have accents in comments, and are right all the same.
-        if let Some(at) = wrong.filter(|_| self.options.lints) {
+        if let Some(at) = wrong {
             let end =
                 self.sources.get(file).text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
             let help = match wide {
@@ -88,7 +91,9 @@ impl<'a> Road<'a> {
     pub fn parse(&mut self, file: FileId) -> Ast {
         let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
         let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
-        parse(self.sources.get(file), file, &options, &mut self.diagnostics)
+        let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
+        self.silence(0);
+        ast
     }
 
     pub fn evaluate(&mut self, ast: Ast) -> Scene {
@@ -100,6 +105,7 @@ impl<'a> Road<'a> {
         if let Some(ast) = &faulty {
             echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
         }
+        self.silence(before);
         scene
     }
 
@@ -110,7 +116,24 @@ impl<'a> Road<'a> {
         }
         let Options { picture, ref evaluate, .. } = self.options;
         let options = LowerOptions { objects: evaluate.limits.objects, picture };
-        lower(scene, &options, &mut self.diagnostics)
+        let before = self.diagnostics.len();
+        let lowered = lower(scene, &options, &mut self.diagnostics);
+        self.silence(before);
+        lowered
+    }
+
+    /// Drops, of the messages after the first `len`, those that comments allow.
+    fn silence(&mut self, len: usize) {
+        for (file, source) in self.sources.iter().skip(self.heard) {
+            let (allowed, told) = allowances(source, file);
+            self.allowances.extend(allowed);
+            told.into_iter().for_each(|told| self.diagnostics.push(told));
+            self.heard += 1;
+        }
+        if !self.allowances.is_empty() {
+            let silenced = |told: &Diagnostic| self.allowances.iter().any(|one| one.silences(told));
+            self.diagnostics.retain_after(len, |told| !silenced(told));
+        }
     }
 
     /// From the main file to its World.

@@ -363,6 +363,42 @@ fn what_stands_before_a_fault_on_its_line_is_told_too() {
 }
 
 #[test]
+fn a_warning_is_dropped_told_or_denied_as_the_flags_and_the_comments_say() {
+    let place = Place::new();
+    let scene = "#declare Radius = 2;\n#declare Height = 3; // lucarne: allow(unused-declaration)\n\
+                 camera { location 5*z look_at 0 } light_source { 9, 1 }\n\
+                 sphere { 0, 1 pigment { rgb 128 } }\n";
+    place.write("a.scene", scene);
+    let both = place.run("check a.scene").ends(0, &["`Radius`", "color-range", "2 warnings"]);
+    assert!(!both.stderr().contains("`Height`"));
+    let one = place.run("check a.scene --allow unused-declaration").ends(0, &["1 warning"]);
+    assert!(!one.stderr().contains("Radius"));
+    assert_eq!(place.run("check a.scene --allow all").ends(0, &[]).stderr(), "");
+    let denied = ["error[unused-declaration]", "warning[color-range]"];
+    place.run("check a.scene --deny unused-declaration --message-format short").ends(1, &denied);
+    place.run("a.scene --size 8x6 --deny all").ends(1, &["2 errors"]);
+    assert!(!place.path("a.png").exists());
+    place.write("a.pov", scene);
+    let words = ["old-version", "color-range", "2 warnings"];
+    place.run("check a.pov --warn color-range").ends(0, &words);
+    place.run("check a.scene --allow unused-declarations").ends(2, &["unused-declaration"]);
+    place.run("check a.scene --allow unknown-word").ends(2, &["no warning"]);
+}
+
+#[test]
+fn messages_are_narrated_for_those_who_hear_them() {
+    let place = Place::new();
+    place.write("a.scene", "sphere { 0, 1 pigmnt { rgb 1 } }\n");
+    let words = [
+        "Error in a.scene, line 1, columns 15 to 20: `pigmnt` is not a word in `sphere`.",
+        "The line reads: sphere { 0, 1 pigmnt { rgb 1 } }",
+        "1 error",
+    ];
+    let run = place.run("check a.scene --message-format narrated").ends(1, &words);
+    assert!(!run.stderr().contains(['│', '─', '×']));
+}
+
+#[test]
 fn a_stray_end_hides_nothing_after_it() {
     let place = Place::new();
     place.write("stray.scene", "#end\n\nsphere { 0, 1 pigmnt { } }\n");

@@ -21,7 +21,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::mend::{apply, mend};
-use lucarne::diagnostic::{Code, Diagnostic, Severity};
+use lucarne::diagnostic::{Code, Diagnostic, Levels, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::{FileError, FileId, Files, Found, Sources, Span};
@@ -51,7 +51,7 @@ impl Files for Includes {
 fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, Sources) {
     let dialect = lucarne::road::dialect(name);
     let mut options = Options::new(dialect);
-    options.lints = true;
+    options.levels = Levels::new(true);
     let mut road = Road::new(files, options);
     road.compile(name, bytes);
     (road.diagnostics.iter().cloned().collect(), road.sources)

@@ -4,13 +4,16 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::accuracy::Metric;
+use lucarne::diagnostic::{Level, Levels};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::{Options, dialect};
 use lucarne::scene::Dialect;
 
 use super::exit::Failure;
 use super::messages::{self, Messages};
-use super::values::{Limit, antialias, declare, error, knob, limit, region, seconds, size, weight};
+use super::values::{
+    Limit, Warnings, antialias, declare, error, knob, limit, region, seconds, size, warning, weight,
+};
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
 ///
@@ -276,6 +279,15 @@ pub struct SceneArguments {
     /// Treat warnings as errors
     #[arg(long)]
     deny_warnings: bool,
+    /// Drop a warning: its code, or `all`; may be given several times, as may the next two
+    #[arg(long, value_name = "CODE", value_parser = warning)]
+    allow: Vec<Warnings>,
+    /// Tell a warning, whatever the dialect
+    #[arg(long, value_name = "CODE", value_parser = warning)]
+    warn: Vec<Warnings>,
+    /// Make an error of a warning
+    #[arg(long, value_name = "CODE", value_parser = warning)]
+    deny: Vec<Warnings>,
     /// How messages are shown
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub message_format: messages::Format,
@@ -307,11 +319,27 @@ impl SceneArguments {
         Messages::new(self.message_format, self.deny_warnings)
     }
 
+    /// What becomes of each warning: a code goes before `all`, and of one named twice the strictest holds.
+    fn levels(&self, dialect: Dialect) -> Levels {
+        let mut levels = Levels::new(self.lint || dialect == Dialect::Scene);
+        let named =
+            [(&self.allow, Level::Allow), (&self.warn, Level::Warn), (&self.deny, Level::Deny)];
+        for (warnings, level) in named {
+            for &warnings in warnings {
+                match warnings {
+                    Warnings::All => levels.set_all(level),
+                    Warnings::Of(code) => levels.set(code, level),
+                }
+            }
+        }
+        levels
+    }
+
     /// What the road takes, for a main file of this name.
     pub fn options(&self, file: &std::path::Path, frame: Option<Frame>) -> Options {
         let dialect = dialect(&file.to_string_lossy());
         let mut options = Options::new(dialect);
-        options.lints = self.lint || dialect == Dialect::Scene;
+        options.levels = self.levels(dialect);
         options.evaluate.declares = self.declares.clone();
         // `clock` is a word of the language, not a name.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {

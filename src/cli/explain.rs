@@ -23,6 +23,13 @@ pub fn run(arguments: &ExplainArguments) -> Outcome {
         return Err(failure.help(help));
     };
     messages::print(&plain(code.page()))?;
+    if code.warns() {
+        messages::print(&format!(
+            "\nThis is a warning. `--allow {name}` silences it, as does the comment\n\n    \
+             // lucarne: allow({name})\n\nbehind the code it is about, or on the line before. \
+             `--deny {name}` makes it an error.\n"
+        ))?;
+    }
     Ok(Exit::Done)
 }
 

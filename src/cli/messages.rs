@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::io::{ErrorKind, IsTerminal, Write};
 
 use clap::ValueEnum;
-use lucarne::diagnostic::{Code, Diagnostic, Severity, json, render};
+use lucarne::diagnostic::{Code, Diagnostic, Severity, json, narrate, render};
 use lucarne::source::Sources;
 
 use super::exit::{Exit, Failure, reason};
@@ -24,6 +24,8 @@ pub enum Format {
     Human,
     /// `file:line:column: severity[code]: message`, on standard error
     Short,
+    /// Plain sentences without drawing, for a screen reader, on standard error
+    Narrated,
     /// One JSON object a line, on standard output
     Json,
 }
@@ -63,7 +65,7 @@ impl Messages {
                 Severity::Note => {}
             }
             match self.format {
-                Format::Human => {
+                Format::Human | Format::Narrated => {
                     // Neither the author's own words nor warnings take the room of errors.
                     let shown = match diagnostic.severity {
                         Severity::Error => &mut errors,
@@ -80,7 +82,10 @@ impl Messages {
                     }
                     *shown += 1;
                     *alike += 1;
-                    out.push_str(&render::human(diagnostic, sources, self.style));
+                    out.push_str(&match self.format {
+                        Format::Narrated => narrate::narrated(diagnostic, sources),
+                        _ => render::human(diagnostic, sources, self.style),
+                    });
                     out.push('\n');
                 }
                 Format::Short => out.push_str(&(render::short(diagnostic, sources) + "\n")),
@@ -102,7 +107,7 @@ impl Messages {
     /// `2 errors, 1 warning`, where people read it.
     pub fn summarize(&self) {
         let summary = render::summary(self.errors + self.limits, self.warnings);
-        if let (Format::Human, Some(summary)) = (self.format, summary) {
+        if let (Format::Human | Format::Narrated, Some(summary)) = (self.format, summary) {
             eprint(&format!("{summary}\n"));
         }
         let warnings_alone = self.errors + self.limits == 0 && self.exit() != Exit::Done;

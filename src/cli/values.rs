@@ -2,6 +2,8 @@
 
 use clap::ValueEnum;
 use lucarne::accuracy::KNOBS;
+use lucarne::diagnostic::Code;
+use lucarne::diagnostic::suggest::closest;
 use lucarne::plan::{Antialias, Region};
 use lucarne::vocabulary::Word;
 
@@ -15,6 +17,30 @@ pub enum Limit {
     Memory,
     String,
     Pixels,
+}
+
+/// Which warnings a flag is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Warnings {
+    All,
+    Of(Code),
+}
+
+pub fn warning(text: &str) -> Result<Warnings, String> {
+    if text == "all" {
+        return Ok(Warnings::All);
+    }
+    match Code::from_name(text) {
+        Some(code) if code.warns() => Ok(Warnings::Of(code)),
+        Some(_) => Err("this is no warning, and stays as it is".to_owned()),
+        None => {
+            let names = Code::ALL.iter().filter(|code| code.warns()).map(|code| code.name());
+            Err(match closest(text, names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "expected the code of a warning, or `all`".to_owned(),
+            })
+        }
+    }
 }
 
 pub fn size(text: &str) -> Result<(u32, u32), String> {

@@ -25,6 +25,11 @@ macro_rules! codes {
                 match self { $(Code::$variant => codes!(@lint $severity)),* }
             }
 
+            /// True for a message that is no error, unless the caller makes it one.
+            pub fn warns(self) -> bool {
+                self.severity() == Severity::Warning
+            }
+
             /// One sentence: what it means.
             pub fn sentence(self) -> &'static str {
                 match self { $(Code::$variant => $sentence),* }
@@ -65,7 +70,7 @@ codes! {
     ExpectedExpression "expected-expression" error "a value was expected here";
     NestingLimit "nesting-limit" error "brackets, directives, signs or declarations are nested deeper than the limit";
     ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
-    BadEncoding "bad-encoding" warning "the file is not UTF-8 and was read as Latin-1";
+    BadEncoding "bad-encoding" lint "the file is not UTF-8 and was read as Latin-1";
     // words and names
     UnknownWord "unknown-word" error "a word is not known in this place";
     UndeclaredName "undeclared-name" error "a name is used and was never declared";
@@ -113,6 +118,7 @@ codes! {
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     RepeatedParameter "repeated-parameter" lint "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
+    UnknownLint "unknown-lint" lint "a comment allows a lint that does not exist";
     // files
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";

@@ -3,15 +3,20 @@
 //! **Invariant:** plain data; nothing here prints. Style: lower case, no full stop, the author's
 //! words in backticks, says what is wrong *and* what was expected.
 
+mod allowance;
 mod code;
 mod excerpt;
 pub mod json;
+mod level;
 pub mod mend;
+pub mod narrate;
 mod quote;
 pub mod render;
 pub mod suggest;
 
+pub use allowance::{Allowance, allowances};
 pub use code::Code;
+pub use level::{Level, Levels};
 
 use std::collections::HashMap;
 
@@ -135,18 +140,24 @@ impl TraceStep {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    lints: bool,
+    levels: Levels,
 }
 
 impl Diagnostics {
-    /// A sink that keeps lints (warnings) too, or drops them.
+    /// A sink that keeps all lints, or drops them.
     pub fn new(lints: bool) -> Self {
-        Self { list: Vec::new(), lints }
+        Self::with_levels(Levels::new(lints))
+    }
+
+    /// A sink that drops lints, keeps them or makes errors of them, each as it is said.
+    pub fn with_levels(levels: Levels) -> Self {
+        Self { list: Vec::new(), levels }
     }
 
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
-        if diagnostic.code.is_lint() && !self.lints {
-            return;
+        if let Some(level) = self.levels.of(diagnostic.code) {
+            let Some(severity) = level.severity() else { return };
+            diagnostic.severity = severity;
         }
         diagnostic.shorten();
         // Loop turns and repeated calls say the same thing again: once is enough.
@@ -171,8 +182,9 @@ impl Diagnostics {
         self.list.extend(later.into_iter().filter(keep));
     }
 
+    /// Whether anything is certainly wrong; a denied warning is an error only to who denied it.
     pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|d| d.severity == Severity::Error)
+        self.list.iter().any(|d| d.code.severity() == Severity::Error)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {

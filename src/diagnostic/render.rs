@@ -102,7 +102,7 @@ impl View {
             .iter()
             .map(|label| (label.span, visible(&label.text), label.primary))
             .collect();
-        spans.extend(trace_labels(diagnostic).map(|(span, text)| (span, text, false)));
+        spans.extend(calls(diagnostic).map(|(span, text)| (span, text, false)));
         let places: Vec<Span> = spans.iter().map(|(span, ..)| *span).collect();
         let excerpt = Excerpt::around(&places, sources, room);
         let labels = spans
@@ -116,6 +116,7 @@ impl View {
                 }
             })
             .collect();
+        let advice = advice(diagnostic, sources);
         let names = sources.iter().map(|(_, source)| visible(&source.name)).collect::<Vec<_>>();
         // A message about the scene as a whole still says which scene.
         let code = match (diagnostic.labels.is_empty(), names.first()) {
@@ -127,15 +128,15 @@ impl View {
             message: visible(&diagnostic.message),
             severity: diagnostic.severity,
             labels,
-            help: help(diagnostic, sources),
+            help: (!advice.is_empty()).then(|| advice.join("\n")),
             text: Text { excerpt, names },
         }
     }
 }
 
-/// The calls that led here as labels: the innermost ones and the outermost; calls from one place
+/// The calls that led here: the innermost ones and the outermost; calls from one place
 /// once.
-fn trace_labels(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)> {
+pub(super) fn calls(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)> {
     let mut steps: Vec<(Span, String, usize)> = Vec::new();
     let told = |span: Span| diagnostic.labels.iter().any(|label| label.span == span);
     for step in diagnostic.trace.iter().filter(|step| !told(step.span)) {
@@ -159,7 +160,7 @@ fn trace_labels(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)>
 }
 
 /// The help, and each fix that no help already spells out.
-fn help(diagnostic: &Diagnostic, sources: &Sources) -> Option<String> {
+pub(super) fn advice(diagnostic: &Diagnostic, sources: &Sources) -> Vec<String> {
     let mut lines: Vec<String> = diagnostic.help.iter().map(|text| visible(text)).collect();
     // How often each is told, of fixes that read alike.
     let mut alike: Vec<(String, usize)> = Vec::new();
@@ -185,7 +186,7 @@ fn help(diagnostic: &Diagnostic, sources: &Sources) -> Option<String> {
         1 => line,
         _ => format!("{line}, {times} times"),
     }));
-    (!lines.is_empty()).then(|| lines.join("\n"))
+    lines
 }
 
 impl fmt::Display for View {

@@ -37,7 +37,7 @@ pub(super) fn drop_echoes(
     let mut faults: Vec<Fault> = diagnostics
         .iter()
         .take(parsed)
-        .filter(|fault| fault.severity == Severity::Error)
+        .filter(|fault| fault.code.severity() == Severity::Error)
         .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
         .filter(|(_, span)| span.file == ast.file)
         .take(MOST_FAULTS)
