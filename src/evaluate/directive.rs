@@ -96,7 +96,7 @@ impl Evaluator<'_> {
             DirectiveKind::Version(version) => {
                 self.says_version = true;
                 self.version = self.number(here, *version)?;
-                Ok(())
+                self.check_version(here, here.unit.expression(*version).span)
             }
             DirectiveKind::Debug(text) => self.say(here, Code::AuthorDebug, *text, directive.head),
             DirectiveKind::Warning(text) => {
@@ -122,6 +122,20 @@ impl Evaluator<'_> {
             DirectiveKind::Ignored(text) => self.expression(here, *text).map(drop),
             DirectiveKind::Malformed => Err(Reported),
         }
+    }
+
+    /// POV-Ray, too, refuses a scene of a version to come.
+    fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
+        /// The newest version of POV-Ray that there is.
+        const NEWEST: f64 = 3.8;
+        if self.version <= NEWEST {
+            return Ok(());
+        }
+        let message = format!("there is no version {} of POV-Ray", self.version);
+        let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+            .at(span, format!("the newest is {NEWEST}"))
+            .help("write `#version 3.7;`");
+        Err(self.report(here, diagnostic))
     }
 
     fn say(&mut self, here: &Here, code: Code, text: ExpressionId, head: Span) -> Outcome<()> {

@@ -166,15 +166,19 @@ impl Repair<'_> {
         }
     }
 
-    /// Where braces are missing: does this one, by its indentation, end the block around `top`?
+    /// Where braces are missing: does this one, by its indentation or by what `top` cannot hold, end the block
+    /// around `top`?
     fn closes_an_outer_block(&self, top: &Open, bracket: Bracket, at: usize) -> bool {
         let place = self.layout.place(at);
         let outer = self.open.len().checked_sub(2).map(|below| &self.open[below]);
+        let by_indent = |outer: &Open| {
+            place.first && place.indent != top.indent && outer.indent == place.indent
+        };
+        let ended = || top.outside.is_some_and(|outside| !self.may_hold(top.token, outside.token));
         self.surplus[bracket as usize] > 0
             && bracket == Bracket::Brace
-            && place.first
-            && place.indent != top.indent
-            && outer.is_some_and(|o| o.opener == top.opener && o.indent == place.indent)
+            && outer
+                .is_some_and(|outer| outer.opener == top.opener && (by_indent(outer) || ended()))
     }
 
     /// The innermost open `bracket`, if no directive was opened after it.

@@ -3,11 +3,11 @@
 //! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
 
 use crate::color::{self, Rgb};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
-use super::super::Evaluator;
+use super::super::{Evaluator, Reported};
 use super::Place;
 
 impl Evaluator<'_> {
@@ -43,6 +43,42 @@ impl Evaluator<'_> {
         };
         let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// `sphere { 0 0 0, 1 }`: as many bare numbers as make `points` points and `numbers` numbers. Tells the
+    /// points as they are written.
+    pub(super) fn bare_points(&mut self, points: usize, numbers: usize) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        let text = &self.sources.get(first.span.file).text;
+        let mut found: Vec<Span> = Vec::new();
+        let mut at = first.span.start as usize;
+        loop {
+            let rest = text.get(at..)?;
+            let blank =
+                rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',').len();
+            let number =
+                rest[blank..].split(|c: char| c.is_whitespace() || ",}/".contains(c)).next()?;
+            if number.parse::<f64>().is_err() || !number.ends_with(|c: char| c.is_ascii_digit()) {
+                break;
+            }
+            found.push(Span::new(first.span.file, at + blank, at + blank + number.len()));
+            at += blank + number.len();
+        }
+        if found.len() != 3 * points + numbers {
+            return None;
+        }
+        let mut diagnostic =
+            Diagnostic::new(Code::WrongType, "a point is three numbers in angle brackets");
+        for point in found.chunks_exact(3).take(points) {
+            let [a, b, c] = [0, 1, 2].map(|i| self.sources.text(point[i]));
+            let (span, meant) = (point[0].to(point[2]), format!("<{a}, {b}, {c}>"));
+            diagnostic = match diagnostic.labels.is_empty() {
+                true => diagnostic.at(span, format!("did you mean `{meant}`?")),
+                false => diagnostic.also(span, format!("and `{meant}`")),
+            };
+            diagnostic = diagnostic.fix(span, meant);
+        }
+        Some(self.report(&first.here, diagnostic))
     }
 
     /// `transparency 0.5`, `opacity 0.5`: `transmit` belongs to a colour.

@@ -237,6 +237,9 @@ impl Evaluator<'_> {
     }
 
     fn box_(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        if let Some(reported) = self.bare_points(2, 0) {
+            return Err(reported);
+        }
         let first = self.vector_after(token, "a vector for a corner");
         let second = self.vector_after(token, "a vector for the opposite corner");
         let (first, second) = (first?, second?);

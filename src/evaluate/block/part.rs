@@ -125,6 +125,10 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn vector_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        if let Some(reported) = self.bare_points(1, 0) {
+            self.skip_values();
+            return Err(reported);
+        }
         let given = self.given(after, wanted)?;
         self.as_vector(given, wanted)
     }
@@ -135,6 +139,9 @@ impl Evaluator<'_> {
         after: &Token,
         (vector, number): (&str, &str),
     ) -> (Outcome<Given<Value>>, Outcome<Given<f64>>) {
+        if let Some(reported) = self.bare_points(1, 1) {
+            return (Err(reported), Err(reported));
+        }
         let first = self.given(after, vector);
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
@@ -255,6 +262,9 @@ impl Evaluator<'_> {
                 here: token.here,
                 expression: None,
             });
+        }
+        if let Some(reported) = self.misspelt_color() {
+            return Err(reported);
         }
         let given = self.given(after, wanted)?;
         let color = self.plain_color(&given, wanted)?;

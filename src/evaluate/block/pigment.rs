@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::pattern::Pattern;
 use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
 use crate::source::Site;
+use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::lint::Rise;
@@ -166,7 +167,10 @@ impl Evaluator<'_> {
                         pigment.site = site;
                         written.pattern = None;
                     }
-                    Value::Color(_) | Value::Vector(_) => {
+                    value @ (Value::Color(_) | Value::Vector(_)) => {
+                        if matches!(value, Value::Vector(_)) {
+                            self.bare_color(token);
+                        }
                         let (span, here) = (token.span, token.here.clone());
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
@@ -194,6 +198,17 @@ impl Evaluator<'_> {
             }
         }
         Ok(())
+    }
+
+    /// `pigment { <1, 0, 0> }`, which POV-Ray refuses, too.
+    fn bare_color(&mut self, token: &Token) {
+        let text = self.sources.text(token.span).to_owned();
+        let message = "expected a pigment: a colour or a pattern, found a vector";
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, "a vector is no colour by itself")
+            .help(format!("write `rgb {text}`"))
+            .fix(Span { end: token.span.start, ..token.span }, "rgb ");
+        self.report(&token.here, diagnostic);
     }
 
     /// The two colours of `checker`; blue and green where they are missing.

@@ -180,6 +180,28 @@ impl Evaluator<'_> {
         true
     }
 
+    /// `colr rgb 1` where a colour should stand.
+    pub(super) fn misspelt_color(&mut self) -> Option<Reported> {
+        let token = self.peek()?.clone();
+        let TokenKind::Expression(id) = token.kind else { return None };
+        self.unknown_name(&token.here, id)?;
+        let name = self.sources.text(token.span).to_owned();
+        let near = word_like(&name, |word| word.family() == Family::Color)?;
+        // Without a value behind it, it is rather the name of a colour.
+        let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
+        let has_value =
+            rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_alphanumeric());
+        if !has_value {
+            return None;
+        }
+        let message = format!("`{name}` is not a word that begins a colour");
+        let diagnostic = meant(Diagnostic::new(Code::UnknownWord, message), token.span, near);
+        let reported = self.report(&token.here, diagnostic);
+        self.next();
+        drop(self.color_after(&token, "a colour"));
+        Some(reported)
+    }
+
     /// `camra { … }` where a value should stand.
     pub(in crate::evaluate) fn misspelt_block(
         &mut self,
@@ -201,11 +223,17 @@ impl Evaluator<'_> {
         let message = format!("`{name}` is not a word that begins a value");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message);
         // Before a block a capital does not make it one of the author's names.
-        let diagnostic = match word_like(&name.to_lowercase(), opens) {
+        let near = word_like(&name.to_lowercase(), opens);
+        let diagnostic = match near {
             Some(near) => meant(diagnostic, token.span, near),
             None => diagnostic.at(token.span, UNKNOWN),
         };
         let reported = self.report(&token.here, diagnostic);
+        if let Some(word) = near.filter(|near| is_built(near)).and_then(Word::from_name)
+            && self.judge_block(token, word)
+        {
+            return Some(reported);
+        }
         self.next();
         // What is inside belongs to a word that is not known: run, but not judged.
         let before = self.diagnostics.len();

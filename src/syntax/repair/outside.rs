@@ -50,7 +50,7 @@ impl Repair<'_> {
         let beside = begins && place.indent <= open.indent;
         match open.opener {
             Opener::Bracket(Bracket::Brace) => {
-                (beside && (indented || !self.may_hold(open.token, at))).then_some(true)
+                (beside && indented || begins && !self.may_hold(open.token, at)).then_some(true)
             }
             Opener::Directive if beside && indented => Some(true),
             // Of a text without indentation, one statement.
@@ -84,7 +84,7 @@ impl Repair<'_> {
 
     /// False where the block that opens at `opener` cannot hold the statement at `at`: an object stands at
     /// the top level, and in few blocks.
-    fn may_hold(&self, opener: usize, at: usize) -> bool {
+    pub(super) fn may_hold(&self, opener: usize, at: usize) -> bool {
         let TokenKind::Word(inner) = self.tokens[at].kind else { return true };
         let only_outside = matches!(inner.family(), Family::Shape | Family::Csg)
             || matches!(inner, Word::Camera | Word::GlobalSettings | Word::SkySphere);
