@@ -44,7 +44,8 @@ impl Evaluator<'_> {
         }
         let word = match token.kind {
             TokenKind::Word(word) => word,
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::Camera(declared)) => {
                     *camera = Camera { site: camera.site, ..declared.as_ref().clone() };
                     return Ok(());

@@ -106,7 +106,8 @@ impl Evaluator<'_> {
         }
         let word = match token.kind {
             TokenKind::Word(word) => word,
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::Finish(id)) => {
                     *finish = self.scene.finishes[id.index()].clone();
                     written.origin = self.finish_origin(id);

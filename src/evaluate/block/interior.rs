@@ -27,7 +27,8 @@ impl Evaluator<'_> {
     fn interior_item(&mut self, token: &Token, interior: &mut Interior) -> Outcome<()> {
         match token.kind {
             TokenKind::Word(Word::Ior) => interior.ior = self.more_than_zero(token, Word::Ior)?,
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::Interior(id)) => interior.ior = self.scene.interiors[id.index()].ior,
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {
@@ -68,7 +69,8 @@ impl Evaluator<'_> {
         match token.kind {
             TokenKind::Word(Word::Texture) => material.texture = Some(self.texture(token)?),
             TokenKind::Word(Word::Interior) => material.interior = Some(self.interior(token)?),
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::Material(named)) => *material = named,
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {

@@ -79,9 +79,7 @@ impl Evaluator<'_> {
     }
 
     fn declared_light(&mut self) -> Option<ObjectId> {
-        let token = self.peek()?.clone();
-        let TokenKind::Expression(id) = token.kind else { return None };
-        match self.named(&token, id)? {
+        match self.peek_declared()? {
             Value::Object(object) => Some(object),
             _ => None,
         }

@@ -126,9 +126,9 @@ impl Evaluator<'_> {
 
     /// `sphere { Ball … }`: a declared object where the parts would stand.
     fn declared_object(&mut self, word: Word) -> Option<Outcome<ObjectKind>> {
+        let value = self.peek_declared()?;
         let token = self.peek()?.clone();
-        let TokenKind::Expression(id) = token.kind else { return None };
-        match self.named(&token, id)? {
+        match value {
             Value::Object(object) => {
                 self.next();
                 if let Some(reported) = self.wrong_kind(&token, word, object) {

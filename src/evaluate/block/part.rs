@@ -98,9 +98,13 @@ impl Evaluator<'_> {
             TokenKind::Literal(value) => (value.clone(), None),
             _ => return Err(Reported),
         };
-        if let Value::Poison(poison) = value {
-            self.set_poison(poison);
-            return Err(Reported);
+        match value {
+            Value::Poison(poison) => {
+                self.set_poison(poison);
+                return Err(Reported);
+            }
+            Value::Broken => return Err(Reported),
+            _ => {}
         }
         Ok(Given { value, span: token.span, here: token.here, expression })
     }

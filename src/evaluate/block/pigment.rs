@@ -272,7 +272,8 @@ impl Evaluator<'_> {
                             Err(Reported) => failed = true,
                         }
                     }
-                    TokenKind::Expression(id) => match evaluator.named(&token, *id) {
+                    TokenKind::Expression(id) => match evaluator.declared(&token, *id) {
+                        Some(Value::Broken) => failed = true,
                         Some(Value::ColorMap(map))
                             if entries.len() + map.0.len() > MOST_ENTRIES =>
                         {

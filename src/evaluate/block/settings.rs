@@ -119,7 +119,8 @@ impl Evaluator<'_> {
         }
         match token.kind {
             TokenKind::Word(Word::Pigment) => sky.pigments.push(self.pigment(token)?),
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::SkySphere(declared)) => {
                     *sky = SkySphere { site: sky.site, ..declared.as_ref().clone() };
                 }

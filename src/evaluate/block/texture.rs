@@ -54,7 +54,8 @@ impl Evaluator<'_> {
                 self.set_poison(Poison { word, site: token.here.site(token.span) });
                 self.skip_arguments(word);
             }
-            TokenKind::Expression(id) => match self.named(token, id) {
+            TokenKind::Expression(id) => match self.declared(token, id) {
+                Some(Value::Broken) => return Err(Reported),
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {

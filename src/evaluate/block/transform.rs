@@ -5,7 +5,7 @@ use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::scene::TransformId;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Callee, ExpressionKind};
+use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -162,8 +162,9 @@ impl Evaluator<'_> {
                             let all = evaluator.add_transform(std::mem::take(&mut steps), &token);
                             steps.push(Step::InverseOf(all));
                         }
-                        TokenKind::Expression(id) => match evaluator.named(&token, id) {
+                        TokenKind::Expression(id) => match evaluator.declared(&token, id) {
                             Some(Value::Transform(id)) => steps.push(Step::Transform(id)),
+                            Some(Value::Broken) => failed = true,
                             _ => {
                                 evaluator.unexpected(&token, Place::TRANSFORM);
                                 failed = true;
@@ -213,12 +214,43 @@ impl Evaluator<'_> {
         Some(word)
     }
 
-    /// The value of a token that is a lone declared name, or a call; nothing is reported.
-    pub(super) fn named(
-        &mut self,
-        token: &Token,
-        id: crate::syntax::ast::ExpressionId,
-    ) -> Option<Value> {
+    /// The value of a taken token that is a lone declared name, or an element of an array, whose faults are
+    /// told.
+    pub(super) fn declared(&mut self, token: &Token, id: ExpressionId) -> Option<Value> {
+        match token.here.unit.expression(id).kind {
+            ExpressionKind::Index(..) => {
+                Some(self.expression(&token.here, id).unwrap_or(Value::Broken))
+            }
+            _ => self.named(token, id),
+        }
+    }
+
+    /// The value that comes next, if it is declared, before it is known whether it is wanted.
+    pub(super) fn peek_declared(&mut self) -> Option<Value> {
+        self.settle_element();
+        let token = self.peek()?.clone();
+        match token.kind {
+            TokenKind::Expression(id) => self.named(&token, id),
+            TokenKind::Literal(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Puts the value of an element of an array in the place of its expression, which is evaluated once.
+    fn settle_element(&mut self) {
+        let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned()
+        else {
+            return;
+        };
+        if matches!(here.unit.expression(id).kind, ExpressionKind::Index(..)) {
+            self.next();
+            let value = self.expression(&here, id).unwrap_or(Value::Broken);
+            self.peeked = Some(Token { kind: TokenKind::Literal(value), span, here });
+        }
+    }
+
+    /// The value of a token that is a lone declared name; nothing is reported.
+    pub(super) fn named(&mut self, token: &Token, id: ExpressionId) -> Option<Value> {
         match token.here.unit.expression(id).kind {
             ExpressionKind::Name(name) => {
                 let symbol = token.here.symbol(name);

@@ -1,7 +1,4 @@
 //! Every scene and include that ships with POV-Ray is read without a syntax error.
-//!
-//! Needs the Debian packages `povray-examples` and `povray-includes`; says so where they are missing,
-//! and fails there with `LUCARNE_CONFORMANCE=required`.
 
 use std::path::{Path, PathBuf};
 
@@ -12,24 +9,10 @@ use lucarne::syntax::ast::{Ast, DirectiveKind, ItemKind, Items};
 use lucarne::syntax::{ParseOptions, dump, parse, print};
 use lucarne::vocabulary::standard_include_of;
 
-const SCENES: &str = "/usr/share/doc/povray/examples";
-const INCLUDES: &str = "/usr/share/povray-3.7/include";
+use super::{INCLUDES, SCENES, files, is_installed};
 
 /// A form to be filled in, not a scene; POV-Ray rejects it too.
 const TEMPLATES: &[&str] = &["__empty.pov"];
-
-fn files(folder: &Path, extensions: &[&str], found: &mut Vec<PathBuf>) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let path = entry.path();
-        if path.is_dir() {
-            files(&path, extensions, found);
-        } else if path.extension().is_some_and(|e| extensions.iter().any(|&x| e == x)) {
-            found.push(path);
-        }
-    }
-    found.sort();
-}
 
 /// The messages of each file that has errors.
 fn errors(paths: &[PathBuf]) -> Vec<(PathBuf, Vec<String>)> {
@@ -60,13 +43,8 @@ fn errors(paths: &[PathBuf]) -> Vec<(PathBuf, Vec<String>)> {
 }
 
 fn check(package: &str, folder: &str, extensions: &[&str], at_least: usize) {
-    let mut paths = Vec::new();
-    files(Path::new(folder), extensions, &mut paths);
-    if paths.is_empty() {
-        let required =
-            std::env::var_os("LUCARNE_CONFORMANCE").is_some_and(|value| value == "required");
-        assert!(!required, "the package `{package}` is not installed");
-        println!("not checked: the package `{package}` is not installed");
+    let paths = files(folder, extensions);
+    if !is_installed(package, &paths) {
         return;
     }
     let bad = errors(&paths);
@@ -116,14 +94,9 @@ fn printed(text: String) -> (String, String, bool) {
 
 #[test]
 fn a_printed_example_is_read_as_the_same_tree() {
-    let mut paths = Vec::new();
-    files(Path::new(SCENES), &["pov", "inc"], &mut paths);
-    files(Path::new(INCLUDES), &["inc"], &mut paths);
-    if paths.is_empty() {
-        let required =
-            std::env::var_os("LUCARNE_CONFORMANCE").is_some_and(|value| value == "required");
-        assert!(!required, "the examples are not installed");
-        println!("not checked: the packages are not installed");
+    let mut paths = files(SCENES, &["pov", "inc"]);
+    paths.extend(files(INCLUDES, &["inc"]));
+    if !is_installed("povray-examples", &paths) {
         return;
     }
     let mut faults = 0;
@@ -171,8 +144,7 @@ fn declared(ast: &Ast, items: Items, names: &mut Vec<String>) {
 
 #[test]
 fn every_name_of_the_standard_includes_leads_to_one_of_them() {
-    let mut paths = Vec::new();
-    files(Path::new(INCLUDES), &["inc"], &mut paths);
+    let paths = files(INCLUDES, &["inc"]);
     let mut missing = Vec::new();
     for path in &paths {
         let Ok(bytes) = std::fs::read(path) else { continue };

@@ -1,0 +1,41 @@
+//! lucarne beside POV-Ray: what it makes of the scenes and includes that ship with it.
+//!
+//! Needs the Debian packages `povray-examples` and `povray-includes`; says so where they are missing,
+//! and fails there with `LUCARNE_CONFORMANCE=required`.
+
+use std::path::{Path, PathBuf};
+
+mod examples;
+mod syntax;
+
+const SCENES: &str = "/usr/share/doc/povray/examples";
+const INCLUDES: &str = "/usr/share/povray-3.7/include";
+
+/// All files below a folder with one of these extensions, sorted.
+fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
+    fn walk(folder: &Path, extensions: &[&str], found: &mut Vec<PathBuf>) {
+        let Ok(entries) = std::fs::read_dir(folder) else { return };
+        for entry in entries.flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                walk(&path, extensions, found);
+            } else if path.extension().is_some_and(|e| extensions.iter().any(|&x| e == x)) {
+                found.push(path);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    walk(Path::new(folder), extensions, &mut found);
+    found.sort();
+    found
+}
+
+/// Whether a package is there, by the files it brings; where it must be, it is a failure if not.
+fn is_installed(package: &str, files: &[PathBuf]) -> bool {
+    if files.is_empty() {
+        let required = std::env::var_os("LUCARNE_CONFORMANCE").is_some_and(|v| v == "required");
+        assert!(!required, "the package `{package}` is not installed");
+        println!("not checked: the package `{package}` is not installed");
+    }
+    !files.is_empty()
+}
