@@ -52,6 +52,8 @@ pub struct Scene {
     pub finish_origins: Vec<FinishOrigin>,
     /// Names of the main file that nothing used, where they were declared.
     pub unused: Vec<(String, Site)>,
+    /// Shapes without size, told and left out: the word of each, and where.
+    pub sizeless: Vec<(&'static str, Site)>,
     pub interiors: Vec<Interior>,
     pub expansions: Expansions,
 }

@@ -14,6 +14,9 @@ use lucarne::source::{FileError, Files, Found, Sources, Span};
 use lucarne::trace::{TraceOptions, Traced, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
+#[path = "effects/dropped.rs"]
+mod dropped;
+
 const OPTIONS: PlanOptions = PlanOptions {
     frame: Frame::whole(40, 30),
     antialias: Antialias::Adaptive { threshold: 0.05, grid: 2 },
@@ -402,36 +405,6 @@ fn a_directive_amid_an_item_makes_the_blocks_inside_the_item() {
     let macros = "#macro Word() reflection #end #macro Weight() 0.25 #end
 sphere { x, 1 finish { Word() Weight()*2 } } sphere { y, 1 finish { reflection Weight() } }";
     assert_eq!(mirrored(macros), ["Word() Weight()*2", "reflection Weight()"]);
-}
-
-#[test]
-fn what_is_dropped_is_named_with_its_place() {
-    let text = format!(
-        "{LIT}light_source {{ 5, rgb 0 }}
-sphere {{ x, 1 pigment {{ checker rgb 1 rgb 1 }} finish {{ reflection 0 phong 0 }} }}
-union {{ }}
-#declare Wood = rgb 1;
-#for (I, 1, 5) light_source {{ I, rgb 0 }} #end
-"
-    );
-    let seen = see_text(&text);
-    assert_eq!(seen.errors, "");
-    let name = |part: &lucarne::world::Dropped| {
-        let text = seen.sources.text(part.site.span);
-        format!("{} ({text}): {}", part.what, part.why)
-    };
-    let dropped: Vec<String> = seen.plan.dropped.iter().map(name).collect();
-    let expected = [
-        "light_source (light_source): its colour is black",
-        "checker (checker rgb 1 rgb 1): its colours are all the same",
-        "reflection (reflection 0): its weight is zero",
-        "phong (phong 0): its weight is zero",
-        "union (union): it is empty",
-        "light_source (light_source): its colour is black",
-        "#declare Wood (Wood): nothing uses it",
-    ];
-    assert_eq!(dropped, expected);
-    assert_eq!(lines(&seen).keys().copied().collect::<Vec<_>>(), ["diffuse light", "shadows"]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod object;
 mod shape;
 mod texture;
 mod transform;
+mod unseen;
 mod view;
 
 use std::collections::{BTreeMap, HashSet};
@@ -116,6 +117,9 @@ impl Lowering<'_, '_> {
                 self.drop_part(camera.site, "camera", "the last one counts");
             }
         }
+        for &(word, site) in &scene.sizeless {
+            self.drop_part(site, word, NO_SIZE);
+        }
         for (name, site) in &scene.unused {
             let (what, why) = (format!("#declare {name}"), "nothing uses it".to_owned());
             self.origins.dropped.push(Dropped { site: *site, what, why });
@@ -138,6 +142,9 @@ impl Lowering<'_, '_> {
         }
     }
 }
+
+/// Why what is too small is dropped.
+const NO_SIZE: &str = "it has no size";
 
 /// Why a part of the Scene cannot be built; whoever knows the place adds it.
 #[derive(Debug, Clone, PartialEq)]

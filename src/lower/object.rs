@@ -6,7 +6,7 @@
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
-use super::{Fault, Lowering, shape};
+use super::{Fault, Lowering, NO_SIZE, shape};
 use crate::diagnostic::Code;
 use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, TextureId};
 use crate::shape::Shape;
@@ -22,6 +22,8 @@ struct Inherited {
     /// For whatever has no interior of its own.
     interior: Option<InteriorId>,
     flags: Flags,
+    /// The outermost object whose flags hide it from everything.
+    hidden_by: Option<ObjectId>,
     /// The innermost of those above that could be taken out of the text.
     item: Option<Site>,
     /// One of the transforms is near-singular by itself.
@@ -36,6 +38,8 @@ struct Modified {
     surface: Option<Surface>,
     interior: Option<InteriorId>,
     flags: Flags,
+    /// The use whose flags, with those of what it uses, hide it from everything.
+    hidden_by: Option<ObjectId>,
     strained: bool,
     calls: Calls,
 }
@@ -60,6 +64,11 @@ impl Flags {
             double_illuminate: self.double_illuminate || above.double_illuminate,
             inverse: self.inverse != above.inverse,
         }
+    }
+
+    /// No ray meets the object.
+    fn hide(self) -> bool {
+        self.no_shadow && self.no_image && self.no_reflection
     }
 }
 
@@ -103,6 +112,7 @@ impl<'s> Lowering<'s, '_> {
                 surface,
                 interior: None,
                 flags: Flags::default(),
+                hidden_by: None,
                 item: None,
                 strained: false,
             };
@@ -163,11 +173,14 @@ impl<'s> Lowering<'s, '_> {
             Some(own) => own.within(&inherited.world_from_here),
             None => inherited.surface.under(&modified.map),
         };
+        let flags = modified.flags.under(inherited.flags);
+        let by_both = flags.hide().then_some(id);
         let here = Inherited {
             world_from_here,
             surface,
             interior: modified.interior.or(inherited.interior),
-            flags: modified.flags.under(inherited.flags),
+            flags,
+            hidden_by: inherited.hidden_by.or(modified.hidden_by).or(by_both),
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
         };
@@ -185,6 +198,9 @@ impl<'s> Lowering<'s, '_> {
             solid => {
                 let before = self.world.objects.len();
                 let spent = self.solid(solid, &here, object.site);
+                if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
+                    self.drop_part(object.site, self.word(target), NO_SIZE);
+                }
                 self.reporter.made(spent, object.site);
                 self.note_calls(modified.calls, before);
             }
@@ -201,10 +217,14 @@ impl<'s> Lowering<'s, '_> {
             surface: None,
             interior: None,
             flags: Flags::default(),
+            hidden_by: None,
             strained: false,
             calls: Calls::default(),
         };
-        for modifier in uses.iter().rev().flat_map(|id| &scene.objects[id.index()].modifiers) {
+        let modifiers = |&id: &ObjectId| {
+            scene.objects[id.index()].modifiers.iter().map(move |modifier| (id, modifier))
+        };
+        for (id, modifier) in uses.iter().rev().flat_map(modifiers) {
             let map = modified.map;
             let (flags, calls) = (&mut modified.flags, &mut modified.calls);
             match modifier.kind {
@@ -245,6 +265,8 @@ impl<'s> Lowering<'s, '_> {
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
             }
+            let hiding = flags.hide();
+            modified.hidden_by = modified.hidden_by.or(Some(id)).filter(|_| hiding);
         }
         // What was undone calls for nothing.
         let (flags, calls) = (modified.flags, &mut modified.calls);
@@ -313,26 +335,8 @@ impl<'s> Lowering<'s, '_> {
         faces: &[LocalFace],
         site: Site,
     ) -> Result<(), Fault> {
-        let surface = &here.surface;
-        let material = self.material(surface.pigment, surface.finish, site);
-        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
-        // What mirrors is seen by what it mirrors.
-        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
-            self.unpainted.entry(site.span).or_insert(site);
-        }
-        let texture_from_world = self.texture_map(surface, material)?;
-        let faces = match faces {
-            [] => None,
-            faces => self.faces(surface, material, faces)?,
-        };
-        self.note_near_singular(here, site);
-        let interior = self.interior(here.interior, surface.finish, site);
         let Flags { no_shadow, no_image, no_reflection, double_illuminate, .. } = here.flags;
         let object = Object {
-            material,
-            texture_from_world,
-            faces,
-            interior,
             casts_shadow: !no_shadow,
             in_image: !no_image,
             in_reflections: !no_reflection,
@@ -340,13 +344,41 @@ impl<'s> Lowering<'s, '_> {
             inverse,
             ..Object::plain(shape)
         };
-        self.world.objects.push(object);
+        if let Some(by) = here.hidden_by
+            && self.drop_unseen(&object, by)
+        {
+            return Ok(());
+        }
+        let surface = &here.surface;
+        let material = match here.hidden_by {
+            Some(_) => self.bare_material(),
+            None => self.seen_material(surface, site),
+        };
+        let texture_from_world = self.texture_map(surface, material)?;
+        let faces = match faces {
+            [] => None,
+            faces => self.faces(surface, material, faces)?,
+        };
+        self.note_near_singular(here, site);
+        let interior = self.interior(here.interior, surface.finish, site);
+        self.world.objects.push(Object { material, texture_from_world, faces, interior, ..object });
         self.origins.objects.push(site);
         Ok(())
     }
 }
 
 impl Lowering<'_, '_> {
+    /// The material of an object that something may see.
+    fn seen_material(&mut self, surface: &Surface, site: Site) -> u32 {
+        let material = self.material(surface.pigment, surface.finish, site);
+        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        // What mirrors is seen by what it mirrors.
+        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+            self.unpainted.entry(site.span).or_insert(site);
+        }
+        material
+    }
+
     /// Notes modifiers that hold for solids made since there were `before`.
     fn note_calls(&mut self, calls: Calls, before: usize) {
         if self.world.objects.len() > before {

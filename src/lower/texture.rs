@@ -134,22 +134,33 @@ impl Lowering<'_, '_> {
         if !material.pigment.is_clear() || material.finish.reflection.is_none() {
             material.finish.conserve_energy = false;
         }
-        let materials = &mut self.world.materials;
-        let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
-        let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
-        let index = known.unwrap_or_else(|| {
-            let index = materials.len() as u32;
-            materials.push(material);
-            let finish = scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
-            let origin =
-                MaterialOrigin { pigment: written.written(), finish, ..Default::default() };
-            self.origins.materials.push(origin);
-            alike.push(index);
-            index
-        });
+        let origin = scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
+        let origin =
+            MaterialOrigin { pigment: written.written(), finish: origin, ..Default::default() };
+        let index = self.index(material, origin);
         self.materials.of_ids.insert((pigment, finish), index);
         self.note_material(index, written, finish);
         index
+    }
+
+    /// Of what no ray meets.
+    pub(super) fn bare_material(&mut self) -> u32 {
+        let material = Material { pigment: Pigment::Color(Color::BLACK), finish: BARE };
+        self.index(material, MaterialOrigin::default())
+    }
+
+    /// The World's index of a material; a new one comes from `origin`.
+    fn index(&mut self, material: Material, origin: MaterialOrigin) -> u32 {
+        let materials = &mut self.world.materials;
+        let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
+        let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
+        known.unwrap_or_else(|| {
+            let index = materials.len() as u32;
+            materials.push(material);
+            self.origins.materials.push(origin);
+            alike.push(index);
+            index
+        })
     }
 
     /// Another pigment and finish that come to the material `index`: each place is listed once,

@@ -210,6 +210,7 @@ impl Evaluator<'_> {
         let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
+            self.scene.sizeless.push(("sphere", token.here.site(token.span)));
             let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
             let diagnostic = match self.comma_after(radius.span) {
@@ -246,6 +247,7 @@ impl Evaluator<'_> {
         let size: Vector = (second.value - first.value).abs();
         let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
         if flat >= 2 {
+            self.scene.sizeless.push(("box", token.here.site(token.span)));
             let diagnostic = Diagnostic::new(
                 Code::ZeroSize,
                 "a box whose corners differ along less than two axes is nothing",
