@@ -1,29 +1,52 @@
-//! The plan's pilot: a small picture of the same view, traced to see what the large one will cost.
+//! The plan's pilot: some pixels of the picture, traced to see what all of them will cost.
 //!
 //! **In:** [`World`], its [`Plan`]. **Out:** the Plan with rays counted. **Invariant:** the same numbers
-//! on every run: they are counts, of a picture that depends on nothing but World and Plan.
+//! on every run: they are counts, of pixels that depend on nothing but the picture's size.
 
-use crate::plan::{Antialias, Effect, Frame, Pilot, Plan, Region};
-use crate::trace::{Counters, TraceOptions, Unwatched, trace};
+use crate::math::random::Random;
+use crate::plan::{Antialias, Effect, Pilot, Plan, Region};
+use crate::trace::{Counters, Sampling, TraceOptions, Unwatched, geometry, pixels};
 use crate::world::World;
 
-/// Pixels along the longer side of the pilot's picture.
+/// Pixels along the longer side of the picture, of those that are traced.
 const SIDE: u32 = 64;
 
-/// Traces a thinned picture, one ray a pixel, and notes how many rays each effect sent.
+/// Traces some pixels, spread over the picture, and notes how many rays each effect sent. With adaptive
+/// antialiasing they and their neighbours are looked at as the picture will be, and those on an edge
+/// traced as finely; a regular grid of samples costs so many times one, which is traced.
 pub fn pilot(world: &World, plan: &mut Plan) {
-    let frame = thinned(plan.frame);
-    let small = Plan { frame, antialias: Antialias::Off, ..plan.clone() };
+    let antialias = match plan.antialias {
+        Antialias::Off | Antialias::Grid(_) => Antialias::Off,
+        adaptive @ Antialias::Adaptive { .. } => adaptive,
+    };
+    let small = Plan { antialias, ..plan.clone() };
+    let (width, height) = thinned(plan.frame.region);
+    let places = spread(plan.frame.region, (width, height));
     let options = TraceOptions::on_threads(1);
-    let counters = trace(world, &small, &options, &Unwatched).counters;
+    let geometry = geometry(world, &small, &options);
+    let planned = Sampling::Planned;
+    let pixels = pixels(world, &geometry, &small, &places, planned, &options, &Unwatched);
+    let counters = pixels.map_or(Counters::default(), |pixels| pixels.counters);
     let camera = counters.camera.max(1) as f64;
+    let edges = match antialias {
+        Antialias::Off | Antialias::Grid(_) => None,
+        Antialias::Adaptive { grid, .. } => {
+            let finer = counters.camera - places.len() as u64;
+            let each = u64::from(grid.max(1)).pow(2) * places.len() as u64;
+            Some(finer as f64 / each as f64)
+        }
+    };
+    plan.pilot = Some(Pilot { width, height, rays: 1.0, edges });
+    let a_pixel = plan.camera_rays_a_pixel();
     let mut all = 1.0;
     for called in &mut plan.effects {
-        called.rays = sent(called.effect, &counters).map(|rays| rays as f64 / camera);
-        all += called.rays.unwrap_or(0.0);
+        let sent = sent(called.effect, &counters).map(|rays| rays as f64 / camera);
+        all += sent.unwrap_or(0.0);
+        // The camera's own rays, those beyond one a pixel.
+        let more = (called.effect == Effect::Antialiasing).then_some(1.0 - 1.0 / a_pixel);
+        called.rays = sent.or(more);
     }
-    let Region { width, height, .. } = frame.region;
-    plan.pilot = Some(Pilot { width, height, rays: all });
+    plan.pilot = Some(Pilot { width, height, rays: all, edges });
 }
 
 /// The rays of an effect; `None` for those that send none of their own.
@@ -45,26 +68,29 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
     }
 }
 
-/// The same view and the same part of it with fewer pixels: its shape is kept as far as whole pixels
-/// can.
-fn thinned(frame: Frame) -> Frame {
-    let Frame { width, height, region } = frame;
-    let longer = region.width.max(region.height);
-    if longer <= SIDE {
-        return frame;
-    }
-    let scaled = |n: u32| u64::from(n) * u64::from(SIDE) / u64::from(longer);
-    let part = |start: u32, length: u32| {
-        let first = scaled(start) as u32;
-        (first, (scaled(start + length) as u32).saturating_sub(first).max(1))
+/// How many pixels are traced along each side of a region: all of a small one, and else so many that its
+/// shape is kept as far as whole pixels can.
+fn thinned(Region { width, height, .. }: Region) -> (u32, u32) {
+    let longer = width.max(height);
+    let scaled = |n: u32| (u64::from(n) * u64::from(SIDE) / u64::from(longer)) as u32;
+    if longer <= SIDE { (width, height) } else { (scaled(width).max(1), scaled(height).max(1)) }
+}
+
+/// One pixel of each part of the region, somewhere in it: edges that run along rows of parts are hit as
+/// often as any.
+fn spread(region: Region, (wide, high): (u32, u32)) -> Vec<(u32, u32)> {
+    let within = |part: u32, parts: u32, length: u32, random: &mut Random| {
+        let start = |part: u32| u64::from(part) * u64::from(length) / u64::from(parts);
+        let (first, end) = (start(part), start(part + 1));
+        first as u32 + random.below((end - first) as usize) as u32
     };
-    let ((x, wide), (y, high)) = (part(region.x, region.width), part(region.y, region.height));
-    let region = Region { x, y, width: wide, height: high };
-    Frame {
-        width: (scaled(width) as u32).max(x + wide),
-        height: (scaled(height) as u32).max(y + high),
-        region,
-    }
+    let parts = (0..high).flat_map(|j| (0..wide).map(move |i| (i, j)));
+    let places = parts.map(|(i, j)| {
+        let mut random = Random::of(0, u64::from(i) << 32 | u64::from(j));
+        let x = region.x + within(i, wide, region.width, &mut random);
+        (x, region.y + within(j, high, region.height, &mut random))
+    });
+    places.collect()
 }
 
 #[cfg(test)]
@@ -72,13 +98,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_thinned_picture_keeps_its_shape_and_its_part() {
-        assert_eq!(thinned(Frame::whole(640, 480)), Frame::whole(64, 48));
-        assert_eq!(thinned(Frame::whole(3, 64)), Frame::whole(3, 64));
-        assert_eq!(thinned(Frame::whole(1, 1_000_000)), Frame::whole(1, 64));
+    fn a_thinned_picture_keeps_its_shape() {
+        let whole = |width, height| Region { x: 0, y: 0, width, height };
+        assert_eq!(thinned(whole(640, 480)), (64, 48));
+        assert_eq!(thinned(whole(3, 64)), (3, 64));
+        assert_eq!(thinned(whole(1, 1_000_000)), (1, 64));
+    }
+
+    #[test]
+    fn the_pixels_are_spread_over_the_region_one_in_each_part() {
         let region = Region { x: 320, y: 120, width: 320, height: 128 };
-        let small = thinned(Frame { region, ..Frame::whole(640, 480) });
-        let region = Region { x: 64, y: 24, width: 64, height: 25 };
-        assert_eq!(small, Frame { region, ..Frame::whole(128, 96) });
+        let places = spread(region, (64, 25));
+        assert_eq!(places.len(), 64 * 25);
+        for (k, &(x, y)) in places.iter().enumerate() {
+            let (i, j) = (k as u32 % 64, k as u32 / 64);
+            assert!(x >= 320 + 5 * i && x < 325 + 5 * i, "{x} in part {i}");
+            let rows = 120 + j * 128 / 25..120 + (j + 1) * 128 / 25;
+            assert!(rows.contains(&y), "{y} in part {j}");
+        }
+        // Of a small region each once.
+        let small = Region { x: 2, y: 1, width: 3, height: 2 };
+        let all = [(2, 1), (3, 1), (4, 1), (2, 2), (3, 2), (4, 2)];
+        assert_eq!(spread(small, thinned(small)), all);
     }
 }

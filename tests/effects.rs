@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use lucarne::diagnostic::render::{Style, human};
 use lucarne::film::{Depth, develop};
 use lucarne::picture::{Format, encode};
+use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Frame, Kernel, Plan, PlanOptions, plan};
 use lucarne::road::{Options, Road, dialect};
 use lucarne::source::{FileError, Files, Found, Sources, Span};
@@ -174,6 +175,37 @@ fn the_kernel_for_everything_gives_the_same_bytes() {
         assert_eq!(bytes(&plan), bytes(&full), "{name}");
     }
     assert!(smaller > 20, "{smaller} scenes have a smaller kernel");
+}
+
+#[test]
+fn the_pilot_knows_what_the_picture_takes() {
+    let threshold = 0.05;
+    let fine = Antialias::Adaptive { threshold, grid: 3 };
+    for name in
+        ["scenes/gallery/first.scene", "scenes/seed/mirror.scene", "scenes/gallery/glass.scene"]
+    {
+        let Seen { world, plan, .. } = see(name, &Changed::default());
+        let cost = |frame: Frame, antialias: Antialias| {
+            let mut plan = Plan { frame, antialias, ..plan.clone() };
+            pilot(&world, &mut plan);
+            let rays = plan.pilot.expect("sent").rays * plan.camera_rays();
+            let counters = traced(&world, &plan).counters;
+            (plan, rays, counters)
+        };
+        // A small picture is its own pilot.
+        for antialias in [Antialias::Off, fine] {
+            let (plan, rays, counters) = cost(Frame::whole(60, 45), antialias);
+            assert!((plan.camera_rays() - counters.camera as f64).abs() < 1e-6, "{name}");
+            assert!((rays - counters.rays() as f64).abs() < 1e-6, "{name}");
+        }
+        let (plan, rays, counters) = cost(Frame::whole(320, 240), fine);
+        let share = (counters.camera as f64 / 76_800.0 - 1.0) / 9.0;
+        let found = plan.pilot.and_then(|pilot| pilot.edges).expect("adaptive");
+        // Of 3072 pixels drawn at random, four standard errors: those of a part each are off by less.
+        let error = (share * (1.0 - share) / 3072.0).sqrt();
+        assert!((found - share).abs() < 4.0 * error, "{name}: {found} of {share} ± {error}");
+        assert!((rays / counters.rays() as f64 - 1.0).abs() < 0.15, "{name}");
+    }
 }
 
 /// A scene in which nothing is called for but a camera: an object that only glows.

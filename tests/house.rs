@@ -87,7 +87,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "world",
         ],
     ),
-    ("pilot", &["plan", "trace", "world"]),
+    ("pilot", &["math", "plan", "trace", "world"]),
     ("accuracy", &["color", "film", "geometry", "math", "plan", "trace", "world"]),
     ("lib", &[]),
     // doors: they use the library from outside, as anyone would

@@ -96,9 +96,12 @@ fn written(plan: &Value) -> String {
     out += &and_more(near, "  ");
     out += if near.is_empty() { "  no transform nearly flattens space\n" } else { "" };
     out += &format!("rays: {}", counted(number(&rays["per_camera_ray"]), rays));
-    out += if antialias["kind"] == "adaptive" { " and what antialiasing adds" } else { "" };
     let pilot = &rays["pilot"];
-    out + &format!(" (counted by a pilot of {}×{})\n", pilot[0], pilot[1])
+    out += &format!(" (counted by a pilot of {}×{} pixels", pilot[0], pilot[1]);
+    if let Some(edges) = rays["edges"].as_f64() {
+        out += &format!(", {:.1} % of them on an edge", 100.0 * edges);
+    }
+    out + ")\n"
 }
 
 fn and_more(list: &[Value], indent: &str) -> String {

@@ -107,6 +107,9 @@ struct Rays {
     camera: f64,
     all: f64,
     pilot: [u32; 2],
+    /// The share of the pilot's pixels that adaptive antialiasing samples anew.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edges: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -194,6 +197,7 @@ impl<'a> Report<'a> {
                 camera: plan.camera_rays(),
                 all: pilot.rays * plan.camera_rays(),
                 pilot: [pilot.width, pilot.height],
+                edges: pilot.edges,
             }),
         }
     }

@@ -5,7 +5,7 @@
 
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
-use super::{EASY, Geometry, Manner, TIGHT, Work};
+use super::{EASY, Entry, Geometry, Manner, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// The first surface a ray meets.
@@ -58,25 +58,39 @@ impl Geometry {
     fn nearest_in_double(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
         let mut race = Race::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
-        if race.contested() { self.first_declared(ray, race.tally) } else { race.winner() }
+        if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() }
     }
 
-    /// The same by definition, with the tightest error bounds: first U, then the first object.
+    /// The same by definition, with the tightest error bounds.
     #[cold]
     #[inline(never)]
-    fn first_declared<T: Tally>(&self, ray: &Ray, mut tally: T) -> Option<Hit> {
+    fn first_in_double<T: Tally>(&self, ray: &Ray, mut tally: T) -> Option<Hit> {
         let limit = self.end_of_first(ray, &mut tally);
+        let met = |entry: &Entry| self.first_crossing::<TIGHT>(entry, ray, limit);
+        self.first_declared(ray, limit, tally, met)
+    }
+
+    /// Of the crossings at `limit`, which is U, or before, that of the first object. `met` is where
+    /// the ray meets an entry.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn first_declared<T: Tally>(
+        &self,
+        ray: &Ray,
+        limit: f64,
+        tally: T,
+        met: impl Fn(&Entry) -> Option<(Crossing, bool)>,
+    ) -> Option<Hit> {
         let mut first: Option<((bool, u32), Hit)> = None;
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
             let rank = (entry.clear, entry.object);
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve();
-                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
                 let hit = |(crossing, leaving)| {
                     (rank, Hit { contested: true, ..entry.hit(crossing, leaving) })
                 };
-                first = crossing.map(hit).or(first);
+                first = met(entry).map(hit).or(first);
             }
             limit
         };

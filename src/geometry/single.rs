@@ -63,21 +63,10 @@ impl Geometry {
         if rival_t > limit {
             return best;
         }
-        let mut first: Option<((bool, u32), Hit)> = None;
-        let look = |place: usize, tally: &mut T| {
-            let entry = &self.entries[place];
-            let rank = (entry.clear, entry.object);
-            if first.is_none_or(|first| rank < first.0) {
-                tally.root_solve();
-                let hit = |(crossing, leaving): (Crossing, bool)| {
-                    (rank, Hit { contested: true, ..entry.hit(unbounded(crossing.t), leaving) })
-                };
-                first = self.met(entry, &rounded, limit).map(hit).or(first);
-            }
-            limit
-        };
-        self.search(ray, limit, &mut Each(tally, look));
-        first.map(|(_, hit)| hit)
+        self.first_declared(ray, limit, tally, |entry| {
+            let (Crossing { t, .. }, leaving) = self.met(entry, &rounded, limit)?;
+            Some((unbounded(t), leaving))
+        })
     }
 
     /// As [`Geometry::occluder`].

@@ -181,7 +181,8 @@ pub struct Called {
     pub by: Vec<Site>,
     /// What it costs: `one ray a light and hit`.
     pub cost: String,
-    /// How many rays the pilot sent for it, a ray of the camera; `None` for what sends none.
+    /// How many rays the pilot sent for it, a ray of the camera; `None` for what sends none. Of
+    /// antialiasing: how many of the camera's are beyond one a pixel.
     pub rays: Option<f64>,
 }
 
@@ -193,13 +194,17 @@ pub struct LeftOut {
     pub site: Option<Site>,
 }
 
-/// A small picture of the same view, traced to count rays.
+/// Some pixels of the picture, traced to count rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pilot {
+    /// How many pixels, side by side and one above the other, spread over the region.
     pub width: u32,
     pub height: u32,
     /// All rays, a ray of the camera.
     pub rays: f64,
+    /// The share of the pixels that adaptive antialiasing samples anew; `None` where it is not
+    /// adaptive.
+    pub edges: Option<f64>,
 }
 
 impl Plan {
@@ -211,17 +216,22 @@ impl Plan {
         self.effects.iter().find(|called| called.effect == effect)
     }
 
-    /// Rays of the camera: the least number, where antialiasing is adaptive.
+    /// Rays of the camera, of the whole region.
     pub fn camera_rays(&self) -> f64 {
         let Region { width, height, .. } = self.frame.region;
         f64::from(width) * f64::from(height) * self.camera_rays_a_pixel()
     }
 
-    /// Likewise.
+    /// Where antialiasing is adaptive, with what its pilot found; before that, the least number.
     pub fn camera_rays_a_pixel(&self) -> f64 {
+        let squared = |n: u32| f64::from(n.max(1)) * f64::from(n.max(1));
         match self.antialias {
-            Antialias::Off | Antialias::Adaptive { .. } => 1.0,
-            Antialias::Grid(n) => f64::from(n.max(1)) * f64::from(n.max(1)),
+            Antialias::Off => 1.0,
+            Antialias::Grid(n) => squared(n),
+            Antialias::Adaptive { grid, .. } => {
+                let edges = self.pilot.and_then(|pilot| pilot.edges).unwrap_or(0.0);
+                1.0 + edges * squared(grid)
+            }
         }
     }
 }

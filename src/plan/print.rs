@@ -122,10 +122,11 @@ impl Printer<'_> {
     fn rays(&self, out: &mut String) -> fmt::Result {
         let Some(pilot) = self.plan.pilot else { return Ok(()) };
         write!(out, "rays: {}", self.counted(pilot.rays))?;
-        if let Antialias::Adaptive { .. } = self.plan.antialias {
-            write!(out, " and what antialiasing adds")?;
+        write!(out, " (counted by a pilot of {}×{} pixels", pilot.width, pilot.height)?;
+        if let Some(edges) = pilot.edges {
+            write!(out, ", {:.1} % of them on an edge", 100.0 * edges)?;
         }
-        writeln!(out, " (counted by a pilot of {}×{})", pilot.width, pilot.height)
+        writeln!(out, ")")
     }
 
     /// Rays a camera ray, as rays a pixel and of the whole picture.
