@@ -198,8 +198,8 @@ fn the_pilot_knows_what_the_picture_takes() {
             assert!((plan.camera_rays() - counters.camera as f64).abs() < 1e-6, "{name}");
             assert!((rays - counters.rays() as f64).abs() < 1e-6, "{name}");
         }
-        let (plan, rays, counters) = cost(Frame::whole(320, 240), fine);
-        let share = (counters.camera as f64 / 76_800.0 - 1.0) / 9.0;
+        let (plan, rays, counters) = cost(Frame::whole(200, 150), fine);
+        let share = (counters.camera as f64 / 30_000.0 - 1.0) / 9.0;
         let found = plan.pilot.and_then(|pilot| pilot.edges).expect("adaptive");
         // Of 3072 pixels drawn at random, four standard errors: those of a part each are off by less.
         let error = (share * (1.0 - share) / 3072.0).sqrt();
