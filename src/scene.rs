@@ -136,6 +136,19 @@ pub struct LightSource {
     pub shadowless: bool,
     /// `None`: as bright at any distance.
     pub fade: Option<Fade>,
+    /// Each word that makes a beam of it (`spotlight`, `cylinder`), as a piece that can be taken out of the
+    /// text.
+    pub beam_sites: Vec<Site>,
+    /// Each word that makes it fade, and its number, likewise.
+    pub fade_sites: Vec<Site>,
+}
+
+impl LightSource {
+    /// Without further words.
+    pub fn new(kind: LightKind, color: Rgb) -> Self {
+        let (beam_sites, fade_sites) = (Vec::new(), Vec::new());
+        Self { color, kind, shadowless: false, fade: None, beam_sites, fade_sites }
+    }
 }
 
 /// How light loses strength with the distance d: it is 2/(1 + (d/distance)^power) of its colour.
@@ -305,12 +318,12 @@ pub struct Reflection {
 }
 
 /// What a solid is filled with.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Interior {
     /// Index of refraction, > 0; 1 is that of the air around.
     pub ior: f64,
-    /// All of it, as a piece that can be taken out of the text.
-    pub site: Site,
+    /// Each `ior`, as a piece that can be taken out of the text, and of those it replaces.
+    pub sites: Vec<Site>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -325,7 +338,7 @@ pub struct SkySphere {
     pub pigments: Vec<PigmentId>,
     pub transforms: Vec<TransformId>,
     pub site: Site,
-    /// All of it, and of those before it that it replaces.
+    /// All of each pigment, as a piece that can be taken out of the text.
     pub items: Vec<Site>,
 }
 

@@ -55,6 +55,8 @@ pub struct Origins {
     pub objects: Vec<Site>,
     /// All of each, as a piece that can be taken out of the text.
     pub lights: Vec<Site>,
+    /// Each word that makes a light less than its colour somewhere, likewise.
+    pub attenuation: Vec<Site>,
     pub materials: Vec<MaterialOrigin>,
     /// What called for each interior, likewise.
     pub interiors: Vec<Vec<Site>>,
@@ -92,7 +94,7 @@ pub struct MaterialOrigin {
 pub struct SkyOrigin {
     /// The word `sky_sphere`.
     pub site: Site,
-    /// All of it, and of those it replaces.
+    /// All of each pigment.
     pub items: Vec<Site>,
     /// As of a material.
     pub pattern: Vec<Site>,

@@ -232,7 +232,6 @@ const LAMPS: &str = "#macro Lamp(Beam) light_source { 9, rgb 1 #if (Beam) spotli
 sphere { 0, 1 pigment { rgb 1 } }
 Lamp(0)
 ";
-const LAMP: &str = "light_source { 9, rgb 1 #if (Beam) spotlight #end }";
 
 /// The lines of a plan: effects on with their places, but for antialiasing.
 fn lines(seen: &Seen) -> BTreeMap<&'static str, Vec<String>> {
@@ -263,7 +262,7 @@ sphere { 0, 1 no_shadow }";
             "light_source { 9, rgb 1 shadowless }",
         ),
         (unshadowed, "sphere { x, 1 }", Effect::Shadows, "light_source { 9, rgb 1 }"),
-        (LAMPS, "Lamp(1)", Effect::Attenuation, LAMP),
+        (LAMPS, "Lamp(1)", Effect::Attenuation, "spotlight"),
         (
             LIT,
             "sphere { x, 1 double_illuminate on }",
@@ -279,7 +278,7 @@ sphere { 0, 1 no_shadow }";
             "no_image",
         ),
         (BARE, &window, Effect::Transparency, "rgbt <1, 1, 1, 0.5>"),
-        (CLEAR, filled, Effect::Refraction, "interior { ior 1.5 }"),
+        (CLEAR, filled, Effect::Refraction, "ior 1.5"),
         (flat, &filter, Effect::ColoredShadows, "rgbf <1, 0, 0, 1>"),
         (
             BARE,
@@ -293,7 +292,7 @@ sphere { 0, 1 no_shadow }";
             Effect::Patterns,
             "checker rgb 1 rgb 0",
         ),
-        (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "sky_sphere { pigment { rgb 1 } }"),
+        (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),
         (
             LIT,
@@ -328,7 +327,46 @@ sphere { 0, 1 no_shadow }";
         let replaced = expected.insert(effect.name(), vec![quote.to_owned()]);
         assert_eq!(replaced, None, "{object}");
         assert_eq!(lines(&after), expected, "{object}");
+        // Nor do the costs of the other lines change, nor why they are off.
+        let others = |seen: &Seen| {
+            let on = seen.plan.effects.iter().map(|on| (on.effect, &on.cost, None));
+            let off = seen.plan.left_out.iter().map(|off| (off.effect, &off.why, off.site));
+            let mut all: Vec<_> = on.chain(off).map(|(e, why, at)| (e, why.clone(), at)).collect();
+            all.retain(|(other, ..)| *other != effect);
+            all.sort_by_key(|(effect, ..)| *effect);
+            all
+        };
+        assert_eq!(others(&after), others(&before), "{object}");
     }
+}
+
+#[test]
+fn what_is_quoted_is_the_smallest_item() {
+    let quoted = |text: &str, effect| quotes(&format!("{LIT}{text}"), effect);
+    let beam = "light_source { 9, rgb 1 spotlight radius 9 falloff 20 point_at 0
+fade_distance 3 fade_power 2 }";
+    let words = ["spotlight", "fade_distance 3", "fade_power 2"];
+    assert_eq!(quoted(beam, Effect::Attenuation), words);
+    let again = "#declare L = light_source { 9, rgb 1 spotlight }; light_source { L cylinder }";
+    assert_eq!(quoted(again, Effect::Attenuation), ["spotlight", "cylinder"]);
+    let glass = "#declare Glass = interior { ior 1.3 };
+sphere { x, 1 pigment { rgbt 1 } interior { Glass ior 1.5 } } sphere { x, 1 interior { ior 1 } }";
+    assert_eq!(quoted(glass, Effect::Refraction), ["ior 1.3", "ior 1.5"]);
+    let old = "sphere { x, 1 pigment { rgbt 1 } finish { ior 1.5 } }";
+    assert_eq!(quoted(old, Effect::Refraction), ["ior 1.5"]);
+    let skies = "sky_sphere { pigment { rgb 1 } pigment { gradient y } rotate x }";
+    assert_eq!(quoted(skies, Effect::Sky), ["pigment { rgb 1 }", "pigment { gradient y }"]);
+    let panes = "plane { y, 0 pigment { checker rgb 1, rgbt <1, 0, 0, 1> } }
+plane { x, 0 pigment { checker rgbf <1, 1, 1, 0.5> pigment { rgb 1 transmit 0.5 } } }
+plane { z, 0 pigment { gradient z color_map { [0 rgbt 1] [1 rgb 1] } } }";
+    let colors = [
+        "rgbt <1, 0, 0, 1>",
+        "rgbf <1, 1, 1, 0.5>",
+        "rgb 1 transmit 0.5",
+        "gradient z color_map { [0 rgbt 1] [1 rgb 1] }",
+    ];
+    assert_eq!(quoted(panes, Effect::Transparency), colors);
+    assert_eq!(quoted(panes, Effect::ColoredShadows), colors);
 }
 
 /// What an effect's line quotes: pieces without each of which the scene is whole.
@@ -412,7 +450,7 @@ sphere { x, 1 finish { F reflection 0 } } sphere { y, 1 finish { reflection 0.7 
         "sphere { x, 1 finish { reflection 0.5 } } sphere { y, 1 finish { reflection 1/2 } }";
     assert_eq!(mirrored(twice), ["reflection 0.5", "reflection 1/2"]);
     let skies = "sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }";
-    assert_eq!(quotes(skies, Effect::Sky).len(), 2);
+    assert_eq!(quotes(skies, Effect::Sky), ["pigment { rgb 0.5 }"], "the last sky counts");
 }
 
 #[test]

@@ -17,14 +17,14 @@ impl Lowering<'_, '_> {
         object: Site,
     ) -> Option<u32> {
         let scene = self.scene;
-        let written = interior.map(|id| scene.interiors[id.index()]);
+        let written = interior.map(|id| &scene.interiors[id.index()]);
         let old = match &scene.finishes[finish.index()] {
             Finish::Classic(classic) => classic.ior,
             Finish::Seed { .. } => None,
         };
         let ior = old.or(written.map(|interior| interior.ior))?;
         let sites = match (old, written) {
-            (None, Some(interior)) => vec![interior.site],
+            (None, Some(interior)) => interior.sites.clone(),
             _ => scene.finish_origins.get(finish.index()).map_or(vec![], |o| o.ior.clone()),
         };
         let site = sites.first().copied().unwrap_or(object);

@@ -18,10 +18,15 @@ impl Lowering<'_, '_> {
         if matches!(light.kind, LightKind::Cylinder { beam, .. } if beam.falloff <= 0.0) {
             return self.drop_part(site, "light_source", "its cylinder has no width");
         }
-        if let Some(light) = self.reporter.made(spend(light, map), site) {
-            self.world.lights.push(light);
-            self.origins.lights.push(item);
+        let LightSource { beam_sites, fade_sites, .. } = light;
+        let Some(light) = self.reporter.made(spend(light, map), site) else { return };
+        if let Some(Attenuation { beam, fade }) = light.attenuation {
+            let beam = beam_sites.iter().filter(|_| beam.is_some());
+            let fade = fade_sites.iter().filter(|_| fade.is_some());
+            self.origins.attenuation.extend(beam.chain(fade));
         }
+        self.world.lights.push(light);
+        self.origins.lights.push(item);
     }
 }
 

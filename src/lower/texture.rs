@@ -251,13 +251,10 @@ impl Lowering<'_, '_> {
             self.reporter.made(pigment, written.site)
         });
         let pigments: Vec<_> = pigments.collect();
-        if !pigments.is_empty() {
-            self.world.sky = Some(Sky { pigments });
-            let pattern =
-                sky.pigments.iter().flat_map(|id| &scene.pigments[id.index()].pattern).copied();
-            let (site, items) = (sky.site, sky.items.clone());
-            self.origins.sky = Some(SkyOrigin { site, items, pattern: pattern.collect() });
-        }
+        self.world.sky = (!pigments.is_empty()).then_some(Sky { pigments });
+        let pattern = sky.pigments.iter().flat_map(|id| &scene.pigments[id.index()].pattern);
+        let (site, items, pattern) = (sky.site, sky.items.clone(), pattern.copied().collect());
+        self.origins.sky = Some(SkyOrigin { site, items, pattern });
     }
 }
 

@@ -94,11 +94,11 @@ impl Census<'_> {
     }
 
     fn highlights(&self) -> Decision {
-        if self.world.lights.is_empty() {
-            return because("no light", None);
-        }
         if !self.world.materials.iter().any(shines) {
             return because("no surface has a highlight", None);
+        }
+        if self.world.lights.is_empty() {
+            return because("no light", None);
         }
         let casting = self.world.lights.iter().any(|light| light.casts_shadows);
         let lit = |m: &Material| shines(m) && (m.finish.seed || casting);
@@ -110,11 +110,8 @@ impl Census<'_> {
     }
 
     fn shadows(&self) -> Decision {
-        if self.world.lights.is_empty() {
-            return because("no light", None);
-        }
         if !self.world.lights.iter().any(|light| light.casts_shadows) {
-            return because("all lights are shadowless", None);
+            return because("no light casts shadows", None);
         }
         if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
             return because("no surface answers a light", None);
@@ -134,7 +131,7 @@ impl Census<'_> {
         if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
             return because("no surface answers a light", None);
         }
-        Ok((self.lights(attenuated), "up to three powers a light and hit".to_owned()))
+        Ok((self.origins.attenuation.clone(), "up to three powers a light and hit".to_owned()))
     }
 
     fn double_illumination(&self) -> Decision {
@@ -178,12 +175,17 @@ impl Census<'_> {
             return because("every object is filled with air", None);
         }
         self.goes_on()?;
-        let by = self.origins.interiors.iter().flatten().copied().collect();
+        // What is as the air only matters beside what is not.
+        let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
+        let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
+        let by = bending.flat_map(|(_, sites)| sites).copied().collect();
         Ok((by, "one root a clear surface, and a list of what a ray is in".to_owned()))
     }
 
     fn colored_shadows(&self) -> Decision {
-        self.shadows()?;
+        if !self.world.lights.iter().any(|light| light.casts_shadows) {
+            return because("no light casts shadows", None);
+        }
         let mut filters = vec![false; self.world.materials.len()];
         for object in self.world.objects.iter().filter(|object| object.casts_shadow) {
             let material = object.material as usize;
@@ -194,6 +196,7 @@ impl Census<'_> {
         if !filters.contains(&true) {
             return because("no clear object casts a shadow", None);
         }
+        self.shadows()?;
         Ok((by, "one more search a ray toward a light that nothing opaque stops".to_owned()))
     }
 
@@ -225,8 +228,10 @@ impl Census<'_> {
                 let cost = format!("{} a ray that leaves", count(sky.pigments.len(), "pigment"));
                 Ok((origin.map_or(Vec::new(), |sky| sky.items.clone()), cost))
             }
-            Some(_) => because("the sky has no pigment", origin.map(|sky| sky.site)),
-            None => because("no `sky_sphere`", None),
+            Some(_) | None => match origin {
+                Some(sky) => because("the sky has no pigment", Some(sky.site)),
+                None => because("no `sky_sphere`", None),
+            },
         }
     }
 

@@ -116,7 +116,7 @@ interior { ior 1.4 } HIDE }";
     let mut expected = lines(&before);
     expected.insert("hidden objects", vec!["no_image".to_owned(), "no_reflection".to_owned()]);
     let refraction = expected.get_mut("refraction").expect("of the glass");
-    refraction.push("interior { ior 1.4 }".to_owned());
+    refraction.push("ior 1.4".to_owned());
     assert_eq!(lines(&seen), expected);
     // Where nothing bends light it is dropped.
     for scene in [BARE, LIT, CLEAR] {

@@ -89,7 +89,7 @@ impl Sketch {
     }
 
     pub fn light(&mut self, kind: LightKind, color: Rgb) {
-        let light = LightSource { color, kind, shadowless: false, fade: None };
+        let light = LightSource::new(kind, color);
         let object = self.object(ObjectKind::LightSource(light), None, &[]);
         self.place(object);
     }

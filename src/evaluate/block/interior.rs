@@ -7,11 +7,12 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Material, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::finish::list_once;
 
 impl Evaluator<'_> {
     /// `interior { [Name] ior … }`.
     pub(super) fn interior(&mut self, token: &Token) -> Outcome<InteriorId> {
-        let mut interior = Interior { ior: 1.0, site: token.here.site(token.span) };
+        let mut interior = Interior { ior: 1.0, sites: Vec::new() };
         let interior = self.block(token, Word::Interior, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -19,17 +20,19 @@ impl Evaluator<'_> {
             }
             if failed { Err(Reported) } else { Ok(interior) }
         })?;
-        let interior = Interior { site: self.whole(token), ..interior };
         self.scene.interiors.push(interior);
         Ok(InteriorId(self.scene.interiors.len() as u32 - 1))
     }
 
     fn interior_item(&mut self, token: &Token, interior: &mut Interior) -> Outcome<()> {
         match token.kind {
-            TokenKind::Word(Word::Ior) => interior.ior = self.more_than_zero(token, Word::Ior)?,
+            TokenKind::Word(Word::Ior) => {
+                interior.ior = self.more_than_zero(token, Word::Ior)?;
+                list_once(&mut interior.sites, self.whole(token));
+            }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),
-                Some(Value::Interior(id)) => interior.ior = self.scene.interiors[id.index()].ior,
+                Some(Value::Interior(id)) => *interior = self.scene.interiors[id.index()].clone(),
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {
                     self.unexpected(token, Place::INTERIOR);

@@ -17,6 +17,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::finish::list_once;
 use super::part::Given;
 use order::Late;
 
@@ -98,9 +99,7 @@ impl Evaluator<'_> {
             Some(_) => Ok(Rgb::BLACK),
             None => self.color_after(opener, "a colour for the light").map(|given| given.value.rgb),
         };
-        let light = kind.and_then(|kind| {
-            Ok(LightSource { kind, color: color?, shadowless: false, fade: None })
-        });
+        let light = kind.and_then(|kind| Ok(LightSource::new(kind, color?)));
         (light, late)
     }
 
@@ -145,6 +144,11 @@ impl Evaluator<'_> {
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
                     written.shapes.push(word);
                     written.last = Some(token.clone());
+                    if let Some(light) = &mut light
+                        && word != Word::Parallel
+                    {
+                        list_once(&mut light.beam_sites, self.whole(&token));
+                    }
                     Ok(())
                 }
                 TokenKind::Word(Word::PointAt) => {
@@ -161,6 +165,11 @@ impl Evaluator<'_> {
                 ) => self.number_after(&token, "a number").map(|given| {
                     cone.say(&token, word, &given);
                     written.say(word, given);
+                    if let Some(light) = &mut light
+                        && matches!(word, Word::FadeDistance | Word::FadePower)
+                    {
+                        list_once(&mut light.fade_sites, self.whole(&token));
+                    }
                 }),
                 TokenKind::Word(Word::Shadowless) => {
                     if let Some(light) = &mut light {

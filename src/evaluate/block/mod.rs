@@ -60,7 +60,7 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Background) => self.background(token),
             TokenKind::Word(Word::SkySphere) => {
                 if let Value::SkySphere(sky) = self.sky_sphere(token)? {
-                    self.place_sky(sky.as_ref().clone(), token);
+                    self.place_sky(sky.as_ref().clone());
                     return Ok(());
                 }
                 self.needs_poison()

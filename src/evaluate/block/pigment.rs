@@ -24,6 +24,8 @@ const MOST_ENTRIES: usize = 1 << 20;
 #[derive(Default)]
 struct Written {
     pattern: Option<Site>,
+    /// A colour of its map is clear.
+    clear: bool,
     map: Option<(ColorMap, Token, Site)>,
 }
 
@@ -50,21 +52,20 @@ impl Evaluator<'_> {
             if let Some((given, token, item)) = written.map
                 && !failed
             {
+                let is_clear = given.0.iter().any(|(_, color)| color.is_clear());
                 failed |= evaluator.paint(&mut pigment, given, &token) == Err(Reported);
                 // Without its pattern the map would be a mistake.
                 written.pattern = Some(match written.pattern {
                     Some(pattern) => evaluator.joined(pattern, item),
                     None => item,
                 });
+                written.clear = is_clear;
             }
             if let Some(item) = written.pattern {
                 list_once(&mut pigment.pattern, item);
-            }
-            if let PigmentKind::Patterned { map, .. } = &pigment.kind
-                && map.0.iter().any(|(_, color)| color.is_clear())
-            {
-                let Pigment { pattern, clear, .. } = &mut pigment;
-                pattern.iter().for_each(|&item| list_once(clear, item));
+                if written.clear {
+                    list_once(&mut pigment.clear, item);
+                }
             }
             if failed { Err(Reported) } else { Ok(pigment) }
         })?;
@@ -124,7 +125,7 @@ impl Evaluator<'_> {
         }
         match &token.kind {
             TokenKind::Word(Word::Checker) => {
-                let (first, second) = self.color_pair(token)?;
+                let (first, second) = self.color_pair(token, &mut pigment.clear)?;
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
                 pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
                 let item = written.pattern.replace(self.whole(token));
@@ -212,14 +213,18 @@ impl Evaluator<'_> {
     }
 
     /// The two colours of `checker`; blue and green where they are missing.
-    fn color_pair(&mut self, token: &Token) -> Outcome<(Color, Color)> {
+    fn color_pair(&mut self, token: &Token, clear: &mut Vec<Site>) -> Outcome<(Color, Color)> {
         let mut colors =
             [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
         let mut given = 0;
         for color in &mut colors {
             self.skip_commas();
             if self.at_color() {
+                let first = self.peek().cloned();
                 *color = self.color_after(token, "a colour")?.value;
+                if let Some(first) = first.filter(|_| color.is_clear()) {
+                    list_once(clear, self.whole(&first));
+                }
                 given += 1;
             } else if let Some(Token {
                 kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)),
@@ -232,8 +237,11 @@ impl Evaluator<'_> {
                 let mut not_built = word;
                 if word == Word::Pigment {
                     let id = self.pigment(&next)?;
-                    if let PigmentKind::Color(plain) = self.scene.pigments[id.index()].kind {
-                        *color = plain;
+                    if let Pigment { kind: PigmentKind::Color(plain), clear: inner, .. } =
+                        &self.scene.pigments[id.index()]
+                    {
+                        *color = *plain;
+                        inner.iter().for_each(|&item| list_once(clear, item));
                         continue;
                     }
                 } else {

@@ -118,7 +118,10 @@ impl Evaluator<'_> {
             return Ok(());
         }
         match token.kind {
-            TokenKind::Word(Word::Pigment) => sky.pigments.push(self.pigment(token)?),
+            TokenKind::Word(Word::Pigment) => {
+                sky.pigments.push(self.pigment(token)?);
+                list_once(&mut sky.items, self.whole(token));
+            }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),
                 Some(Value::SkySphere(declared)) => {
@@ -132,10 +135,7 @@ impl Evaluator<'_> {
     }
 
     /// The sky from here on, in the place of any before it.
-    pub(super) fn place_sky(&mut self, sky: SkySphere, token: &Token) {
-        let replaced = self.scene.sky_sphere.take().map_or(Vec::new(), |replaced| replaced.items);
-        let mut sky = SkySphere { items: replaced, ..sky };
-        list_once(&mut sky.items, self.whole(token));
+    pub(super) fn place_sky(&mut self, sky: SkySphere) {
         self.scene.sky_sphere = Some(sky);
     }
 }

@@ -93,7 +93,7 @@ fn a_box_without_thickness_is_a_sheet() {
 
 fn light(color: Rgb) -> ObjectKind {
     let kind = LightKind::Point { location: v(1.0, 2.0, 3.0) };
-    ObjectKind::LightSource(LightSource { color, kind, shadowless: false, fade: None })
+    ObjectKind::LightSource(LightSource::new(kind, color))
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn a_black_light_is_dropped_and_that_is_said() {
 fn parallel_light_comes_from_where_it_stands() {
     let mut build = Build::new();
     let kind = LightKind::Parallel { location: v(0.0, 9.0, 0.0), point_at: v(0.0, 1.0, 0.0) };
-    let source = LightSource { color: Rgb::WHITE, kind, shadowless: true, fade: None };
+    let source = LightSource { shadowless: true, ..LightSource::new(kind, Rgb::WHITE) };
     let light = build.moved(ObjectKind::LightSource(source), vec![rotate(90.0, 0.0, 0.0)]);
     build.root(light);
     let light = build.world().lights[0];

@@ -113,8 +113,8 @@ fn the_kernel_has_what_the_effects_need() {
 #[test]
 fn shadows_are_left_out_for_the_reason_that_holds() {
     let why = |change: &dyn Fn(&mut World)| why_not(Effect::Shadows, change).0;
-    assert_eq!(why(&|w| w.lights.clear()), "no light");
-    assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "all lights are shadowless");
+    assert_eq!(why(&|w| w.lights.clear()), "no light casts shadows");
+    assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "no light casts shadows");
     assert_eq!(why(&|w| w.objects[0].casts_shadow = false), "no object casts a shadow");
     let dull = |w: &mut World| {
         w.materials[0].finish.diffuse = 0.0;
@@ -157,9 +157,10 @@ fn what_lights_and_objects_do_apart_from_the_rest_is_called_for_by_them() {
     world.objects[0].in_reflections = false;
     world.objects[0].double_illuminate = true;
     (origins.hidden, origins.double_illuminate) = (vec![site(31)], vec![site(32)]);
+    origins.attenuation = vec![site(33)];
     let plan = plan(&world, &origins, &OPTIONS);
     let by = |effect| plan.called(effect).map(|called| called.by.clone());
-    assert_eq!(by(Effect::Attenuation), Some(vec![site(20)]));
+    assert_eq!(by(Effect::Attenuation), Some(vec![site(33)]));
     assert_eq!(by(Effect::Hiding), Some(vec![site(31)]));
     assert_eq!(by(Effect::DoubleIllumination), Some(vec![site(32)]));
 }
