@@ -143,7 +143,11 @@ fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole(
 fn what_is_off_is_counted_zero() {
     for name in scenes() {
         let Seen { world, plan, .. } = see(&name, &Changed::default());
-        let counters = traced(&world, &plan).counters;
+        let options = TraceOptions { count_work: true, ..TraceOptions::on_threads(1) };
+        let counters = trace(&world, &plan, &options, &Unwatched).counters;
+        // So few need no tree of boxes.
+        let visits = counters.work.box_visits;
+        assert!(world.objects.len() >= 8 || visits == 0, "{name}: {visits} boxes");
         for (effect, rays) in [
             (Effect::Shadows, counters.shadow),
             // Beyond the critical angle all is reflected.
