@@ -153,28 +153,28 @@ impl Census<'_> {
     }
 
     fn reflection(&self) -> Decision {
+        self.goes_on()?;
         if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        self.goes_on()?;
         let cost = format!("up to {} rays a camera ray", self.max_trace_level - 1);
         Ok((self.materials(reflects, |origin| &origin.reflection), cost))
     }
 
     fn transparency(&self) -> Decision {
+        self.goes_on()?;
         if !self.world.materials.iter().any(is_clear) {
             return because("no surface is clear", None);
         }
-        self.goes_on()?;
         let cost = "a ray behind each clear surface, and a path of its own where that mirrors, too";
         Ok((self.materials(is_clear, |origin| &origin.clear), cost.to_owned()))
     }
 
     fn refraction(&self) -> Decision {
+        self.goes_on()?;
         if self.world.interiors.is_empty() {
             return because("every object is filled with air", None);
         }
-        self.goes_on()?;
         // What is as the air only matters beside what is not.
         let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
         let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
