@@ -23,6 +23,7 @@ const CAMERAS: [&str; 2] = [
 const THINGS: &str = "
     global_settings { max_trace_level 5 }
     background { rgb <0.1, 0.2, 0.3> }
+    sky_sphere { pigment { gradient <0.3, 0.8, 0.5> color_map { [0 rgbt <0.1, 0.2, 0.4, 0.3>] [1 rgb <0.9, 0.7, 0.4>] } scale 0.3 } /* moved */ }
     light_source { <5, 8, 9>*K, rgb 0.4 }
     light_source { <-5, 8, 1>*K, rgb <0.2, 0.1, 0.1> parallel point_at <0, 1, 0>*K }
     light_source { direction <-2, 3, 1> color rgb <0.2, 0.2, 0.4> }
@@ -91,7 +92,7 @@ fn row_47_a_power_of_two_times_every_length_changes_no_byte_of_the_picture() {
 
 /// Each light and each object, with the text around it.
 fn each_thing() -> impl Iterator<Item = &'static str> {
-    let starts = ["light_source", "plane", "sphere", "box", "union"];
+    let starts = ["sky_sphere", "light_source", "plane", "sphere", "box", "union"];
     THINGS.lines().filter(move |line| starts.iter().any(|start| line.trim().starts_with(start)))
 }
 
@@ -127,7 +128,8 @@ fn mapped(steps: &str, map: Map, flip: f64) -> String {
             format!(" {word} <{:e}, {:e}, {:e}>", v.x, v.y, v.z)
         })
         .collect();
-    let (settings, things) = THINGS.split_at(THINGS.find("light_source").expect("a light"));
+    let moved = THINGS.replace("/* moved */", steps);
+    let (settings, things) = moved.split_at(moved.find("light_source").expect("a light"));
     format!("#declare K = 1; {settings} camera {{ {camera} }} union {{ {things} {steps} }}")
 }
 
