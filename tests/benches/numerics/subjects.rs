@@ -61,9 +61,16 @@ pub trait Subject {
     }
 }
 
-/// A shape whose kernel is there in `f32`, too: shape and start as seen from the shape's centre.
+/// A shape whose kernel is there in `f32`, too; what is large is taken off before anything is
+/// rounded, as in `geometry/single.rs`.
 pub trait Narrowed: Subject {
-    fn narrow(&self, ray: &Ray<f32>) -> Option<Crossing<f32>>;
+    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>>;
+}
+
+/// As seen from `centre`.
+fn narrowed(ray: &Ray, centre: Vector) -> Ray<f32> {
+    let origin = Narrow::from_vector(ray.origin - centre);
+    Ray { origin, direction: Narrow::from_vector(ray.direction) }
 }
 
 /// Met in single precision.
@@ -80,10 +87,8 @@ impl<S: Narrowed> Subject for Single<S> {
         self.0.target(dice)
     }
     fn ours(&self, ray: &Ray) -> Option<Crossing> {
-        let origin = Narrow::from_vector(ray.origin - self.0.centre());
-        let direction = Narrow::from_vector(ray.direction);
-        let Crossing { t, error } = self.0.narrow(&Ray { origin, direction })?;
-        // Doubled: what rounding its arguments adds, as in `geometry/single.rs`.
+        let Crossing { t, error } = self.0.narrow(ray)?;
+        // Doubled: what rounding its arguments adds.
         Some(Crossing { t: f64::from(t), error: 2.0 * f64::from(error) })
     }
     fn single(&self, ray: &Rounded) -> Option<f32> {
@@ -142,9 +147,10 @@ impl Subject for Ball {
 }
 
 impl Narrowed for Ball {
-    fn narrow(&self, ray: &Ray<f32>) -> Option<Crossing<f32>> {
+    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
         let zero = Narrow::from_vector(Vector::ZERO);
-        sphere::chord(zero, self.0.radius as f32, ray).map(|chord| chord.enter)
+        sphere::chord(zero, self.0.radius as f32, &narrowed(ray, self.0.centre))
+            .map(|chord| chord.enter)
     }
 }
 
@@ -218,12 +224,12 @@ impl Subject for Floor {
 }
 
 impl Narrowed for Floor {
-    fn narrow(&self, ray: &Ray<f32>) -> Option<Crossing<f32>> {
+    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
         // As seen from the ray's own start.
         let normal = self.0.normal.get();
-        let inside = self.0.distance - normal.dot(self.1 + ray.origin.to_vector());
-        let ray = Ray { origin: Narrow::from_vector(Vector::ZERO), direction: ray.direction };
-        let chord = plane::chord(Narrow::from_vector(normal), inside as f32, &ray)?;
+        let inside = self.0.distance - normal.dot(ray.origin);
+        let start = narrowed(ray, ray.origin);
+        let chord = plane::chord(Narrow::from_vector(normal), inside as f32, &start)?;
         Some(if chord.enter.t.is_finite() { chord.enter } else { chord.leave })
     }
 }
@@ -291,11 +297,12 @@ impl Subject for Block {
 }
 
 impl Narrowed for Block {
-    fn narrow(&self, ray: &Ray<f32>) -> Option<Crossing<f32>> {
+    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
         let normals = self.0.normals.map(|normal| Narrow::from_vector(normal.get()));
         let half_widths = self.0.half_widths.map(|half| half as f32);
         let zero = Narrow::from_vector(Vector::ZERO);
-        box_::slabs(zero, normals, half_widths, ray).map(|slabs| slabs.enter)
+        box_::slabs(zero, normals, half_widths, &narrowed(ray, self.0.centre))
+            .map(|slabs| slabs.enter)
     }
 }
 
