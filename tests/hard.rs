@@ -19,6 +19,11 @@ mod language;
 mod lights;
 #[path = "hard/mirrors.rs"]
 mod mirrors;
+#[path = "hard/page.rs"]
+mod page;
+#[path = "benches/numerics/rows.rs"]
+#[allow(dead_code, reason = "the benchmark tells the rows apart by name")]
+mod rows;
 #[path = "hard/scaled.rs"]
 mod scaled;
 #[path = "hard/scene.rs"]

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Role, Word};
 
+#[path = "house/numbers.rs"]
+mod numbers;
+
 /// Every room of `src/`, from the ground up, and the rooms it may use. A circle cannot be written.
 const ROOMS: &[(&str, &[&str])] = &[
     // ground
@@ -152,67 +155,6 @@ const ELEMENTARY: &[&str] = &[
     ".log10()",
     ".cbrt()",
     ".hypot(",
-];
-
-/// Numbers that look like an epsilon or a far limit, by file and by what stands on their line, and
-/// why each is neither: none is compared with a length of a scene.
-const NUMBERS: &[(&str, &str, &str)] = &[
-    ("accuracy/knob.rs", "1e-6", "a weight at which reflections are no longer followed"),
-    ("accuracy/table.rs", "0.000_1", "how a number is written"),
-    ("evaluate/block/settings.rs", "1_000_000.0", "levels of reflection"),
-    ("evaluate/builtin/float.rs", "BORDER", "roundings of a sine or cosine, which is at most 1"),
-    ("evaluate/builtin/mod.rs", "1e-5..1e16", "how a number is written in a message"),
-    ("evaluate/array.rs", "1e-10", "an index, which is a whole number"),
-    (
-        "evaluate/builtin/vector.rs",
-        "1e-280..1e300",
-        "squares that are exact; others are scaled first",
-    ),
-    ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
-    ("evaluate/turn.rs", "1e-9 * step", "relative: of a loop's step"),
-    (
-        "evaluate/value.rs",
-        "1e-10 * a.abs().max(b.abs())",
-        "relative: two numbers alike, for a hint",
-    ),
-    ("geometry/balls.rs", "f64::MAX / 1e20", "squares that may overflow: every object is tried"),
-    ("geometry/balls.rs", "radius_squared * (", "relative, and what underflows"),
-    ("geometry/balls.rs", "SLACK", "roundings of a square, relative"),
-    ("geometry/tree.rs", "FAR", "beyond so many tree sizes every object is tried"),
-    ("geometry/tree.rs", "STEEPEST", "stands for 1/0 among slopes"),
-    ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
-    ("geometry/tree.rs", "least", "relative: of the tree's size"),
-    ("lower/camera.rs", "PARALLEL", "relative: between directions"),
-    ("lower/view.rs", "CLEARLY", "relative: to the place of a corner"),
-    ("lower/lint.rs", "ROUNDING", "relative: what a warning overlooks in a sum near 1"),
-    ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
-    ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
-    ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
-    ("math/interval.rs", "const FAR", "radians: intervals that wide hold every angle"),
-    ("math/interval.rs", "const TURN", "relative: of an angle"),
-    ("math/interval.rs", "const WHOLE", "whole numbers that are exact"),
-    ("math/random.rs", "(1u64 << 53)", "the numbers of 53 bits between 0 and 1"),
-    ("math/singular.rs", "cosine.abs()", "a cosine: columns that are at right angles"),
-    ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),
-    ("math/vector.rs", "UNIT_ROUNDOFF", "the roundoff itself"),
-    ("math/vector.rs", "debug_assert", "of a length that is 1"),
-    ("math/placement.rs", "let centre", "roundings of a map's centre, relative"),
-    ("math/placement.rs", "let difference", "roundings of a difference, relative"),
-    ("pattern/checker.rs", "WHOLE", "large enough that its neighbours are whole numbers"),
-    ("pattern/gradient.rs", "let error", "roundings of a sum, relative"),
-    ("pattern/noise/perlin.rs", "ORIGIN", "where POV-Ray's noise has its origin"),
-    ("pattern/noise/turbulence.rs", "greatest", "numbers pass through `f32` there, as in POV-Ray"),
-    ("plan/print.rs", "1e-3..1e6", "how a number is written"),
-    ("shape/box_.rs", "blur", "relative: of the distance"),
-    ("shape/box_.rs", "STEEP", "a slope"),
-    ("shape/box_.rs", "LEVEL", "a slope"),
-    ("shape/mod.rs", "const U", "the roundoff itself"),
-    ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),
-    ("shape/plane.rs", "error: t / 67_108_864.0", "relative: of the distance"),
-    ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
-    ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
-    ("trace/sharpness.rs", "ROUNDED", "roundings of a direction, whose length is 1"),
-    ("trace/sharpness.rs", "* centres", "roundings of a map's centres, relative"),
 ];
 
 /// "About 400": with what `rustfmt` makes of it.
@@ -416,28 +358,6 @@ fn elementary_functions_are_called_through_one_room_only() {
     assert_none(faults);
 }
 
-/// The code without what stands in quotes.
-fn unquoted(code: &str) -> String {
-    let pieces = code.replace("\\\"", "").replace("'\"'", "");
-    pieces.split('"').step_by(2).collect()
-}
-
-/// Whether a line has a number so small or so large that it may be an epsilon or a far limit.
-fn has_extreme_number(line: &str) -> bool {
-    const WORDS: &[&str] =
-        &["EPSILON", "MIN_POSITIVE", "f64::MAX", "f32::MAX", "(1u64 <<", "(1u128 <<"];
-    let part_of_number = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
-    let spaced = line.replace("e-", "e\u{2212}").replace("E-", "e\u{2212}");
-    let extreme = spaced
-        .split(|c: char| !part_of_number(c) && c != '\u{2212}')
-        .flat_map(|token| token.split(".."))
-        .filter(|token| token.starts_with(|c: char| c.is_ascii_digit()))
-        .filter(|token| token.contains(['.', 'e', 'E']))
-        .filter_map(|token| token.replace('_', "").replace('\u{2212}', "-").parse::<f64>().ok())
-        .any(|number| number != 0.0 && !(1e-3..1e4).contains(&number));
-    extreme || WORDS.iter().any(|word| line.contains(word))
-}
-
 #[test]
 fn files_stay_short() {
     // Tables and tests are read by the row.
@@ -448,50 +368,6 @@ fn files_stay_short() {
     assert_none(
         long.map(|(file, text)| format!("{file}: {} lines", text.lines().count())).collect(),
     );
-}
-
-#[test]
-fn no_length_is_compared_with_an_epsilon_or_a_far_limit() {
-    let mut faults = Vec::new();
-    let mut used = BTreeSet::new();
-    for (file, text) in files("src", &["rs"]) {
-        if file.starts_with("cli/") {
-            continue;
-        }
-        let code = unquoted(&code(&text));
-        for line in code.lines().filter(|line| has_extreme_number(line)) {
-            let reason =
-                NUMBERS.iter().position(|(place, part, _)| file == *place && line.contains(part));
-            match reason {
-                Some(index) => {
-                    used.insert(index);
-                }
-                None => faults.push(format!("{file}: `{}`", line.trim())),
-            }
-        }
-    }
-    let unused = (0..NUMBERS.len()).filter(|index| !used.contains(index));
-    faults.extend(unused.map(|index| format!("excused, and not there: {:?}", NUMBERS[index])));
-    assert_none(faults);
-}
-
-#[test]
-fn the_reader_of_numbers_finds_the_extreme_ones() {
-    for line in [
-        "if t > 1e-6 {",
-        "t < 1E7",
-        "x + 0.000_1",
-        "1.0e10 > t",
-        "a < f64::EPSILON",
-        "t > 20_000.0",
-        "1e-5..1e16",
-    ] {
-        assert!(has_extreme_number(line), "{line}");
-    }
-    for line in ["t > 0.0", "0.5 * x", "2.0 * b", "1..10", "x.e1", "1_000_000", "0.0011"] {
-        assert!(!has_extreme_number(line), "{line}");
-    }
-    assert_eq!(unquoted("a(\"1e-6\", b)"), "a(, b)");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 #[cfg(test)]
 mod draw;
 #[cfg(test)]
-pub(crate) use draw::long;
+pub(crate) use draw::{long, tries, tries_in};
 
 /// A small generator of numbers.
 ///

@@ -82,21 +82,27 @@ pub(super) fn fresnel(from: f64, to: f64, [before, behind]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::elementary::{pow, sin};
+    use crate::math::UnitVector;
+    use crate::math::elementary::pow;
+    use crate::math::random::{Random, tries};
 
     /// A ray that falls on the plane y = 0, at `sine` to its normal.
     fn falling(sine: f64) -> Vector {
         Vector::new(sine, -(1.0 - sine * sine).sqrt(), 0.0)
     }
 
-    /// Directions and normals that meet at all angles.
+    /// Directions and normals that meet at all angles, most of them grazing.
     fn meetings() -> impl Iterator<Item = (Vector, Vector)> {
-        (0..2000).filter_map(|i| {
-            let i = f64::from(i);
-            let wave = |a: f64, b: f64| sin(a * i + b);
-            let d = Vector::new(wave(1.3, 0.1), wave(2.7, 1.0), wave(0.61, 2.0)).normalize();
-            let n = Vector::new(wave(3.1, 0.7), wave(1.9, 0.3), wave(0.37, 1.4)).normalize();
-            (d.dot(n) < 0.0).then_some((d, n))
+        let mut random = Random(40);
+        (0..tries()).map(move |_| {
+            let n = random.direction().get();
+            let v = match random.below(3) {
+                0 => random.direction().get(),
+                1 => random.structured_direction().get(),
+                _ => n.cross(random.direction().get()) - n * random.size(-18.0, 0.0),
+            };
+            let d = UnitVector::from_direction(v).unwrap_or(UnitVector::X).get();
+            (if d.dot(n) < 0.0 { d } else { -d }, n)
         })
     }
 
@@ -202,6 +208,10 @@ mod tests {
         for (d, n) in meetings() {
             for (from, to) in [(1.0, 1.5), (1.0, 2.4), (1.33, 1.5)] {
                 let inside = bent(d, n, from, to).expect("goes in");
+                // So flat the way back is at the critical angle: rounding decides.
+                if inside.cosines[0] < 1e-7 {
+                    continue;
+                }
                 let back = bent(-inside.direction, -n, to, from).expect("comes out again");
                 // Near grazing the sine says little about the angle.
                 let bound = 2e-15 / inside.cosines[0].max(1e-8);

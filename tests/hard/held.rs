@@ -59,8 +59,7 @@ pub fn hold_sized(name: &str, scene: &Scene, (width, height): (u32, u32)) {
             if apart(components(seen), expected) <= OFF {
                 continue;
             }
-            let changes = ring().any(|(dx, dy)| apart(at(px + dx, py + dy), expected) > OFF);
-            if changes {
+            if changes_near(&exact, (x, y), (width, height)) {
                 unjudged += 1;
             } else {
                 bad.push((x, y, seen, expected));
@@ -73,6 +72,15 @@ pub fn hold_sized(name: &str, scene: &Scene, (width, height): (u32, u32)) {
     assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
     // A picture that is nowhere judged proves nothing.
     assert!(4 * unjudged <= width * height, "{name}: {unjudged} pixels are not judged\n{text}");
+}
+
+/// Whether the exact picture changes so near the centre of a pixel that it is not judged.
+pub fn changes_near(exact: &Exact, (x, y): (u32, u32), (width, height): (u32, u32)) -> bool {
+    let at = |dx: f64, dy: f64| {
+        exact.at(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy, width, height)
+    };
+    let expected = at(0.0, 0.0);
+    ring().any(|(dx, dy)| apart(at(dx, dy), expected) > OFF)
 }
 
 /// Sixteen places around a pixel's centre.

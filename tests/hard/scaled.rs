@@ -18,22 +18,42 @@ const CAMERAS: [&str; 2] = [
     "camera { orthographic location <4, 5, 9>*K direction <-0.4, -0.5, -0.9>*K right <6, 0, -3>*K up <0, 5, -1>*K }",
 ];
 
-/// All that the language can place, all lengths times `K`.
+/// All that the language can place, all lengths times `K`: every kind of light, a light that fades,
+/// clear things, filled and tinted, touching and one in the other. An object is a line.
 const THINGS: &str = "
-    global_settings { max_trace_level 4 }
+    global_settings { max_trace_level 5 }
     background { rgb <0.1, 0.2, 0.3> }
-    light_source { <5, 8, 9>*K, rgb 0.8 }
+    sky_sphere { pigment { gradient <0.3, 0.8, 0.5> color_map { [0 rgbt <0.1, 0.2, 0.4, 0.3>] [1 rgb <0.9, 0.7, 0.4>] } scale 0.3 } /* moved */ }
+    light_source { <5, 8, 9>*K, rgb 0.4 }
     light_source { <-5, 8, 1>*K, rgb <0.2, 0.1, 0.1> parallel point_at <0, 1, 0>*K }
     light_source { direction <-2, 3, 1> color rgb <0.2, 0.2, 0.4> }
+    light_source { <-4, 7, 5>*K, rgb <0.5, 0.4, 0.2> spotlight radius 8 falloff 20 tightness 3 point_at <-1.5, 1, 0>*K }
+    light_source { <2, 6, 4>*K, rgb <0.3, 0.5, 0.4> spotlight radius 10 falloff 30 point_at <1, 0, 1>*K fade_distance 5*K fade_power 3 }
+    light_source { <0.5, 7, 3>*K, rgb <0.4, 0.3, 0.5> cylinder radius 0.7*K falloff 1.9*K tightness 1 point_at <0.2, 0, 1>*K }
+    light_source { <-3, 2, 4>*K, rgb <0.4, 0.4, 0.1> fade_distance 1.7*K fade_power 1.5 }
+    light_source { <3, 4, -1>*K, rgb <0.1, 0.3, 0.2> parallel point_at <0, 0, 1>*K fade_distance 3*K fade_power 2 shadowless }
     plane { y, 0 pigment { checker rgb 0.9 rgb 0.3 scale K rotate 20*y translate 0.3*K } finish { reflection 0.3 } }
     plane { <0.1, 0.2, 1>, -5*K pigment { gradient <1, 2, 3> color_map { [0 rgb x] [0.4 rgb y] [1 rgb z] } scale 0.7*K } }
     sphere { <-1.5, 1, 0>*K, K pigment { rgb <0.9, 0.3, 0.2> } finish { phong 0.7 reflection 0.2 } }
     sphere { <0.1, 0, 0>, 1 pigment { checker rgb 1 rgb 0.2 scale 0.3 } scale <1, 0.5, 0.8> rotate 30*z scale K translate <0.2, 2.4, -1>*K }
-    box { -0.8, 0.8 rotate <20, 30, 0> scale K translate <1.6, 1.2, 0.3>*K pigment { rgb <0.2, 0.4, 0.9> } finish { specular 0.5 } }
+    box { -0.8, 0.8 rotate <20, 30, 0> scale K translate <1.6, 1.2, 0.3>*K pigment { rgb <0.2, 0.4, 0.9> } finish { specular 0.5 metallic } }
     box { 0, K matrix <1, 0.2, 0, 0.3, 1, 0.1, 0, 0.4, 1, 0, 0, 0> translate <-1, 0, 3>*K pigment { rgb <0.4, 0.9, 0.2> } }
-    box { <-3, 0.7, 2>*K, <-2, 0.7, 3>*K pigment { rgb <0.8, 0.7, 0.2> } }
+    box { <-3, 0.7, 2>*K, <-2, 0.7, 3>*K pigment { rgb <0.8, 0.7, 0.2> } finish { brilliance 2 } double_illuminate }
     union { #for (I, 1, 9) sphere { <0.5*I - 2.5, 0.2, 4>*K, 0.2*K } #end pigment { rgb 0.7 } finish { kd 0.6 ks 0.3 phong_exponent 20 } }
+    sphere { <0.3, 0.9, 2.6>*K, 0.6*K pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { phong 0.5 reflection { 0, 0.9 fresnel } conserve_energy } interior { ior 1.5 } }
+    sphere { <0.3, 0.9, 2.6>*K, 0.25*K pigment { rgbft <0.9, 0.5, 0.9, 0.5, 0.3> } interior { ior 1.2 } }
+    sphere { 0, 1 scale <0.5, 0.3, 0.4> rotate 25*z scale K translate <1.7, 0.4, 3.2>*K pigment { checker rgbt <1, 0.3, 0.2, 0.7> rgb 0.4 scale 0.21*K } interior { ior 1.33 } hollow }
+    box { <-1.9, 0.3, 2.1>*K, <-0.9, 1.3, 2.2>*K pigment { rgbf <0.4, 0.7, 1, 0.8> } interior { ior 1.1 } }
+    box { <-1.9, 0.3, 2.2>*K, <-0.9, 1.3, 2.3>*K pigment { rgbf <1, 0.7, 0.4, 0.8> } interior { ior 2.4 } no_reflection }
+    plane { y, 0.05*K pigment { rgbt <0.7, 0.9, 1, 0.8> } finish { diffuse 0.1 } interior { ior 1.33 } }
+    plane { -y, -30*K inverse pigment { gradient x color_map { [0 rgbt 1] [1 rgbf <1, 0.8, 0.6, 0.9>] } scale 3*K } no_shadow }
 ";
+
+/// The first object's line begins so.
+const FIRST_OBJECT: &str = "plane";
+
+/// In the line of a box on which the next one lies.
+const TOUCHING: &str = "ior 1.1";
 
 fn scene(k: f64, camera: &str) -> String {
     format!("#declare K = {k:e};\n{camera}\n{THINGS}")
@@ -70,6 +90,27 @@ fn row_47_a_power_of_two_times_every_length_changes_no_byte_of_the_picture() {
     }
 }
 
+/// Each light and each object, with the text around it.
+fn each_thing() -> impl Iterator<Item = &'static str> {
+    let starts = ["sky_sphere", "light_source", "plane", "sphere", "box", "union"];
+    THINGS.lines().filter(move |line| starts.iter().any(|start| line.trim().starts_with(start)))
+}
+
+#[test]
+fn row_47_every_thing_is_seen_and_its_lengths_with_it() {
+    let file = |text: &str| png(&film(text, Antialias::Off, 1));
+    let (one, four) = (scene(1.0, CAMERAS[0]), scene(4.0, CAMERAS[0]));
+    let seen = file(&one);
+    assert!(each_thing().count() > 20);
+    for thing in each_thing() {
+        assert!(file(&one.replace(thing, "")) != seen, "unseen: {thing}");
+        // Its lengths alone stay behind. A plane through the origin is as large as ever.
+        let left = thing.replace('K', "1");
+        let has_no_length = !thing.contains('K');
+        assert!(has_no_length || file(&four.replace(thing, &left)) != seen, "left: {thing}");
+    }
+}
+
 type Map = fn(Vector) -> Vector;
 
 /// A camera by its vectors, and the things in a union, all of it under one map.
@@ -87,7 +128,8 @@ fn mapped(steps: &str, map: Map, flip: f64) -> String {
             format!(" {word} <{:e}, {:e}, {:e}>", v.x, v.y, v.z)
         })
         .collect();
-    let (settings, things) = THINGS.split_at(THINGS.find("light_source").expect("a light"));
+    let moved = THINGS.replace("/* moved */", steps);
+    let (settings, things) = moved.split_at(moved.find("light_source").expect("a light"));
     format!("#declare K = 1; {settings} camera {{ {camera} }} union {{ {things} {steps} }}")
 }
 
@@ -136,12 +178,20 @@ fn row_68_order_threads_and_tiles_change_no_byte_of_the_picture() {
     for threads in [2, 5] {
         assert!(png(&film(&text, antialias, threads)) == file, "{threads} threads");
     }
-    // The objects in another order: every solid is a line of its own.
+    // The objects in another order, but for two that touch: which is first is seen there.
     let mut lines: Vec<&str> = text.lines().collect();
-    let first = lines.iter().position(|line| line.trim().starts_with("plane")).expect("a plane");
-    for shift in 1..4 {
-        lines[first..].rotate_left(shift);
-        assert!(png(&film(&lines.join("\n"), antialias, 1)) == file, "shifted by {shift}");
+    let first = lines.iter().position(|line| line.trim().starts_with(FIRST_OBJECT)).expect("it");
+    let touching = lines.iter().position(|line| line.contains(TOUCHING)).expect("it");
+    let last = lines.len();
+    lines.swap(touching, touching + 1);
+    lines[first..].reverse();
+    assert!(png(&film(&lines.join("\n"), antialias, 1)) == file, "the other way round");
+    for shift in 1..last - first {
+        lines[first..].rotate_left(1);
+        // Those two are never first and last.
+        if !lines[last - 1].contains(TOUCHING) {
+            assert!(png(&film(&lines.join("\n"), antialias, 1)) == file, "shifted by {shift}");
+        }
     }
     // Regions begin tiles of their own: wherever they lie, they are crops.
     let (world, origins) = compiled(&text);

@@ -1,6 +1,7 @@
 //! Things of all sizes, near and far: rows 1, 3, 7, 16, 46, 48 and 64.
 
-use crate::held::hold;
+use crate::exact::Exact;
+use crate::held::{apart, changes_near, hold, rendered};
 use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 const CLAY: Triple = [0.9, 0.5, 0.2];
@@ -152,6 +153,53 @@ fn row_48_a_lit_scene_may_stand_anywhere() {
     for exponent in [3, 6, 8, 9, 10, 11] {
         let far = ten(exponent);
         hold(&format!("a still life at 1e{exponent}"), &still_life(1.0, [far, far, -far]));
+    }
+}
+
+#[test]
+fn row_49_an_offset_by_exact_numbers_changes_no_pixel() {
+    // Few digits: every coordinate is exact in every place.
+    let scene = |[x, y, z]: Triple| {
+        let at = |a: f64, b: f64, c: f64| [a + x, b + y, c + z];
+        let camera = Camera::LookAt {
+            location: at(1.0, 2.0, 6.0),
+            look_at: at(0.0, 0.625, 0.0),
+            angle: 45.0,
+        };
+        let floor = plane([0.0, 1.0, 0.0], y).checker(&[Step::Translate(at(0.125, 0.0, 0.375))]);
+        let objects = vec![
+            floor,
+            sphere(at(-1.25, 0.75, 0.0), 0.75).color(CLAY),
+            cuboid(at(0.5, 0.0, -0.25), at(1.5, 1.0, 0.75)).color(SLATE),
+            sphere(at(0.25, 0.5, 1.5), 0.5).finish(0.0, 0.2, 0.7),
+        ];
+        Scene::new(camera, &[light(at(5.0, 7.0, 4.0))], objects)
+    };
+    let here = scene([0.0; 3]);
+    let exact = Exact::new(&here);
+    let (width, height) = (48, 36);
+    let film = |scene: &Scene| rendered(&scene.text(), (width, height));
+    let plain = film(&here);
+    let k = |exponent: i32| 2f64.powi(exponent);
+    for offset in [
+        [1.0, -2.0, 4.0],
+        [k(10), 0.0, -k(12)],
+        [k(20), k(20), -k(20)],
+        [0.0, -k(30), 3.0 * k(29)],
+        [k(36), k(35), -k(36)],
+    ] {
+        let moved = film(&scene(offset));
+        let mut changed = 0;
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let at = plain.index(x, y);
+            let [one, other] = [&plain, &moved].map(|film| film.radiance[at].components());
+            // Where nothing changes within a thousandth of a pixel.
+            let is_judged = || !changes_near(&exact, (x, y), (width, height));
+            if apart(one, other) > 0.003 && is_judged() {
+                changed += 1;
+            }
+        }
+        assert_eq!(changed, 0, "{offset:?}");
     }
 }
 

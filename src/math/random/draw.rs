@@ -44,7 +44,18 @@ impl Random {
     }
 }
 
-/// How many times as much to test: `LUCARNE_LONG=100 cargo test --release`.
+/// How many rays, places or maps a property is tried on: 100,000, and ten millions in
+/// `LUCARNE_LONG=100 cargo test --release`.
+pub(crate) fn tries() -> usize {
+    100_000 * long()
+}
+
+/// How many in each of so many worlds.
+pub(crate) fn tries_in(worlds: usize) -> usize {
+    tries().div_ceil(worlds)
+}
+
+/// How many times as much to test.
 pub(crate) fn long() -> usize {
     std::env::var("LUCARNE_LONG").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }

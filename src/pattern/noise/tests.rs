@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use super::*;
 use crate::math::elementary;
-use crate::math::random::{Random, long};
+use crate::math::random::{Random, tries, tries_in};
 
 const GENERATORS: [NoiseGenerator; 3] =
     [NoiseGenerator::Plateaus, NoiseGenerator::RangeCorrected, NoiseGenerator::Perlin];
@@ -48,7 +48,7 @@ fn turbulence_as_a_number_is_that_inside_agate() {
 #[test]
 fn noise_repeats_every_4096_units_along_each_axis() {
     let mut random = Random(1);
-    for _ in 0..1000 {
+    for _ in 0..tries_in(3) {
         // Whole multiples of 2⁻²⁰ stay exact when moved.
         let point = (random.point(4096.0) * 1_048_576.0).floor() / 1_048_576.0;
         for axis in [Vector::X, Vector::Y, Vector::Z] {
@@ -64,7 +64,7 @@ fn noise_repeats_every_4096_units_along_each_axis() {
 #[test]
 fn noise_is_continuous_across_cells() {
     let mut random = Random(2);
-    for _ in 0..10_000 * long() {
+    for _ in 0..tries() {
         let mut before = random.point(50.0);
         let axis = random.below(3);
         before[axis] = before[axis].floor();
@@ -84,7 +84,7 @@ fn noise_is_continuous_across_cells() {
 
 #[test]
 fn noise_fills_its_range_around_its_middle() {
-    let count = 100_000 * long();
+    let count = tries();
     let mut random = Random(3);
     let points: Vec<Vector> = (0..count).map(|_| random.point(2000.0)).collect();
     for (generator, spread) in GENERATORS.into_iter().zip([0.24, 0.12, 0.15]) {

@@ -38,7 +38,7 @@ pub(super) fn assert_leaves_for_good(
 #[test]
 fn a_spawned_ray_does_not_meet_the_sphere_it_leaves() {
     let mut random = Random(7);
-    for _ in 0..100_000 * long() {
+    for _ in 0..tries() {
         let radius = random.size(-8.0, 8.0);
         let centre = random.direction().get() * random.size(-8.0, 8.0);
         // Numbers about its centre lie farther apart than its radius: none is inside for a ray to
@@ -61,7 +61,7 @@ fn a_spawned_ray_does_not_meet_the_sphere_it_leaves() {
 #[test]
 fn a_spawned_ray_does_not_meet_the_plane_it_leaves() {
     let mut random = Random(8);
-    for _ in 0..100_000 * long() {
+    for _ in 0..tries() {
         let (normal, distance) = random_plane(&mut random);
         let plane = Plane { normal, distance };
         let ray = Ray { origin: random.point(10.0), direction: random.direction().get() };
@@ -77,7 +77,7 @@ fn a_spawned_ray_does_not_meet_the_plane_it_leaves() {
 #[test]
 fn a_spawned_ray_does_not_meet_the_box_it_leaves() {
     let mut random = Random(9);
-    for _ in 0..100_000 * long() {
+    for _ in 0..tries() {
         let box_ = random_box(&mut random);
         let target = point_of(&mut random, &box_);
         let size = box_.half_widths.iter().copied().fold(0.0, f64::max);
@@ -104,7 +104,7 @@ fn a_spawned_ray_does_not_meet_the_box_it_leaves() {
 #[test]
 fn a_spawned_ray_does_not_meet_the_ellipsoid_it_leaves() {
     let mut random = Random(10);
-    for _ in 0..100_000 * long() {
+    for _ in 0..tries() {
         let ellipsoid = random_ellipsoid(&mut random);
         let Placement { centre, world_from_local, local_from_world } = ellipsoid.placement;
         let target = centre + world_from_local * (random.direction().get() * 0.9);
@@ -126,7 +126,7 @@ fn a_spawned_ray_does_not_meet_the_ellipsoid_it_leaves() {
 #[test]
 fn a_ray_that_starts_on_a_surface_does_not_meet_it_there() {
     let mut random = Random(11);
-    for _ in 0..20_000 * long() {
+    for _ in 0..tries() {
         let radius = random.size(-8.0, 8.0);
         let sphere = Sphere { centre: Vector::ZERO, radius };
         let axis = [Vector::X, -Vector::Y, Vector::Z][random.below(3)];

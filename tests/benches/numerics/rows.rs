@@ -1,0 +1,30 @@
+//! The rows of the table in `docs/numerics.md`: what is measured, and from how far.
+
+/// What it says above each column.
+pub const HEADER: &str = "| what | distance | f32: wrong | error | ns | f64: wrong | error | ns | ours: wrong | error | bound | share | ns | × |";
+
+/// Each kernel, and the distances from which it is tried.
+pub const ROWS: [(&str, &[f64]); 9] = [
+    (SPHERE, FAR),
+    (PLANET, &[1e4, 1e6, 1e8, 1e10, 1e12]),
+    (PLANE, FAR),
+    (BOX, FAR),
+    (ELLIPSOID, FAR),
+    (SPHERE_SINGLE, NEAR),
+    (PLANE_SINGLE, NEAR),
+    (BOX_SINGLE, NEAR),
+    (SINE, FAR),
+];
+
+pub const SPHERE: &str = "sphere";
+pub const PLANET: &str = "planet";
+pub const PLANE: &str = "plane";
+pub const BOX: &str = "box";
+pub const ELLIPSOID: &str = "ellipsoid";
+pub const SPHERE_SINGLE: &str = "sphere, single";
+pub const PLANE_SINGLE: &str = "plane, single";
+pub const BOX_SINGLE: &str = "box, single";
+pub const SINE: &str = "sine";
+
+const FAR: &[f64] = &[1e1, 1e3, 1e5, 1e6, 1e8];
+const NEAR: &[f64] = &[1e1, 1e3, 1e5];

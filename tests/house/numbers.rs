@@ -1,0 +1,276 @@
+//! No epsilon and no far limit: every very small or very large number in the source is declared
+//! here, with the reason why it is none.
+
+use std::collections::BTreeSet;
+
+use crate::{assert_none, files};
+
+/// Numbers that look like an epsilon or a far limit, by file and by what stands on their line, and
+/// why each is neither: none is compared with a length of a scene. A reason is for one line.
+const NUMBERS: &[(&str, &str, &str)] = &[
+    ("accuracy/knob.rs", "1e-6", "a weight at which reflections are no longer followed"),
+    ("accuracy/statistics.rs", "BAD", "of a colour's full scale"),
+    ("accuracy/svg.rs", "0.000_9..10_000.0", "how a number is written"),
+    ("accuracy/table.rs", "0.000_1", "how a number is written"),
+    ("color.rs", "0.003_130_8", "of a colour: where the display's curve begins to bend"),
+    ("evaluate/block/settings.rs", "1_000_000.0", "levels of reflection"),
+    ("evaluate/builtin/float.rs", "BORDER", "roundings of a sine or cosine, which is at most 1"),
+    ("evaluate/builtin/mod.rs", "1e-5..1e16", "how a number is written in a message"),
+    ("evaluate/array.rs", "1e-10", "an index, which is a whole number"),
+    (
+        "evaluate/builtin/vector.rs",
+        "1e-280..1e300",
+        "squares that are exact; others are scaled first",
+    ),
+    ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
+    ("evaluate/turn.rs", "1e-9 * step", "relative: of a loop's step"),
+    (
+        "evaluate/value.rs",
+        "1e-10 * a.abs().max(b.abs())",
+        "relative: two numbers alike, for a hint",
+    ),
+    ("evaluate/lint/angle.rs", "TYPED", "radians: what a typed angle may be off by, for a hint"),
+    ("evaluate/lint/unit.rs", "TYPED_PI", "radians: what a typed π may be off by, for a hint"),
+    ("film.rs", "let above", "all numbers in their order, halved"),
+    ("film.rs", "from_bits(high)", "all numbers in their order, halved"),
+    ("function/build.rs", "Kind::Constant(bits)", "a function's own constant"),
+    ("function/build/layout.rs", "constants.push", "a function's own constant"),
+    ("geometry/balls.rs", "f64::MAX / 1e20", "squares that may overflow: every object is tried"),
+    ("geometry/balls.rs", "radius_squared * (", "relative, and what underflows"),
+    ("geometry/balls.rs", "SLACK", "roundings of a square, relative"),
+    ("geometry/tree.rs", "FAR", "beyond so many tree sizes every object is tried"),
+    ("geometry/tree.rs", "STEEPEST", "stands for 1/0 among slopes"),
+    ("geometry/tree.rs", "OUTWARD", "roundings of a box test, relative"),
+    ("geometry/tree.rs", "let padding", "roundings of the ray's start, relative"),
+    ("geometry/tree.rs", "let least", "relative: of the tree's size"),
+    ("lower/camera.rs", "PARALLEL", "relative: between directions"),
+    ("lower/view.rs", "CLEARLY", "relative: to the place of a corner"),
+    ("lower/lint.rs", "let near", "relative: of a picture's proportions, for a warning"),
+    ("lower/lint.rs", "ROUNDING", "relative: what a warning overlooks in a sum near 1"),
+    ("lower/transform.rs", "NEAR_SINGULAR", "a condition number: a length over a length"),
+    ("lower/transform.rs", "STEP_ROUNDING", "relative: of a map's numbers"),
+    ("math/double.rs", "low: 2.9486522708701687e-19", "digits of π/180"),
+    ("math/double.rs", "exponent.clamp", "a power of two by its exponent"),
+    ("math/interval.rs", "const FAR", "radians: intervals that wide hold every angle"),
+    ("math/interval.rs", "const TURN", "relative: of an angle"),
+    ("math/interval.rs", "const WHOLE", "whole numbers that are exact"),
+    ("math/random.rs", "(1u64 << 53)", "the numbers of 53 bits between 0 and 1"),
+    ("math/singular.rs", "cosine.abs()", "a cosine: columns that are at right angles"),
+    ("math/vector.rs", "4_097.0", "splits a number in two halves of bits"),
+    ("math/vector.rs", "134_217_729.0", "splits a number in two halves of bits"),
+    (
+        "math/vector.rs",
+        "f32::from_bits(57",
+        "squares that do not overflow; others are scaled first",
+    ),
+    (
+        "math/vector.rs",
+        "f64::from_bits(123",
+        "squares that do not overflow; others are scaled first",
+    ),
+    ("math/vector.rs", "1023 - exponent", "a power of two by its exponent"),
+    ("math/vector.rs", "UNIT_ROUNDOFF", "the roundoff itself"),
+    ("math/vector.rs", "debug_assert", "of a length that is 1"),
+    ("math/placement.rs", "let centre", "roundings of a map's centre, relative"),
+    ("math/placement.rs", "let difference", "roundings of a difference, relative"),
+    ("pattern/checker.rs", "WHOLE", "large enough that its neighbours are whole numbers"),
+    ("pattern/gradient.rs", "let error", "roundings of a sum, relative"),
+    ("pattern/mod.rs", "const NEAR", "of a pattern's cell"),
+    ("pattern/noise/perlin.rs", "stream.below(4096)", "whole numbers drawn for a table"),
+    ("pattern/noise/perlin.rs", "2048.0 * 2048.0", "whole numbers drawn for a table"),
+    ("pattern/noise/perlin.rs", "ORIGIN", "where POV-Ray's noise has its origin"),
+    ("pattern/noise/table.rs", "-0.00779736", "a table of POV-Ray's noise"),
+    ("pattern/noise/turbulence.rs", "greatest", "numbers pass through `f32` there, as in POV-Ray"),
+    ("plan/print.rs", "1e-3..1e6", "how a number is written"),
+    ("scene.rs", "adc_bailout", "a weight of light"),
+    ("shape/box_.rs", "let blur", "relative: of the distance"),
+    ("shape/box_.rs", "STEEP", "a slope"),
+    ("shape/box_.rs", "LEVEL", "a slope"),
+    ("shape/mod.rs", "const U", "the roundoff itself"),
+    ("shape/plane.rs", "let steep", "a slope"),
+    ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),
+    ("shape/plane.rs", "error: t / 67_108_864.0", "relative: of the distance"),
+    ("shape/sphere.rs", "let is_larger", "relative: of the radius to the place"),
+    ("shape/sphere.rs", "let clear", "relative: of the distance and the radius"),
+    ("shape/sphere.rs", "let close", "relative: of the height to the radius, squared"),
+    ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
+    ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
+    ("trace/sharpness.rs", "let is_sharp", "roundings of a direction, whose length is 1"),
+    ("trace/sharpness.rs", "const ROUNDED", "roundings of a direction, whose length is 1"),
+    ("trace/sharpness.rs", "* centres", "roundings of a map's centres, relative"),
+    ("world.rs", "adc_bailout", "a weight of light"),
+];
+
+/// A file's code without its tests, its comments and what stands in quotes: strings, raw ones too,
+/// and the quote as a character.
+fn unquoted(text: &str) -> String {
+    let mut left = String::new();
+    let mut rest = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
+    while let Some(at) = rest.find('"') {
+        let before = &rest[..at];
+        if let Some(comment) = before.find("//") {
+            left += &before[..comment];
+            rest = &rest[comment..];
+            rest = &rest[rest.find('\n').unwrap_or(rest.len())..];
+            continue;
+        }
+        if before.ends_with('\'') || before.ends_with("'\\") {
+            left += before;
+            rest = &rest[at + 1..];
+            continue;
+        }
+        let hashes = before.len() - before.trim_end_matches('#').len();
+        let is_raw = before[..before.len() - hashes].ends_with('r');
+        left += before;
+        rest = &rest[at + 1..];
+        let end = if is_raw {
+            rest.find(&format!("\"{}", "#".repeat(hashes))).map(|end| end + 1 + hashes)
+        } else {
+            let mut escaped = false;
+            let ends = |(_, c): &(usize, char)| {
+                let end = *c == '"' && !escaped;
+                escaped = *c == '\\' && !escaped;
+                end
+            };
+            rest.char_indices().find(ends).map(|(end, _)| end + 1)
+        };
+        rest = &rest[end.unwrap_or(rest.len())..];
+    }
+    let last = rest.lines().map(|line| line.split("//").next().unwrap_or(line));
+    left + &last.collect::<Vec<_>>().join("\n")
+}
+
+/// The numbers with a point or an exponent that a line has, and the quotients of two that stand side
+/// by side.
+fn written_numbers(line: &str) -> Vec<f64> {
+    let part_of_number = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let spaced = line.replace("e-", "e\u{2212}").replace("E-", "e\u{2212}");
+    let read = |token: &str| {
+        let token = token.trim_end_matches("_f64").trim_end_matches("_f32");
+        let is_real = token.starts_with(|c: char| c.is_ascii_digit())
+            && token.contains(['.', 'e', 'E'])
+            && !token.starts_with("0x");
+        let plain = token.replace('_', "").replace('\u{2212}', "-");
+        if is_real { plain.parse::<f64>().ok() } else { None }
+    };
+    let tokens = |text: &str| -> Vec<f64> {
+        text.split(|c: char| !part_of_number(c) && c != '\u{2212}')
+            .flat_map(|token| token.split(".."))
+            .filter_map(read)
+            .collect()
+    };
+    let mut numbers = tokens(&spaced);
+    let sides: Vec<&str> = spaced.split(" / ").collect();
+    for pair in sides.windows(2) {
+        let above = pair[0].rsplit(|c: char| !part_of_number(c)).next().and_then(read);
+        let below = pair[1].split(|c: char| !part_of_number(c)).next().and_then(read);
+        numbers.extend(above.zip(below).map(|(above, below)| above / below));
+    }
+    numbers
+}
+
+/// Whether a line has a number so small or so large that it may be an epsilon or a far limit.
+fn has_extreme_number(line: &str) -> bool {
+    const WORDS: &[&str] =
+        &["EPSILON", "MIN_POSITIVE", "f64::MAX", "f32::MAX", "(1u64 <<", "(1u128 <<", "from_bits("];
+    let plain = |number: &f64| *number == 0.0 || (0.01..=1000.0).contains(number);
+    !written_numbers(line).iter().all(plain) || WORDS.iter().any(|word| line.contains(word))
+}
+
+#[test]
+fn no_length_is_compared_with_an_epsilon_or_a_far_limit() {
+    let mut faults = Vec::new();
+    let mut used = BTreeSet::new();
+    for (file, text) in files("src", &["rs"]) {
+        if file.starts_with("cli/") {
+            continue;
+        }
+        let code = unquoted(&text);
+        for line in code.lines().filter(|line| has_extreme_number(line)) {
+            let reason =
+                NUMBERS.iter().position(|(place, part, _)| file == *place && line.contains(part));
+            // A reason is for one line.
+            if reason.is_none_or(|index| !used.insert(index)) {
+                faults.push(format!("{file}: `{}`", line.trim()));
+            }
+        }
+    }
+    let unused = (0..NUMBERS.len()).filter(|index| !used.contains(index));
+    faults.extend(unused.map(|index| format!("excused, and not there: {:?}", NUMBERS[index])));
+    assert_none(faults);
+}
+
+#[test]
+fn the_reader_of_numbers_finds_the_extreme_ones() {
+    for line in [
+        "if t > 1e-6 {",
+        "t < 1E7",
+        "x + 0.000_1",
+        "1.0e10 > t",
+        "a < f64::EPSILON",
+        "t > 20_000.0",
+        "1e-5..1e16",
+        "t > 1e-3",
+        "t > 0.009",
+        "t > 0.001_f64",
+        "t > 1001.0",
+        "a / 4096.0",
+        "t > 1.0 / 128.0",
+        "t > size / 10.0 * 1.0 / 255.0",
+        "f64::from_bits(1 << 52)",
+    ] {
+        assert!(has_extreme_number(line), "{line}");
+    }
+    for line in [
+        "t > 0.0",
+        "0.5 * x",
+        "2.0 * b",
+        "1..10",
+        "x.e1",
+        "1_000_000",
+        "0.01",
+        "1.0 / 8.0",
+        "a / 64.0",
+        "t.0 / 128.0",
+        "0xe5",
+        "[1.0, 255.0]",
+    ] {
+        assert!(!has_extreme_number(line), "{line}");
+    }
+    for (code, left) in [
+        ("a(\"1e-6\", b)", "a(, b)"),
+        ("a(\"x\\\"1e-6\\\\\", b)", "a(, b)"),
+        ("a(r#\"1\"e-6\"#, '\"', \"b\", 1e9)", "a(r#, '', , 1e9)"),
+        ("\"//\" 1e9 // \"\n1e8 // \" 1e7", " 1e9 \n1e8 "),
+        ("a(b'\\\"', 1e9, \"c\")", "a(b'\\', 1e9, )"),
+    ] {
+        assert_eq!(unquoted(code), left);
+    }
+}
+
+/// What may round otherwise on another processor. A fused operation that is written out rounds alike
+/// on all, but is slow on some: only numbers of twice the digits are made so.
+const FUSED: &[&str] = &[
+    "mul_add",
+    "fma(",
+    "fmaf(",
+    "algebraic",
+    "fadd_fast",
+    "fmul_fast",
+    "target_feature",
+    "target_arch",
+    "::arch::",
+];
+
+#[test]
+fn row_72_nothing_is_fused_nor_left_to_a_processor() {
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        let code = unquoted(&text);
+        let allowed = |word: &str| file == "math/double.rs" && word == "mul_add";
+        let fused = FUSED.iter().filter(|word| code.contains(*word) && !allowed(word));
+        faults.extend(fused.map(|word| format!("{file}: `{word}`")));
+    }
+    assert_none(faults);
+    assert!(unquoted("let a = b.mul_add(c, d);").contains(FUSED[0]));
+}
