@@ -25,8 +25,8 @@ pub fn pilot(world: &World, plan: &mut Plan) {
     let options = TraceOptions::on_threads(1);
     let geometry = geometry(world, &small, &options);
     let planned = Sampling::Planned;
-    let pixels = pixels(world, &geometry, &small, &places, planned, &options, &Unwatched);
-    let counters = pixels.map_or(Counters::default(), |pixels| pixels.counters);
+    let counters =
+        pixels(world, &geometry, &small, &places, planned, &options, &Unwatched).counters;
     let camera = counters.camera.max(1) as f64;
     let edges = match antialias {
         Antialias::Off | Antialias::Grid(_) => None,

@@ -7,14 +7,30 @@ use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::{Camera, CameraKind};
 
-/// A camera and the picture it makes.
-pub(super) struct Lens<'a> {
-    pub camera: &'a Camera,
-    pub width: u32,
-    pub height: u32,
+/// A camera and the picture it makes: of each point (u, v) of the screen, where its ray begins and, in no
+/// unit, where it goes; both are linear in u and v, whatever the kind of camera.
+pub(super) struct Lens {
+    origin: Vector,
+    /// What the origin moves by along u and along v.
+    shift: [Vector; 2],
+    direction: Vector,
+    /// What the direction turns by along u and along v.
+    turn: [Vector; 2],
+    width: u32,
+    height: u32,
 }
 
-impl Lens<'_> {
+impl Lens {
+    pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
+        let &Camera { kind, location: origin, forward: direction, right, up } = camera;
+        let (screen, still) = ([right, up], [Vector::ZERO; 2]);
+        let (shift, turn) = match kind {
+            CameraKind::Perspective => (still, screen),
+            CameraKind::Orthographic => (screen, still),
+        };
+        Self { origin, shift, direction, turn, width, height }
+    }
+
     /// The ray through sample (`i`, `j`) of the `grid` × `grid` samples of pixel (`x`, `y`), both
     /// counted from the top left.
     #[inline(always)]
@@ -32,15 +48,10 @@ impl Lens<'_> {
 
     /// The ray through the point (`u`, `v`) of the screen.
     fn through(&self, u: f64, v: f64) -> Ray {
-        let Camera { kind, location, forward, right, up } = *self.camera;
-        let on_screen = right * u + up * v;
-        match kind {
-            CameraKind::Perspective => {
-                Ray { origin: location, direction: unit(forward + on_screen) }
-            }
-            CameraKind::Orthographic => {
-                Ray { origin: location + on_screen, direction: unit(forward) }
-            }
+        let along = |[right, up]: [Vector; 2]| right * u + up * v;
+        Ray {
+            origin: self.origin + along(self.shift),
+            direction: unit(self.direction + along(self.turn)),
         }
     }
 }
@@ -86,7 +97,7 @@ mod tests {
     #[test]
     fn a_single_sample_is_the_pixels_centre_and_the_top_row_is_up() {
         let camera = Camera::default();
-        let lens = Lens { camera: &camera, width: 4, height: 2 };
+        let lens = Lens::new(&camera, 4, 2);
         let ray = lens.ray((3, 0), (0, 0), 1);
         let expected = Vector::new(4.0 / 3.0 * 0.375, 0.25, -1.0).normalize();
         assert!((ray.direction - expected).length() < 1e-15, "{ray:?}");
@@ -95,7 +106,7 @@ mod tests {
     #[test]
     fn the_middle_of_a_pixel_is_its_single_sample() {
         let camera = Camera::default();
-        let lens = Lens { camera: &camera, width: 4, height: 2 };
+        let lens = Lens::new(&camera, 4, 2);
         let (middle, sample) = (lens.ray_within((3, 0), (0.5, 0.5)), lens.ray((3, 0), (0, 0), 1));
         assert_eq!(middle, sample);
     }
@@ -103,7 +114,7 @@ mod tests {
     #[test]
     fn an_orthographic_camera_moves_the_origin_only() {
         let camera = Camera { kind: CameraKind::Orthographic, ..Camera::default() };
-        let lens = Lens { camera: &camera, width: 2, height: 2 };
+        let lens = Lens::new(&camera, 2, 2);
         let ray = lens.ray((0, 1), (0, 0), 1);
         assert_eq!(ray.direction, -Vector::Z);
         assert_eq!(ray.origin, Vector::new(-1.0 / 3.0, -0.25, 0.0));

@@ -232,7 +232,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     let kernel = Kernel { shadows: SHADOWS, secondary: SECONDARY };
     assert!(kernel.is_compiled(), "built for measuring another kernel than {}", kernel.name());
     let Frame { width, height, .. } = plan.frame;
-    let lens = Lens { camera: &tracer.world.camera, width, height };
+    let lens = Lens::new(&tracer.world.camera, width, height);
     let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
         sampled::<SHADOWS, SECONDARY>(tracer, &lens, walk, (x, y), grid)
     };

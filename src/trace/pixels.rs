@@ -57,12 +57,8 @@ pub fn pixels(
         (true, false) => Tracer::radiance::<true, false>,
         (true, true) => Tracer::radiance::<true, true>,
     };
-    let pixel = Pixel {
-        plan,
-        kernel,
-        tracer: &tracer,
-        lens: Lens { camera: &world.camera, width, height },
-    };
+    let pixel =
+        Pixel { plan, kernel, tracer: &tracer, lens: Lens::new(&world.camera, width, height) };
     let crew = Crew::new(options.threads, watch);
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
         Sampling::Planned => pixel.planned(walk, place),
@@ -75,7 +71,7 @@ struct Pixel<'a> {
     plan: &'a Plan,
     kernel: fn(&Tracer<'a>, &mut Walk, Ray) -> Rgb,
     tracer: &'a Tracer<'a>,
-    lens: Lens<'a>,
+    lens: Lens,
 }
 
 impl Pixel<'_> {

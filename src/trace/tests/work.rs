@@ -29,7 +29,7 @@ fn one_sphere_and_one_plane_are_solved_for_just_the_rays_that_may_meet_them() {
         .plane(UnitVector::Y, -1.0, glowing(0.5))
         .world(|_| ());
     let (width, height) = (41, 30);
-    let lens = Lens { camera: &world.camera, width, height };
+    let lens = Lens::new(&world.camera, width, height);
     let mut solves = 0;
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let ray = lens.ray((x, y), (0, 0), 1);
