@@ -17,7 +17,7 @@ mod statistics;
 pub mod svg;
 pub mod table;
 
-pub use front::Verdict;
+pub use front::{ENOUGH_RUNS, Order, Saving, Verdict};
 pub use knob::{KNOBS, Knob};
 pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
@@ -27,6 +27,7 @@ use crate::plan::{Frame, Plan, PlanOptions, Region, plan};
 use crate::trace::{Counters, Sampling, TraceOptions, Watch};
 use crate::world::{Origins, World};
 use front::Point;
+use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
 
 /// What is asked.
@@ -97,6 +98,8 @@ pub struct Row {
     pub times: Times,
     /// Of the whole picture.
     pub counters: Counters,
+    /// The unit cost of a ray in this row's arithmetic, in rays of the camera.
+    pub factor: f64,
     /// In each of [`Metric::ALL`].
     pub errors: [Estimate; 3],
     /// Among all rows.
@@ -108,23 +111,78 @@ pub struct Row {
 }
 
 impl Report {
+    /// As it is shown.
     pub fn error(&self, row: usize) -> Estimate {
-        self.rows[row].errors[self.metric as usize]
+        self.shown(self.metric, row)
+    }
+
+    /// An error with what can be said of it: below what the reference resolves, nothing but that it
+    /// lies between 0 and there, or where its own interval ends if that is further.
+    pub fn shown(&self, metric: Metric, row: usize) -> Estimate {
+        let (error, resolution) = (self.rows[row].errors[metric as usize], self.resolution(metric));
+        match error.value < resolution {
+            true => Estimate { value: resolution, low: 0.0, high: error.high.max(resolution) },
+            false => error,
+        }
     }
 
     /// Errors below this cannot be told from the reference's own.
-    pub fn resolution(&self) -> f64 {
-        4.0 * self.floors[self.metric as usize]
+    pub fn resolution(&self, metric: Metric) -> f64 {
+        4.0 * self.floors[metric as usize]
     }
 
-    pub fn is_resolved(&self, row: usize) -> bool {
-        self.error(row).value >= self.resolution()
+    pub fn is_resolved(&self, metric: Metric, row: usize) -> bool {
+        self.rows[row].errors[metric as usize].value >= self.resolution(metric)
+    }
+
+    /// What the rows cost, counted.
+    pub fn cost(&self, row: usize) -> f64 {
+        self.rows[row].factor * knob::cost(&self.rows[row].counters)
+    }
+
+    /// Whether there are enough runs for the clock to be heard.
+    pub fn is_timed(&self) -> bool {
+        self.runs >= ENOUGH_RUNS
+    }
+
+    /// Puts settings in order and says what they are worth.
+    fn judge(&mut self) {
+        let order = self.order();
+        let all: Vec<usize> = (0..self.rows.len()).collect();
+        for (row, verdict) in self.rows.iter_mut().zip(order.verdicts(&all)) {
+            row.verdict = verdict;
+        }
+        for tried in &mut self.knobs {
+            let rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
+            let sorted = order.from_cheap_to_dear(&rows);
+            let place = |row| sorted.iter().position(|&other| other == row);
+            for (setting, verdict) in tried.settings.iter_mut().zip(order.verdicts(&rows)) {
+                setting.verdict = verdict;
+            }
+            tried.settings.sort_by_key(|setting| place(setting.row));
+        }
+        for knob in 0..self.knobs.len() {
+            self.knobs[knob].sentence = sentence::of(self, &order, &self.knobs[knob]);
+        }
+    }
+
+    /// Which rows are cheaper, which better.
+    pub fn order(&self) -> Order {
+        let point = |row: usize| {
+            let this = &self.rows[row];
+            let value = this.errors[self.metric as usize].value;
+            let errors = [&[value], &this.resamples[..]].concat();
+            let resolution = self.resolution(self.metric);
+            let work = (this.counters, this.factor);
+            Point { work, cost: self.cost(row), cpu: this.times.cpu.clone(), errors, resolution }
+        };
+        Order::of((0..self.rows.len()).map(point).collect())
     }
 
     /// Of a count of the whole picture.
-    pub fn a_pixel(&self, count: u64) -> f64 {
+    pub fn a_pixel(&self, count: f64) -> f64 {
         let Region { width, height, .. } = self.frame.region;
-        count as f64 / (f64::from(width) * f64::from(height))
+        count / (f64::from(width) * f64::from(height))
     }
 }
 
@@ -172,7 +230,7 @@ pub fn accuracy(
     let own = own(world, options.frame);
     let called = called_for(world, origins, own, options.knobs);
     let geometry = Geometries::new(world);
-    let quiet = Quiet(watch);
+    let quiet = Elapsing { clock, began, budget: options.budget, watch };
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     // All alike, so that their times compare.
     let counted = TraceOptions { count_work: true, ..options.trace };
@@ -182,16 +240,24 @@ pub fn accuracy(
 
     // What the cheapest picture takes, and the scene's own.
     let mut cheapest = own;
-    called.iter().for_each(|knob| (knob.set)(&mut cheapest, knob.settings[0]));
+    called.iter().for_each(|knob| (knob.set)(&mut cheapest, knob.cheapest()));
     let mut pilot = [Times::default(), Times::default()];
     let plans = [plan(world, origins, &cheapest), plan(world, origins, &own)];
     measure::round(world, &plans, &counted, clock, &quiet, &mut pilot)?;
     let most =
         dearest_that_fit(&called, &own, (pilot[0].wall[0], pilot[1].wall[0]), options.budget);
 
-    let mut rows = Rows { names: vec!["*".to_owned()], plans: vec![plan(world, origins, &own)] };
+    let mut rows = Rows::default();
+    let mut add = |name: String, options: &PlanOptions| {
+        let factors = called.iter().map(|knob| (knob.factor)((knob.get)(options)));
+        rows.factors.push(factors.product());
+        rows.plans.push(plan(world, origins, options));
+        rows.names.push(name);
+        rows.names.len() - 1
+    };
+    add("*".to_owned(), &own);
     let mut knobs = Vec::new();
-    for knob in called {
+    for knob in &called {
         let mine = (knob.get)(&own);
         let mut tried = Tried {
             name: knob.name,
@@ -209,7 +275,7 @@ pub fn accuracy(
             (knob.set)(&mut turned, setting);
             let row = match is_own {
                 true => 0,
-                false => rows.add(format!("{} {label}", knob.name), plan(world, origins, &turned)),
+                false => add(format!("{} {label}", knob.name), &turned),
             };
             let (flag, verdict) = ((knob.flag)(setting), Verdict::Front);
             tried.settings.push(Setting { label, flag, is_own, row, verdict });
@@ -218,15 +284,12 @@ pub fn accuracy(
     }
 
     // The audited pixels of each, and one timed run of each.
-    let steps = 3 * rows.plans.len();
     let mut colors = Vec::new();
     for plan in &rows.plans {
         colors.push(studio.colors(plan, &list, Sampling::Planned)?.0);
-        watch.progress(colors.len(), steps);
     }
     let mut times = vec![Times::default(); rows.plans.len()];
     let counters = measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
-    watch.progress(2 * rows.plans.len(), steps);
     let a_round = elapsed();
 
     // As fine a reference as is needed, or as there is time for.
@@ -247,7 +310,6 @@ pub fn accuracy(
         }
         last = elapsed() - before;
     }
-    watch.progress(2 * rows.plans.len() + rows.plans.len() / 2, steps);
 
     // More runs, while there is time for a whole round.
     let mut runs = 1;
@@ -257,47 +319,21 @@ pub fn accuracy(
         measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
         (runs, round_takes) = (runs + 1, elapsed() - before);
     }
-    watch.progress(steps, steps);
 
     let floors = Metric::ALL.map(|metric| reference.floor(metric));
-    let mut rows: Vec<Row> = rows
-        .names
-        .into_iter()
-        .zip(times)
-        .zip(counters)
-        .zip(colors)
-        .map(|(((name, times), counters), colors)| {
-            let off = reference.deviations(&colors);
-            Row {
-                name,
-                times,
-                counters,
-                errors: Metric::ALL.map(|metric| metric.estimate(&off)),
-                verdict: Verdict::Front,
-                resamples: options.metric.resampled(&off),
-                colors,
-            }
-        })
-        .collect();
-    let resolution = 4.0 * floors[options.metric as usize];
-    let points: Vec<Point> =
-        rows.iter().map(|row| point(row, options.metric, resolution)).collect();
-    for (row, verdict) in rows.iter_mut().zip(front::verdicts(&points)) {
-        row.verdict = verdict;
-    }
-    for tried in &mut knobs {
-        let mine: Vec<Point> = tried.settings.iter().map(|s| points[s.row].clone()).collect();
-        for (i, verdict) in front::verdicts(&mine).into_iter().enumerate() {
-            let row = |place: usize| tried.settings[place].row;
-            tried.settings[i].verdict = match verdict {
-                Verdict::Front => Verdict::Front,
-                Verdict::Tied { with } => Verdict::Tied { with: row(with) },
-                Verdict::Dominated { by, time, error } => {
-                    Verdict::Dominated { by: row(by), time, error }
-                }
-            };
+    let rows = (0..colors.len()).map(|row| {
+        let off = reference.deviations(&colors[row]);
+        Row {
+            name: std::mem::take(&mut rows.names[row]),
+            times: std::mem::take(&mut times[row]),
+            counters: counters[row],
+            factor: rows.factors[row],
+            errors: Metric::ALL.map(|metric| metric.estimate(&off)),
+            verdict: Verdict::Front,
+            resamples: options.metric.resampled(&off),
+            colors: std::mem::take(&mut colors[row]),
         }
-    }
+    });
     let mut report = Report {
         frame: options.frame,
         metric: options.metric,
@@ -306,14 +342,10 @@ pub fn accuracy(
         reference_samples: reference.samples(),
         floors,
         runs,
+        rows: rows.collect(),
         knobs,
-        rows,
     };
-    let sentences: Vec<String> =
-        report.knobs.iter().map(|tried| sentence::of(&report, tried)).collect();
-    for (tried, sentence) in report.knobs.iter_mut().zip(sentences) {
-        tried.sentence = sentence;
-    }
+    report.judge();
     Some(report)
 }
 
@@ -335,29 +367,12 @@ fn dearest_that_fit(knobs: &[&Knob], own: &PlanOptions, takes: (f64, f64), budge
     all.into_iter().take_while(fits).last().unwrap_or(1.0)
 }
 
-fn point(row: &Row, metric: Metric, resolution: f64) -> Point {
-    let value = row.errors[metric as usize].value;
-    let resolved = value >= resolution;
-    Point {
-        time: Span::of(&row.times.cpu).min,
-        spread: row.times.spread(),
-        error: value.max(resolution),
-        resamples: if resolved { row.resamples.clone() } else { Vec::new() },
-    }
-}
-
 /// Pictures to try.
+#[derive(Default)]
 struct Rows {
     names: Vec<String>,
     plans: Vec<Plan>,
-}
-
-impl Rows {
-    fn add(&mut self, name: String, plan: Plan) -> usize {
-        self.names.push(name);
-        self.plans.push(plan);
-        self.plans.len() - 1
-    }
+    factors: Vec<f64>,
 }
 
 /// Passes on the wish to stop, and not how far one of many parts has come.
