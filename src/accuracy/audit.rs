@@ -42,6 +42,15 @@ pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u3
     sets
 }
 
+/// A set in an order that any first part of is spread over the picture like the whole.
+pub fn shuffled(mut set: Vec<(u32, u32)>, seed: u64) -> Vec<(u32, u32)> {
+    let mut random = Random::of(seed, 1);
+    for last in (1..set.len()).rev() {
+        set.swap(last, random.below(last + 1));
+    }
+    set
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -80,7 +80,7 @@ struct Truth {
 
 impl Truth {
     fn new(world: &World, origins: &Origins, frame: Frame, step: usize) -> Self {
-        let geometry = Geometries::new(world);
+        let geometry = Geometries::default();
         let studio = Studio { world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let list = audit::sets(frame.region, u32::MAX, 1, 0).remove(0);
         let deep = plan(world, origins, &dearest(own(world, frame), KNOBS));
@@ -110,7 +110,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
         let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
         let traced = trace(&world, &plan, &ONE_THREAD, &Unwatched);
         let exact = truth.deviations(&traced);
-        let geometry = Geometries::new(&world);
+        let geometry = Geometries::default();
         let studio =
             Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let mut holds = [0; 3];
