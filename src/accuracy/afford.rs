@@ -14,12 +14,14 @@ use crate::world::Origins;
 /// Fewer pixels than this say nothing of a picture.
 pub const LEAST: usize = 30;
 /// Fewer pixels than this are not worth many samples each.
-const FEW: usize = 256;
+const FEW: usize = 128;
 /// Of the time there is: what a first look all the way may take, and each one less deep.
 const FOR_ALL_THE_WAY: f64 = 1.0 / 3.0;
 const FOR_LESS: f64 = 1.0 / 6.0;
 /// Of the time that is left then: what the prediction may be wrong by.
 const PREDICTED: f64 = 0.85;
+/// Where no clock is read: the most rays, of all kinds, that a sample of a reference may send as a rule.
+const MOST_RAYS: f64 = 2048.0;
 
 /// Asks to stop when the time is up.
 pub struct Deadline<'a> {
@@ -133,13 +135,47 @@ fn deepest(
     let (mut depth, mut found) = (1, None);
     while let Some((affordable, took)) = look(depth, allowed) {
         found = Some(affordable);
-        let doublings = if took > 0.0 { (allowed / took).max(1.0).log2() } else { 1.0 };
         // A look all the way has failed already.
-        let deeper = depth.saturating_add(doublings as u32).min(most.saturating_sub(1));
+        let deeper = (depth + doublings(took, allowed)).min(most.saturating_sub(1));
         if deeper <= depth {
             break;
         }
         depth = deeper;
     }
     found
+}
+
+/// How deep a reference may look whose samples send no more than [`MOST_RAYS`] as a rule, and at least
+/// as deep as `own`: counted, so the same on every run. `None` when stopped.
+pub fn counted_depth(
+    studio: &Studio,
+    depths: &Depths,
+    list: &[(u32, u32)],
+    seed: u64,
+    own: u32,
+) -> Option<u32> {
+    let few = &list[..list.len().min(LEAST)];
+    let (mut depth, mut found) = (1, 1);
+    while depth <= depths.most() {
+        let plan = depths.plan(studio, depth);
+        let reference = Reference::new(studio, &plan, few, seed, Reference::ROUGH)?;
+        let samples = f64::from(reference.samples()) * few.len() as f64;
+        let rays = reference.counters.rays() as f64 / samples;
+        if rays > MOST_RAYS {
+            break;
+        }
+        found = depth;
+        let deeper = depth + doublings(rays, MOST_RAYS).max(1);
+        depth = if depth < depths.most() { deeper.min(depths.most()) } else { deeper };
+    }
+    Some(found.max(own).min(depths.most()))
+}
+
+/// How much deeper one can look for `allowed` than for `took`, if every path forks at each surface.
+fn doublings(took: f64, allowed: f64) -> u32 {
+    let ratio = if took > 0.0 { allowed / took } else { 2.0 };
+    std::iter::successors(Some(2.0), |power| Some(power * 2.0))
+        .take_while(|&power: &f64| power <= ratio)
+        .take(64)
+        .count() as u32
 }

@@ -36,8 +36,6 @@ pub struct Tuning<'a> {
     pub own: PlanOptions,
     tried: BTreeMap<Vec<usize>, Choice>,
     settings: Vec<Vec<f64>>,
-    /// How deep the reference looks: of what is set deeper it cannot tell the error.
-    most_depth: u32,
     /// When the choice is to be made.
     until: Option<(&'a dyn Clock, f64)>,
 }
@@ -58,25 +56,21 @@ impl<'a> Tuning<'a> {
     ) -> Self {
         let settings = knobs.iter().map(|knob| knob.with((knob.get)(&own))).collect();
         let tried = BTreeMap::new();
-        let (most_depth, until) = (u32::MAX, None);
-        Self {
-            studio,
-            origins,
-            list,
-            reference,
-            metric,
-            knobs,
-            own,
-            tried,
-            settings,
-            most_depth,
-            until,
-        }
+        let until = None;
+        Self { studio, origins, list, reference, metric, knobs, own, tried, settings, until }
     }
 
-    /// Nothing deeper is tried.
-    pub fn no_deeper_than(&mut self, depth: u32) {
-        self.most_depth = depth;
+    /// Nothing deeper is tried, unless the scene's own setting is: of what looks deeper than the
+    /// reference that cannot tell the error.
+    pub fn no_deeper_than(&mut self, most: u32) {
+        for (knob, settings) in self.knobs.iter().zip(&mut self.settings) {
+            let own = self.own;
+            settings.retain(|&setting| {
+                let mut turned = own;
+                (knob.set)(&mut turned, setting);
+                turned == own || turned.depth.is_none_or(|depth| depth <= most)
+            });
+        }
     }
 
     /// From now on settings whose trial takes too long are not to be had.
@@ -105,9 +99,6 @@ impl<'a> Tuning<'a> {
         let mut options = self.own;
         for ((knob, settings), &place) in self.knobs.iter().zip(&self.settings).zip(places) {
             (knob.set)(&mut options, settings[place]);
-        }
-        if options.depth.is_some_and(|depth| depth > self.most_depth) {
-            return None;
         }
         let (colors, counters) = self.colors(&options)?;
         let error = self.metric.estimate(&self.reference.deviations(&colors));

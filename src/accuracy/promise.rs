@@ -7,11 +7,11 @@ use super::afford::{self, Deadline, Depths, LEAST};
 use super::choose::{Choice, Tuning};
 use super::knob::{Knob, cost};
 use super::measure::{Clock, Timer};
-use super::{audit, refine};
 use super::reference::{Geometries, Reference, Studio, clamped};
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet, called_for, dearest, own};
-use crate::plan::{Antialias, Plan, PlanOptions, plan};
+use super::{audit, refine};
+use crate::plan::{Antialias, PlanOptions, plan};
 use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
 
@@ -40,9 +40,9 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// Its interval ends below `most`.
+    /// Its interval ends below `most`, and all that a reference can see was looked at.
     pub fn proves(&self, most: f64) -> bool {
-        self.error.high <= most
+        self.error.high <= most && self.depth.is_none()
     }
 }
 
@@ -122,16 +122,23 @@ fn kept(
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     let easel = Easel::new(world, origins, options);
     let metric = options.metric;
+    let depths = Depths { origins, deepest: easel.deepest };
+    let few = audit::shuffled(sets[0].clone(), options.seed);
+    let own_depth = easel.own.depth.unwrap_or(1);
+    let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
+    let deep = depths.plan(&studio, depth);
+    let cut = (depth < depths.most()).then_some(depth);
     let truth = |list: &[(u32, u32)]| {
         let mut reference =
-            Reference::new(&studio, &easel.deep, list, options.seed, Reference::COARSEST)?;
-        reference.resolve(&studio, &easel.deep, list, metric, promise)?;
+            Reference::new(&studio, &deep, list, options.seed, Reference::COARSEST)?;
+        reference.resolve(&studio, &deep, list, metric, promise)?;
         Some(reference)
     };
     let choose =
         |list: &[(u32, u32)], reference: &Reference, aims: &[f64], not: Option<&Choice>| {
             let mut tuning =
                 Tuning::new(studio, origins, (list, reference), metric, &easel.knobs, easel.own);
+            tuning.no_deeper_than(depth);
             let mut choice = tuning.cheapest(aims[0])?;
             for &aim in &aims[1..] {
                 if not.is_some_and(|not| not.options == choice.options) {
@@ -153,8 +160,9 @@ fn kept(
         kept.traced = studio.picture(&plan(world, origins, &choice.options), watch);
         if kept.traced.complete {
             let error = audited(&kept.traced, list, reference, metric).error.value;
-            reference.resolve(&studio, &easel.deep, list, metric, error)?;
-            kept.audit = Some(audited(&kept.traced, list, reference, metric));
+            reference.resolve(&studio, &deep, list, metric, error)?;
+            let audit = audited(&kept.traced, list, reference, metric);
+            kept.audit = Some(Audit { depth: cut, ..audit });
         }
         kept.audit
     };
@@ -163,7 +171,8 @@ fn kept(
     let choice = choose(&sets[0], &reference, &[AIM * promise], None)?;
     let mut fresh = truth(&sets[1])?;
     let Some(audit) = render(&choice, &sets[1], &mut fresh) else { return Some(kept) };
-    if audit.proves(promise) {
+    // A better picture proves no more where the reference does not look all the way.
+    if audit.error.high <= promise {
         return Some(kept);
     }
     tell(Step::Refining(audit));
@@ -199,7 +208,7 @@ pub fn spend(
     let took = timer.read().1;
     let mut spent = Spent {
         traced: first,
-        first: easel.flags(&off),
+        first: easel.flags_of_rays(&off),
         then: None,
         refined: 0,
         audit: None,
@@ -218,14 +227,12 @@ pub fn spend(
 
     let tuned = clock.wall() + FOR_TUNING * left;
     let samples = Reference::samples_at(Reference::COARSEST);
-    let known =
-        afford::reference(&studio, &depths, &tuning, options.seed, (clock, tuned), samples);
+    let known = afford::reference(&studio, &depths, &tuning, options.seed, (clock, tuned), samples);
     let choice = known.and_then(|known| {
         let list = &tuning[..known.reference.pixels()];
         let (knobs, metric) = (&easel.knobs, options.metric);
         let own = easel.own;
-        let mut tuning =
-            Tuning::new(studio, origins, (list, &known.reference), metric, knobs, own);
+        let mut tuning = Tuning::new(studio, origins, (list, &known.reference), metric, knobs, own);
         tuning.no_deeper_than(known.plan.max_trace_level);
         tuning.in_time((clock, clock.wall() + FOR_TUNING * left));
         tuning.best(PREDICTED * (render_until - clock.wall()) / (a_unit * pixels))
@@ -235,17 +242,17 @@ pub fn spend(
     let then = PlanOptions { antialias: Antialias::Off, ..chosen };
     let in_time = late(render_until);
     let refiner = Studio { watch: &in_time, ..studio };
-    let plan = plan(world, origins, &then);
-    let refined = refine::refine(&refiner, &plan, then != off, &mut spent.traced.film);
+    let then_plan = plan(world, origins, &then);
+    let anew = easel.dearer(&off, &then);
+    let refined = refine::refine(&refiner, &then_plan, anew, &mut spent.traced.film);
     spent.traced.counters += refined.counters;
-    spent.then = (then != off).then(|| easel.flags(&then));
+    spent.then = (then != off).then(|| easel.flags_of_rays(&then));
     spent.refined = refined.pixels;
 
     let (in_time, last) = (late(until + kept), until.max(clock.wall() + kept));
     let auditor = Studio { watch: &in_time, ..studio };
     let fine = Reference::samples_at(usize::MAX);
-    let known =
-        afford::reference(&auditor, &depths, &fresh, options.seed, (clock, last), fine);
+    let known = afford::reference(&auditor, &depths, &fresh, options.seed, (clock, last), fine);
     spent.audit = known.map(|known| {
         let list = &fresh[..known.reference.pixels()];
         let audit = audited(&spent.traced, list, &known.reference, options.metric);
@@ -259,7 +266,6 @@ pub fn spend(
 struct Easel<'a> {
     own: PlanOptions,
     deepest: PlanOptions,
-    deep: Plan,
     knobs: Vec<&'a Knob>,
 }
 
@@ -267,13 +273,28 @@ impl<'a> Easel<'a> {
     fn new(world: &World, origins: &Origins, options: &Options<'a>) -> Self {
         let own = own(world, options.frame);
         let deepest = dearest(own, options.knobs);
-        let deep = plan(world, origins, &deepest);
-        Self { own, deepest, deep, knobs: called_for(world, origins, own, options.knobs) }
+        Self { own, deepest, knobs: called_for(world, origins, own, options.knobs) }
     }
 
     fn flags(&self, options: &PlanOptions) -> String {
         let flags = self.knobs.iter().map(|knob| (knob.flag)((knob.get)(options)));
         flags.collect::<Vec<_>>().join(" ")
+    }
+
+    /// The same without the knob that the first pass and what follows it turn themselves.
+    fn flags_of_rays(&self, options: &PlanOptions) -> String {
+        let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
+        let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));
+        flags.collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether a knob stands dearer in the second than in the first.
+    fn dearer(&self, than: &PlanOptions, options: &PlanOptions) -> bool {
+        self.knobs.iter().any(|knob| {
+            let settings = knob.with((knob.get)(than));
+            let place = |of| settings.iter().position(|&setting| setting == (knob.get)(of));
+            place(options) > place(than)
+        })
     }
 }
 

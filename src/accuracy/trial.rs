@@ -98,11 +98,7 @@ impl Bench<'_> {
     }
 
     /// Tries the candidates, the first being the scene's own settings.
-    pub fn run(
-        &self,
-        candidates: &[Candidate],
-        list: &[(u32, u32)],
-    ) -> Result<Trial, Unmeasured> {
+    pub fn run(&self, candidates: &[Candidate], list: &[(u32, u32)]) -> Result<Trial, Unmeasured> {
         let stopped = || match self.watch.should_stop() {
             true => Unmeasured::Stopped,
             false => Unmeasured::TooShort,
@@ -151,13 +147,19 @@ impl Bench<'_> {
             }
         }
         self.watch.progress(candidates.len() + 2, steps);
+        let a_round = |pictures: &[Picture]| {
+            pictures.iter().map(|picture| picture.times.wall[0]).sum::<f64>()
+        };
+        // Where there is no time to run all once more, some that were too dear may still fit.
+        if self.clock.wall() + a_round(&pictures) >= until {
+            self.others(candidates, &deep, list, until, &mut pictures)?;
+        }
 
         let plans: Vec<Plan> =
             pictures.iter().map(|p| candidates[p.candidate].plan.clone()).collect();
         let mut times: Vec<Times> = pictures.iter().map(|p| p.times.clone()).collect();
         let in_time = Deadline { clock: self.clock, until, watch: self.studio.watch };
-        let mut takes = times.iter().map(|times| times.wall[0]).sum::<f64>();
-        let mut runs = 1;
+        let (mut runs, mut takes) = (1, a_round(&pictures));
         // More runs, while there is time for a whole round.
         while runs < MOST_ROUNDS && self.clock.wall() + takes < until {
             let began = self.clock.wall();
@@ -188,7 +190,8 @@ impl Bench<'_> {
         until: f64,
         pictures: &mut Vec<Picture>,
     ) -> Result<(), Unmeasured> {
-        let mut order: Vec<usize> = (1..candidates.len()).collect();
+        let tried = |number: &usize| pictures.iter().any(|picture| picture.candidate == *number);
+        let mut order: Vec<usize> = (0..candidates.len()).filter(|n| !tried(n)).collect();
         order.sort_by(|&a, &b| candidates[a].least.total_cmp(&candidates[b].least));
         // Of those a camera ray a pixel was seen to take less than.
         let mut a_ray = f64::INFINITY;

@@ -42,7 +42,11 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
             let list = scattered(region);
             let single = some(&plan, &world, &list, Sampling::Planned);
             for (&(x, y), radiance) in list.iter().zip(&single.radiance) {
-                assert_eq!(*radiance, Some(traced.film.radiance[traced.film.index(x, y)]), "{x} {y}");
+                assert_eq!(
+                    *radiance,
+                    Some(traced.film.radiance[traced.film.index(x, y)]),
+                    "{x} {y}"
+                );
             }
             let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
             // What last shadowed a ray is another where the pixels come in another order.
