@@ -333,4 +333,6 @@ impl Watch for Quiet<'_> {
 }
 
 #[cfg(test)]
+mod budget_tests;
+#[cfg(test)]
 mod tests;

@@ -140,10 +140,10 @@ fn contrasts(film: &Film) -> Vec<f64> {
 }
 
 /// In another order: of each first part, about the same share lies in any part of the picture.
-fn spread(list: Vec<usize>) -> Vec<usize> {
+pub fn spread(list: Vec<usize>) -> Vec<usize> {
     let runs: Vec<&[usize]> = list.chunks(RUN).collect();
     // By the golden ratio, in a step that has no divisor in common with their number.
-    let golden = (0.618 * runs.len() as f64) as usize;
+    let golden = (0.618 * runs.len() as f64).round() as usize;
     let step = (golden.max(1)..).find(|&step| divisor(step, runs.len()) == 1).unwrap_or(1);
     (0..runs.len()).flat_map(|k| runs[k * step % runs.len()]).copied().collect()
 }

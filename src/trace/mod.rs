@@ -24,7 +24,7 @@ mod tiles;
 
 use std::ops::AddAssign;
 
-use crate::color::Gamma;
+use crate::color::{Gamma, Rgb};
 use crate::film::Film;
 use crate::geometry::{Geometry, Hit, Occluder, Work};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
@@ -234,11 +234,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens { camera: &tracer.world.camera, width, height };
     let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
-        let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
-            walk.counters.camera += 1;
-            tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray((x, y), (i, j), grid))
-        });
-        (radiance, grid * grid)
+        sampled::<SHADOWS, SECONDARY>(tracer, &lens, walk, (x, y), grid)
     };
     let region = plan.frame.region;
     let empty =
@@ -262,6 +258,22 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
             second
         }
     }
+}
+
+/// The mean of a pixel's samples, and how many.
+#[inline(always)]
+fn sampled<const SHADOWS: bool, const SECONDARY: bool>(
+    tracer: &Tracer,
+    lens: &Lens,
+    walk: &mut Walk,
+    pixel: (u32, u32),
+    grid: u32,
+) -> (Rgb, u32) {
+    let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
+        walk.counters.camera += 1;
+        tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray(pixel, (i, j), grid))
+    });
+    (radiance, grid * grid)
 }
 
 /// The region and the pixels around it.
