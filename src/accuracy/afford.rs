@@ -1,9 +1,9 @@
 //! The finest reference there is time for.
 //!
 //! **In:** pixels in an order that any first part of is spread over the picture, and a time to be done
-//! by. **Out:** a reference of a first part of them. **Invariant:** pixels are given up before
-//! samples, and depth last; what was given up can be read from the reference: its pixels, samples
-//! and depth.
+//! by. **Out:** a reference of a first part of them. **Invariant:** it looks as deep as can be, if need
+//! be at few pixels and with few samples; its pixels, its samples and the depth of its plan tell what
+//! was given up.
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
@@ -82,13 +82,18 @@ pub fn reference(
     let rough = deepest(studio, depths, &list[..list.len().min(LEAST)], seed, (clock, until))?;
     let left = until - clock.wall();
     let affordable = (PREDICTED * left / rough.a_sample).max(0.0);
-    let most = Reference::finest_within(samples as usize);
-    // Pixels first, and samples where even few pixels are too many.
-    let enough = |step| affordable / f64::from(Reference::samples_at(step));
-    let step = (0..=most).rev().find(|&step| enough(step) >= FEW.min(list.len()) as f64);
-    let (step, pixels) = match step {
-        Some(step) => (step, enough(step).min(list.len() as f64) as usize),
-        None => (Reference::ROUGH, enough(Reference::ROUGH) as usize),
+    let enough = |step| {
+        let pixels = affordable / f64::from(Reference::samples_at(step));
+        (pixels as usize).min(list.len())
+    };
+    // All pixels, then more samples of each; where even few pixels are too many, fewer samples.
+    let coarse = enough(Reference::COARSEST);
+    let (step, pixels) = match coarse >= FEW.min(list.len()) {
+        true => {
+            let each = (affordable / coarse.max(1) as f64).min(f64::from(samples));
+            (Reference::finest_within(each as usize).max(Reference::COARSEST), coarse)
+        }
+        false => (Reference::ROUGH, enough(Reference::ROUGH)),
     };
     if pixels <= rough.reference.pixels() && step <= rough.reference.step() {
         return Some(rough);
