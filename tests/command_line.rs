@@ -768,9 +768,9 @@ fn a_reader_that_leaves_early_is_no_error() {
 #[test]
 fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let place = Place::new();
-    let run = place.run("accuracy a.scene --size 48x36 --budget 300ms --threads 1").ends(0, &[]);
+    let run = place.run("accuracy a.scene --size 24x18 --budget 8s --threads 1").ends(0, &[]);
     let table = run.stdout();
-    assert!(table.starts_with("a.scene 48×36: 1728 audited pixels (seed 1), "), "{table}");
+    assert!(table.starts_with("a.scene 24×18: 432 audited pixels (seed 1), "), "{table}");
     assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
     assert!(table.contains("  rays/px  boxes/px  roots/px "), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
@@ -783,7 +783,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
 #[test]
 fn accuracy_writes_json_and_a_diagram() {
     let place = Place::new();
-    let words = "accuracy a.scene --size 32x24 --budget 200ms --json --svg d.svg --metric bad";
+    let words = "accuracy a.scene --size 32x24 --budget 4s --json --svg d.svg --metric bad";
     let run = place.run(words).ends(0, &["d.svg: the work-precision diagram"]);
     let report: serde_json::Value = serde_json::from_str(&run.stdout()).expect("JSON");
     assert_eq!(report["metric"], "bad");
@@ -806,7 +806,7 @@ fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
     let mirror = SCENE.replace("pigment", "finish { reflection 0.5 } pigment");
     let mirror = format!("background {{ rgb 0.5 }}\n{mirror}");
     place.write("m.scene", &mirror);
-    let words = "accuracy m.scene --size 32x24 --budget 200ms --knobs depth,adc-bailout";
+    let words = "accuracy m.scene --size 32x24 --budget 4s --knobs depth,adc-bailout";
     let table = place.run(words).ends(0, &[]).stdout();
     assert!(table.contains("\ndepth\n") && table.contains("\nadc-bailout\n"), "{table}");
     assert!(!table.contains("\nantialias\n"), "{table}");
@@ -816,6 +816,9 @@ fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
         .run("accuracy m.scene --knobs depht")
         .ends(2, &["antialias, depth, adc-bailout, precision"]);
     place.run("accuracy m.scene --budget 0").ends(2, &["such as 500ms, 60s or 5m"]);
+    place
+        .run("accuracy m.scene --budget 1ms")
+        .ends(4, &["0.001 s are too few", "nothing was measured"]);
     place.run("accuracy m.scene --svg d.png").ends(2, &["is an .svg"]);
     place.run("accuracy broken.scene").ends(1, &["unknown-word"]);
     place.run("accuracy no.scene").ends(3, &["no.scene"]);
@@ -871,7 +874,7 @@ fn a_promise_has_a_right_form_and_enough_pixels() {
 fn a_time_that_suffices_is_used_and_one_that_does_not_leaves_what_there_is() {
     let place = Place::new();
     let run = place.run("a.scene --size 160x120 --time-budget 3s -o t.png");
-    let run = run.ends(0, &["t.png: 160×120", "made with: --antialias "]);
+    let run = run.ends(0, &["t.png: 160×120", "\none ray a pixel (--", ", then samples instead: "]);
     let said = run.stderr();
     let took: f64 = said
         .split(", ")

@@ -1,15 +1,17 @@
 //! Which settings to render with: the cheapest that keep a promise, or the best that are affordable.
 //!
 //! **In:** tuning pixels and their reference. **Out:** a [`Choice`]. **Invariant:** costs are rays
-//! times unit costs, no clock is read: the same choice on every run.
+//! times unit costs: the same choice on every run, unless a time is set in which to choose.
 
 use std::collections::BTreeMap;
 
+use super::afford::Deadline;
 use super::knob::{Knob, cost};
+use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
 use crate::plan::{PlanOptions, plan};
-use crate::trace::Sampling;
+use crate::trace::{Counters, Sampling};
 use crate::world::Origins;
 
 /// Settings and what the tuning pixels say of them.
@@ -34,7 +36,14 @@ pub struct Tuning<'a> {
     pub own: PlanOptions,
     tried: BTreeMap<Vec<usize>, Choice>,
     settings: Vec<Vec<f64>>,
+    /// When the choice is to be made.
+    until: Option<(&'a dyn Clock, f64)>,
 }
+
+/// Part of the error that a dearer setting must take off.
+const WORTHWHILE: f64 = 0.02;
+/// Of the time that is left to choose in, what one trial may take.
+const FOR_A_TRIAL: f64 = 0.25;
 
 impl<'a> Tuning<'a> {
     pub fn new(
@@ -47,10 +56,42 @@ impl<'a> Tuning<'a> {
     ) -> Self {
         let settings = knobs.iter().map(|knob| knob.with((knob.get)(&own))).collect();
         let tried = BTreeMap::new();
-        Self { studio, origins, list, reference, metric, knobs, own, tried, settings }
+        let until = None;
+        Self { studio, origins, list, reference, metric, knobs, own, tried, settings, until }
     }
 
-    /// What the tuning pixels say of settings, one of each knob. `None` when stopped.
+    /// Nothing deeper is tried, unless the scene's own setting is: of what looks deeper than the
+    /// reference that cannot tell the error.
+    pub fn no_deeper_than(&mut self, most: u32) {
+        for (knob, settings) in self.knobs.iter().zip(&mut self.settings) {
+            let own = self.own;
+            settings.retain(|&setting| {
+                let mut turned = own;
+                (knob.set)(&mut turned, setting);
+                turned == own || turned.depth.is_none_or(|depth| depth <= most)
+            });
+        }
+    }
+
+    /// From now on settings whose trial takes too long are not to be had.
+    pub fn in_time(&mut self, until: (&'a dyn Clock, f64)) {
+        self.until = Some(until);
+    }
+
+    /// The colours of the tuning pixels.
+    fn colors(&self, options: &PlanOptions) -> Option<(Vec<[f64; 3]>, Counters)> {
+        let plan = plan(self.studio.world, self.origins, options);
+        let Some((clock, until)) = self.until else {
+            return self.studio.colors(&plan, self.list, Sampling::Planned);
+        };
+        let now = clock.wall();
+        let until = now + FOR_A_TRIAL * (until - now);
+        let in_time = Deadline { clock, until, watch: self.studio.watch };
+        let studio = Studio { watch: &in_time, ..self.studio };
+        studio.colors(&plan, self.list, Sampling::Planned)
+    }
+
+    /// What the tuning pixels say of settings, one of each knob. `None` when stopped, or not to be had.
     fn try_out(&mut self, places: &[usize]) -> Option<Choice> {
         if let Some(known) = self.tried.get(places) {
             return Some(known.clone());
@@ -59,8 +100,7 @@ impl<'a> Tuning<'a> {
         for ((knob, settings), &place) in self.knobs.iter().zip(&self.settings).zip(places) {
             (knob.set)(&mut options, settings[place]);
         }
-        let plan = plan(self.studio.world, self.origins, &options);
-        let (colors, counters) = self.studio.colors(&plan, self.list, Sampling::Planned)?;
+        let (colors, counters) = self.colors(&options)?;
         let error = self.metric.estimate(&self.reference.deviations(&colors));
         let factors = self.knobs.iter().map(|knob| (knob.factor)((knob.get)(&options)));
         let cost = factors.product::<f64>() * cost(&counters) / self.list.len() as f64;
@@ -107,7 +147,7 @@ impl<'a> Tuning<'a> {
     }
 
     /// The settings of least error whose cost is at most `affordable` camera rays a pixel, of those
-    /// tried before it was stopped. One knob after the other, the rest as the scene has them.
+    /// that can be tried. One knob after the other, the rest as the scene has them.
     pub fn best(&mut self, affordable: f64) -> Option<Choice> {
         let at_own = |(knob, all): (&&Knob, &Vec<f64>)| {
             let own = (knob.get)(&self.own);
@@ -123,9 +163,10 @@ impl<'a> Tuning<'a> {
                 }
                 let mut trial = places.clone();
                 trial[turned] = place;
-                let Some(choice) = self.try_out(&trial) else { return best };
+                let Some(choice) = self.try_out(&trial) else { continue };
                 let better = best.as_ref().is_none_or(|best| {
-                    (choice.error.value, choice.cost) < (best.error.value, best.cost)
+                    choice.error.value < (1.0 - WORTHWHILE) * best.error.value
+                        || (choice.error.value <= best.error.value && choice.cost < best.cost)
                 });
                 if choice.cost <= affordable && better {
                     places = trial;

@@ -5,9 +5,9 @@
 
 use std::sync::Mutex;
 
+use super::reference::Studio;
 use crate::plan::Plan;
-use crate::trace::{Counters, TraceOptions, Watch, trace};
-use crate::world::World;
+use crate::trace::Watch;
 
 /// Seconds, from wherever they are counted.
 pub trait Clock: Sync {
@@ -100,31 +100,27 @@ impl Watch for Elapsing<'_> {
     }
 }
 
-/// One run of each plan, in turn; every second round backwards. Counters are of the last run.
-/// `None` when stopped.
+/// One run of each plan, in turn; every second round backwards. `None` when stopped.
 pub fn round(
-    world: &World,
+    studio: &Studio,
     plans: &[Plan],
-    options: &TraceOptions,
     clock: &dyn Clock,
     watch: &dyn Watch,
     times: &mut [Times],
-) -> Option<Vec<Counters>> {
-    let mut counters = vec![Counters::default(); plans.len()];
+) -> Option<()> {
     let backwards = times.first().is_some_and(|times| times.cpu.len() % 2 == 1);
     for turn in 0..plans.len() {
         let i = if backwards { plans.len() - 1 - turn } else { turn };
         let timer = Timer::new(clock, watch);
-        let traced = trace(world, &plans[i], options, &timer);
+        let traced = studio.picture(&plans[i], &timer);
         let (cpu, wall) = timer.read();
         if !traced.complete {
             return None;
         }
         times[i].cpu.push(cpu);
         times[i].wall.push(wall);
-        counters[i] = traced.counters;
     }
-    Some(counters)
+    Some(())
 }
 
 #[cfg(test)]

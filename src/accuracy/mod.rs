@@ -4,6 +4,7 @@
 //! pixels, samples and intervals are drawn from seeds, so errors are the same on every run that has
 //! time for the same reference; only seconds differ. Nothing here prints or reads disks.
 
+mod afford;
 mod audit;
 mod choose;
 mod front;
@@ -12,10 +13,12 @@ mod knob;
 mod measure;
 mod promise;
 mod reference;
+mod refine;
 mod sentence;
 mod statistics;
 pub mod svg;
 pub mod table;
+mod trial;
 
 pub use front::{ENOUGH_RUNS, Order, Saving, Verdict};
 pub use knob::{KNOBS, Knob};
@@ -23,12 +26,14 @@ pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
 pub use statistics::{Estimate, Metric};
 
-use crate::plan::{Frame, Plan, PlanOptions, Region, plan};
-use crate::trace::{Counters, Sampling, TraceOptions, Watch};
+use crate::plan::{Frame, PlanOptions, Region, plan};
+use crate::trace::{Counters, TraceOptions, Watch};
 use crate::world::{Origins, World};
+use afford::Depths;
 use front::Point;
 use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
+use trial::{Bench, Candidate, Picture, Trial};
 
 /// What is asked.
 #[derive(Debug, Clone, Copy)]
@@ -43,11 +48,13 @@ pub struct Options<'a> {
     pub trace: TraceOptions,
 }
 
-/// Of the budget: what a reference may take, and what one round of runs may.
-const FOR_REFERENCE: f64 = 0.35;
-const FOR_A_ROUND: f64 = 0.3;
-/// The most runs of each picture.
-const MOST_ROUNDS: usize = 9;
+/// Why there is no report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unmeasured {
+    Stopped,
+    /// The scene's own picture and the roughest reference take longer than the budget.
+    TooShort,
+}
 
 /// What the settings cost and buy.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +63,8 @@ pub struct Report {
     pub metric: Metric,
     pub seed: u64,
     pub audited: usize,
+    /// What had to be given up to keep the budget, settings aside.
+    pub cut: Vec<String>,
     /// Of each audited pixel.
     pub reference_samples: u32,
     /// The reference's own error, in each of [`Metric::ALL`].
@@ -72,7 +81,7 @@ pub struct Tried {
     pub name: &'static str,
     /// From cheap to dear.
     pub settings: Vec<Setting>,
-    /// What would not have fitted into the budget.
+    /// What did not fit into the budget.
     pub left_out: Vec<String>,
     /// What it bought, or that it buys nothing here.
     pub sentence: String,
@@ -217,128 +226,119 @@ fn called_for<'a>(
     knobs.iter().filter(called).collect()
 }
 
-/// Tries every setting of every knob, the others as the scene has them. `None` when stopped.
+/// Tries every setting of every knob that there is time for, the others as the scene has them.
+///
+/// # Errors
+/// When it is stopped, or the budget is too short to measure anything.
 pub fn accuracy(
     world: &World,
     origins: &Origins,
     options: &Options,
     clock: &dyn Clock,
     watch: &dyn Watch,
-) -> Option<Report> {
+) -> Result<Report, Unmeasured> {
     let began = clock.wall();
-    let elapsed = || clock.wall() - began;
+    let until = began + options.budget;
     let own = own(world, options.frame);
     let called = called_for(world, origins, own, options.knobs);
-    let geometry = Geometries::new(world);
-    let quiet = Elapsing { clock, began, budget: options.budget, watch };
-    let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
+    let geometry = Geometries::default();
+    let elapsing = Elapsing { clock, began, budget: options.budget, watch };
     // All alike, so that their times compare.
     let counted = TraceOptions { count_work: true, ..options.trace };
-    let region = options.frame.region;
-    let list = audit::sets(region, audit::WANTED, 1, options.seed).remove(0);
+    let studio = Studio { world, geometry: &geometry, options: counted, watch: &elapsing };
+    let list = audit::sets(options.frame.region, audit::WANTED, 1, options.seed).remove(0);
+    let list = audit::shuffled(list, options.seed);
     watch.built();
 
-    // What the cheapest picture takes, and the scene's own.
-    let mut cheapest = own;
-    called.iter().for_each(|knob| (knob.set)(&mut cheapest, knob.cheapest()));
-    let mut pilot = [Times::default(), Times::default()];
-    let plans = [plan(world, origins, &cheapest), plan(world, origins, &own)];
-    measure::round(world, &plans, &counted, clock, &quiet, &mut pilot)?;
-    let most =
-        dearest_that_fit(&called, &own, (pilot[0].wall[0], pilot[1].wall[0]), options.budget);
-
-    let mut rows = Rows::default();
-    let mut add = |name: String, options: &PlanOptions| {
-        let factors = called.iter().map(|knob| (knob.factor)((knob.get)(options)));
-        rows.factors.push(factors.product());
-        rows.plans.push(plan(world, origins, options));
-        rows.names.push(name);
-        rows.names.len() - 1
+    let factor = |options: &PlanOptions| {
+        called.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
     };
-    add("*".to_owned(), &own);
-    let mut knobs = Vec::new();
-    for knob in &called {
+    let mut factors = vec![factor(&own)];
+    let mut candidates = vec![Candidate {
+        name: "*".to_owned(),
+        plan: plan(world, origins, &own),
+        knob: called.len(),
+        least: 1.0,
+        rises: false,
+    }];
+    let mut settings = Vec::new();
+    for (number, knob) in called.iter().enumerate() {
         let mine = (knob.get)(&own);
-        let mut tried = Tried {
+        for setting in knob.with(mine) {
+            let is_own = setting == mine;
+            settings.push((number, setting, if is_own { 0 } else { candidates.len() }));
+            if !is_own {
+                let mut turned = own;
+                (knob.set)(&mut turned, setting);
+                factors.push(factor(&turned));
+                candidates.push(Candidate {
+                    name: format!("{} {}", knob.name, (knob.label)(setting)),
+                    plan: plan(world, origins, &turned),
+                    knob: number,
+                    least: (knob.least)(setting),
+                    rises: knob.between,
+                });
+            }
+        }
+    }
+    let depths = Depths { origins, deepest: dearest(own, options.knobs) };
+    let most_depth = depths.most();
+    let bench = Bench { studio, depths, options, clock, until };
+    let Trial { reference, depth, pictures, runs } = bench.run(&candidates, &list)?;
+
+    let mut knobs: Vec<Tried> = called
+        .iter()
+        .map(|knob| Tried {
             name: knob.name,
             settings: Vec::new(),
             left_out: Vec::new(),
             sentence: String::new(),
-        };
-        for setting in knob.with(mine) {
-            let (label, is_own) = ((knob.label)(setting), setting == mine);
-            if !is_own && (knob.least)(setting) > most {
-                tried.left_out.push(label);
-                continue;
+        })
+        .collect();
+    for (number, setting, candidate) in settings {
+        let (knob, tried) = (called[number], &mut knobs[number]);
+        let label = (knob.label)(setting);
+        match pictures.iter().position(|picture| picture.candidate == candidate) {
+            None => tried.left_out.push(label),
+            Some(row) => {
+                let (flag, is_own) = ((knob.flag)(setting), candidate == 0);
+                let verdict = Verdict::Front;
+                tried.settings.push(Setting { label, flag, is_own, row, verdict });
             }
-            let mut turned = own;
-            (knob.set)(&mut turned, setting);
-            let row = match is_own {
-                true => 0,
-                false => add(format!("{} {label}", knob.name), &turned),
-            };
-            let (flag, verdict) = ((knob.flag)(setting), Verdict::Front);
-            tried.settings.push(Setting { label, flag, is_own, row, verdict });
         }
-        knobs.push(tried);
     }
-
-    // The audited pixels of each, and one timed run of each.
-    let mut colors = Vec::new();
-    for plan in &rows.plans {
-        colors.push(studio.colors(plan, &list, Sampling::Planned)?.0);
+    let mut cut = Vec::new();
+    let audited = reference.pixels();
+    if audited < list.len() {
+        cut.push(format!("{audited} of {} audited pixels", list.len()));
     }
-    let mut times = vec![Times::default(); rows.plans.len()];
-    let counters = measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
-    let a_round = elapsed();
-
-    // As fine a reference as is needed, or as there is time for.
-    let deep = plan(world, origins, &dearest(own, options.knobs));
-    let mut reference = Reference::new(&studio, &deep, &list, options.seed, Reference::COARSEST)?;
-    let mut last = elapsed() - a_round;
-    let until = a_round + FOR_REFERENCE * options.budget;
-    loop {
-        let errors = colors.iter().map(|c| options.metric.of(&reference.deviations(c)));
-        let resolved = errors.filter(|&error| error > 0.0).fold(f64::INFINITY, f64::min);
-        let enough = 4.0 * reference.floor(options.metric) <= resolved;
-        if enough || elapsed() + 2.0 * last > until {
-            break;
-        }
-        let before = elapsed();
-        if !reference.double(&studio, &deep, &list)? {
-            break;
-        }
-        last = elapsed() - before;
+    if reference.samples() < Reference::samples_at(Reference::COARSEST) {
+        cut.push(format!("{} samples of each in the reference", reference.samples()));
     }
-
-    // More runs, while there is time for a whole round.
-    let mut runs = 1;
-    let mut round_takes = times.iter().map(|times| times.wall[0]).sum::<f64>();
-    while runs < MOST_ROUNDS && elapsed() + round_takes < options.budget {
-        let before = elapsed();
-        measure::round(world, &rows.plans, &counted, clock, &quiet, &mut times)?;
-        (runs, round_takes) = (runs + 1, elapsed() - before);
+    if depth < most_depth {
+        cut.push(format!("{depth} of {most_depth} surfaces deep in the reference"));
     }
 
     let floors = Metric::ALL.map(|metric| reference.floor(metric));
-    let rows = (0..colors.len()).map(|row| {
-        let off = reference.deviations(&colors[row]);
+    let rows = pictures.into_iter().map(|Picture { candidate, times, counters, colors }| {
+        let off = audit::by_place(&list, reference.deviations(&colors));
         Row {
-            name: std::mem::take(&mut rows.names[row]),
-            times: std::mem::take(&mut times[row]),
-            counters: counters[row],
-            factor: rows.factors[row],
+            name: candidates[candidate].name.clone(),
+            times,
+            counters,
+            factor: factors[candidate],
             errors: Metric::ALL.map(|metric| metric.estimate(&off)),
             verdict: Verdict::Front,
             resamples: options.metric.resampled(&off),
-            colors: std::mem::take(&mut colors[row]),
+            colors,
         }
     });
     let mut report = Report {
         frame: options.frame,
         metric: options.metric,
         seed: options.seed,
-        audited: list.len(),
+        audited,
+        cut,
         reference_samples: reference.samples(),
         floors,
         runs,
@@ -346,33 +346,7 @@ pub fn accuracy(
         knobs,
     };
     report.judge();
-    Some(report)
-}
-
-/// The greatest [`Knob::least`] of the settings that can be tried: one picture of each must fit
-/// into [`FOR_A_ROUND`] of the budget. `takes` is what the cheapest picture and the scene's own take.
-fn dearest_that_fit(knobs: &[&Knob], own: &PlanOptions, takes: (f64, f64), budget: f64) -> f64 {
-    let least = |knob: &&Knob| {
-        let least = knob.least;
-        knob.with((knob.get)(own)).into_iter().map(least).collect::<Vec<f64>>()
-    };
-    let mut all: Vec<f64> = knobs.iter().flat_map(least).collect();
-    all.sort_by(f64::total_cmp);
-    let mut left = FOR_A_ROUND * budget;
-    let fits = |least: &f64| {
-        left -= if *least > 1.0 { takes.0 * least } else { takes.1 };
-        // What takes no longer than the scene's own picture is always tried.
-        takes.0 * *least <= takes.1 || *least <= 1.0 || left > 0.0
-    };
-    all.into_iter().take_while(fits).last().unwrap_or(1.0)
-}
-
-/// Pictures to try.
-#[derive(Default)]
-struct Rows {
-    names: Vec<String>,
-    plans: Vec<Plan>,
-    factors: Vec<f64>,
+    Ok(report)
 }
 
 /// Passes on the wish to stop, and not how far one of many parts has come.
@@ -386,5 +360,7 @@ impl Watch for Quiet<'_> {
     }
 }
 
+#[cfg(test)]
+mod budget_tests;
 #[cfg(test)]
 mod tests;

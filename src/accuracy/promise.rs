@@ -3,15 +3,16 @@
 //! **Invariant:** the error reported is found on pixels that had no part in the choice of settings.
 //! [`keep`] reads no clock: the same picture and the same numbers on every run.
 
-use super::audit;
+use super::afford::{self, Deadline, Depths, LEAST};
 use super::choose::{Choice, Tuning};
 use super::knob::{Knob, cost};
 use super::measure::{Clock, Timer};
 use super::reference::{Geometries, Reference, Studio, clamped};
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet, called_for, dearest, own};
-use crate::plan::{Antialias, Plan, PlanOptions, plan};
-use crate::trace::{Traced, Watch, trace};
+use super::{audit, refine};
+use crate::plan::{Antialias, PlanOptions, plan};
+use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Part of the promised error that is aimed at: room for what chance does to the audit.
@@ -33,12 +34,15 @@ pub struct Audit {
     /// Four times the reference's own error: what is below cannot be told from it.
     pub resolution: f64,
     pub pixels: usize,
+    /// How deep the reference looked, where that was not as deep as can be: of what lies deeper nothing
+    /// is known.
+    pub depth: Option<u32>,
 }
 
 impl Audit {
-    /// Its interval ends below `most`.
+    /// Its interval ends below `most`, and all that a reference can see was looked at.
     pub fn proves(&self, most: f64) -> bool {
-        self.error.high <= most
+        self.error.high <= most && self.depth.is_none()
     }
 }
 
@@ -57,9 +61,14 @@ pub struct Kept {
 /// A picture whose time was promised.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spent {
-    /// Not complete when even the first pass did not fit.
+    /// Not complete when even the first pass did not fit. Its film says how many samples each pixel has.
     pub traced: Traced,
-    pub flags: String,
+    /// The flags that the first pass was made with: one ray a pixel.
+    pub first: String,
+    /// Those that pixels were traced anew with, where they are others, the number of samples aside.
+    pub then: Option<String>,
+    /// How many pixels were traced anew.
+    pub refined: usize,
     /// None when no time was left for it.
     pub audit: Option<Audit>,
 }
@@ -68,8 +77,6 @@ pub struct Spent {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooSmall;
 
-/// Fewer pixels than this prove nothing.
-const LEAST: usize = 30;
 /// About how many there are of each kind where the picture has enough.
 const WANTED: u32 = 2048;
 
@@ -110,21 +117,28 @@ fn kept(
     tell: &dyn Fn(Step),
 ) -> Option<Kept> {
     tell(Step::Choosing);
-    let geometry = Geometries::new(world);
+    let geometry = Geometries::default();
     let quiet = Quiet(watch);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     let easel = Easel::new(world, origins, options);
     let metric = options.metric;
+    let depths = Depths { origins, deepest: easel.deepest };
+    let few = audit::shuffled(sets[0].clone(), options.seed);
+    let own_depth = easel.own.depth.unwrap_or(1);
+    let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
+    let deep = depths.plan(&studio, depth);
+    let cut = (depth < depths.most()).then_some(depth);
     let truth = |list: &[(u32, u32)]| {
         let mut reference =
-            Reference::new(&studio, &easel.deep, list, options.seed, Reference::COARSEST)?;
-        reference.resolve(&studio, &easel.deep, list, metric, promise)?;
+            Reference::new(&studio, &deep, list, options.seed, Reference::COARSEST)?;
+        reference.resolve(&studio, &deep, list, metric, promise)?;
         Some(reference)
     };
     let choose =
         |list: &[(u32, u32)], reference: &Reference, aims: &[f64], not: Option<&Choice>| {
             let mut tuning =
                 Tuning::new(studio, origins, (list, reference), metric, &easel.knobs, easel.own);
+            tuning.no_deeper_than(depth);
             let mut choice = tuning.cheapest(aims[0])?;
             for &aim in &aims[1..] {
                 if not.is_some_and(|not| not.options == choice.options) {
@@ -143,11 +157,12 @@ fn kept(
         kept.flags = easel.flags(&choice.options);
         tell(Step::Rendering(kept.flags.clone()));
         kept.audit = None;
-        kept.traced = trace(world, &plan(world, origins, &choice.options), &options.trace, watch);
+        kept.traced = studio.picture(&plan(world, origins, &choice.options), watch);
         if kept.traced.complete {
             let error = audited(&kept.traced, list, reference, metric).error.value;
-            reference.resolve(&studio, &easel.deep, list, metric, error)?;
-            kept.audit = Some(audited(&kept.traced, list, reference, metric));
+            reference.resolve(&studio, &deep, list, metric, error)?;
+            let audit = audited(&kept.traced, list, reference, metric);
+            kept.audit = Some(Audit { depth: cut, ..audit });
         }
         kept.audit
     };
@@ -156,7 +171,8 @@ fn kept(
     let choice = choose(&sets[0], &reference, &[AIM * promise], None)?;
     let mut fresh = truth(&sets[1])?;
     let Some(audit) = render(&choice, &sets[1], &mut fresh) else { return Some(kept) };
-    if audit.proves(promise) {
+    // A better picture proves no more where the reference does not look all the way.
+    if audit.error.high <= promise {
         return Some(kept);
     }
     tell(Step::Refining(audit));
@@ -182,95 +198,105 @@ pub fn spend(
 ) -> Spent {
     let kept = KEPT_FOR_AUDIT * (until - clock.wall()).max(0.0);
     let easel = Easel::new(world, origins, options);
+    let geometry = Geometries::default();
+    // Many parts, none of which is the whole.
+    let quiet = Quiet(watch);
+    let late = |until| Deadline { clock, until, watch: &quiet };
+    let in_time = late(until);
+    let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
     let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
-    let in_time = Deadline { clock, until, watch };
     let timer = Timer::new(clock, &in_time);
-    let first = trace(world, &plan(world, origins, &off), &options.trace, &timer);
+    let first = studio.picture(&plan(world, origins, &off), &timer);
     let took = timer.read().1;
-    let mut spent = Spent { traced: first, flags: easel.flags(&off), audit: None };
+    let mut spent = Spent {
+        traced: first,
+        first: easel.flags_of_rays(&off),
+        then: None,
+        refined: 0,
+        audit: None,
+    };
     if !spent.traced.complete {
         return spent;
     }
-    let geometry = Geometries::new(world);
     let left = until - clock.wall();
     let render_until = until - (FOR_AUDIT * left).max(kept);
     let pixels = spent.traced.film.radiance.len() as f64;
-    let a_sample = took / pixels;
     let a_unit = took / cost(&spent.traced.counters);
     let mut sets = audit::sets(options.frame.region, WANTED, 2, options.seed).into_iter();
-    let (mut tuning, fresh) = (sets.next().unwrap_or_default(), sets.next().unwrap_or_default());
+    let mut next = || audit::shuffled(sets.next().unwrap_or_default(), options.seed);
+    let (tuning, fresh) = (next(), next());
+    let depths = Depths { origins, deepest: easel.deepest };
 
-    // As many tuning pixels as there is time for, of the coarsest reference.
-    let mut deep_sample = None;
-    let affordable = (FOR_TUNING * left / a_sample / Reference::LEAST_SAMPLES).min(pixels / 16.0);
-    thin(&mut tuning, affordable as usize);
-    let choice = (tuning.len() >= LEAST).then(|| {
-        let late = Deadline { clock, until: clock.wall() + 2.0 * FOR_TUNING * left, watch };
-        let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &late };
-        let began = clock.wall();
-        let coarsest = Reference::COARSEST;
-        let reference = Reference::new(&studio, &easel.deep, &tuning, options.seed, coarsest)?;
-        deep_sample = Some((clock.wall() - began) / samples_of(&reference, &tuning));
-        let (list, knobs) = ((tuning.as_slice(), &reference), &easel.knobs);
-        let mut tuning = Tuning::new(studio, origins, list, options.metric, knobs, easel.own);
+    let tuned = clock.wall() + FOR_TUNING * left;
+    let samples = Reference::samples_at(Reference::COARSEST);
+    let known = afford::reference(&studio, &depths, &tuning, options.seed, (clock, tuned), samples);
+    let choice = known.and_then(|known| {
+        let list = &tuning[..known.reference.pixels()];
+        let (knobs, metric) = (&easel.knobs, options.metric);
+        let own = easel.own;
+        let mut tuning = Tuning::new(studio, origins, (list, &known.reference), metric, knobs, own);
+        tuning.no_deeper_than(known.plan.max_trace_level);
+        tuning.in_time((clock, clock.wall() + FOR_TUNING * left));
         tuning.best(PREDICTED * (render_until - clock.wall()) / (a_unit * pixels))
     });
-    // What is known of nothing better, or of nothing at all, still has edges to smooth.
-    let chosen = choice.flatten().map_or(easel.own, |choice| choice.options);
-    let choice = if chosen == off { easel.own } else { chosen };
-    if clock.wall() < render_until {
-        let late = Deadline { clock, until: render_until, watch };
-        let second = trace(world, &plan(world, origins, &choice), &options.trace, &late);
-        spent.flags = easel.flags(&choice);
-        spent.traced = over(spent.traced, second);
-    }
+    // Where nothing is known of anything better, the scene's own.
+    let chosen = choice.map_or(easel.own, |choice| choice.options);
+    let then = PlanOptions { antialias: Antialias::Off, ..chosen };
+    let in_time = late(render_until);
+    let refiner = Studio { watch: &in_time, ..studio };
+    let then_plan = plan(world, origins, &then);
+    let anew = easel.dearer(&off, &then);
+    let refined = refine::refine(&refiner, &then_plan, anew, &mut spent.traced.film);
+    spent.traced.counters += refined.counters;
+    spent.then = (then != off).then(|| easel.flags_of_rays(&then));
+    spent.refined = refined.pixels;
 
-    let audit = |list: &[(u32, u32)], step, until| {
-        let in_time = Deadline { clock, until, watch };
-        let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
-        let reference = Reference::new(&studio, &easel.deep, list, options.seed, step)?;
-        let audit = audited(&spent.traced, list, &reference, options.metric);
-        Some((audit, samples_of(&reference, list)))
-    };
-    // A rough audit first: it is there when a finer one proves too much.
-    let (began, mut few, mut fresh) = (clock.wall(), fresh.clone(), fresh);
-    thin(&mut few, LEAST);
-    if few.len() < LEAST {
-        return spent;
-    }
-    let rough = audit(&few, Reference::ROUGH, until + kept);
-    let Some((rough, samples)) = rough else { return spent };
-    let deep_sample = deep_sample.unwrap_or((clock.wall() - began) / samples).max(a_sample);
-    let affordable = (PREDICTED * (until - clock.wall()) / deep_sample).max(0.0) as usize;
-    thin(&mut fresh, (affordable / Reference::LEAST_SAMPLES as usize).max(LEAST));
-    let step = Reference::finest_within(affordable / fresh.len());
-    let finer = (step > Reference::ROUGH).then(|| audit(&fresh, step, until)).flatten();
-    spent.audit = Some(finer.map_or(rough, |(audit, _)| audit));
+    let (in_time, last) = (late(until + kept), until.max(clock.wall() + kept));
+    let auditor = Studio { watch: &in_time, ..studio };
+    let fine = Reference::samples_at(usize::MAX);
+    let known = afford::reference(&auditor, &depths, &fresh, options.seed, (clock, last), fine);
+    spent.audit = known.map(|known| {
+        let list = &fresh[..known.reference.pixels()];
+        let audit = audited(&spent.traced, list, &known.reference, options.metric);
+        let deep = known.plan.max_trace_level;
+        Audit { depth: (deep < depths.most()).then_some(deep), ..audit }
+    });
     spent
-}
-
-/// How many samples a reference took of the pixels of a list.
-fn samples_of(reference: &Reference, list: &[(u32, u32)]) -> f64 {
-    list.len() as f64 * f64::from(reference.samples())
 }
 
 /// The plans a picture is made and judged by.
 struct Easel<'a> {
     own: PlanOptions,
-    deep: Plan,
+    deepest: PlanOptions,
     knobs: Vec<&'a Knob>,
 }
 
 impl<'a> Easel<'a> {
     fn new(world: &World, origins: &Origins, options: &Options<'a>) -> Self {
         let own = own(world, options.frame);
-        let deep = plan(world, origins, &dearest(own, options.knobs));
-        Self { own, deep, knobs: called_for(world, origins, own, options.knobs) }
+        let deepest = dearest(own, options.knobs);
+        Self { own, deepest, knobs: called_for(world, origins, own, options.knobs) }
     }
 
     fn flags(&self, options: &PlanOptions) -> String {
         let flags = self.knobs.iter().map(|knob| (knob.flag)((knob.get)(options)));
         flags.collect::<Vec<_>>().join(" ")
+    }
+
+    /// The same without the knob that the first pass and what follows it turn themselves.
+    fn flags_of_rays(&self, options: &PlanOptions) -> String {
+        let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
+        let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));
+        flags.collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether a knob stands dearer in the second than in the first.
+    fn dearer(&self, than: &PlanOptions, options: &PlanOptions) -> bool {
+        self.knobs.iter().any(|knob| {
+            let settings = knob.with((knob.get)(than));
+            let place = |of| settings.iter().position(|&setting| setting == (knob.get)(of));
+            place(options) > place(than)
+        })
     }
 }
 
@@ -280,48 +306,9 @@ fn audited(traced: &Traced, list: &[(u32, u32)], reference: &Reference, metric: 
     let colors: Vec<_> = list.iter().map(color).collect();
     Audit {
         metric,
-        error: metric.estimate(&reference.deviations(&colors)),
+        error: metric.estimate(&audit::by_place(list, reference.deviations(&colors))),
         resolution: 4.0 * reference.floor(metric),
         pixels: list.len(),
-    }
-}
-
-/// The better film where it was reached, else the first.
-fn over(first: Traced, mut better: Traced) -> Traced {
-    for (i, samples) in better.film.samples.iter_mut().enumerate() {
-        if *samples == 0 {
-            *samples = first.film.samples[i];
-            better.film.radiance[i] = first.film.radiance[i];
-        }
-    }
-    better.counters += first.counters;
-    better.complete = true;
-    better
-}
-
-/// Keeps about `most` of a list, evenly.
-fn thin(list: &mut Vec<(u32, u32)>, most: usize) {
-    if list.len() > most {
-        let (count, kept) = (list.len(), most);
-        *list = (0..kept).map(|i| list[i * count / kept]).collect();
-    }
-}
-
-/// Asks to stop when the time is up.
-struct Deadline<'a> {
-    clock: &'a dyn Clock,
-    until: f64,
-    watch: &'a dyn Watch,
-}
-
-impl Watch for Deadline<'_> {
-    fn progress(&self, _: usize, _: usize) {}
-
-    fn built(&self) {
-        self.watch.built();
-    }
-
-    fn should_stop(&self) -> bool {
-        self.clock.wall() >= self.until || self.watch.should_stop()
+        depth: None,
     }
 }

@@ -9,28 +9,31 @@ use super::statistics::{Deviation, Metric};
 use crate::color::{Gamma, Rgb};
 use crate::geometry::Geometry;
 use crate::plan::{Plan, Precision};
-use crate::trace::{self, Counters, Sampling, TraceOptions, Watch, pixels};
+use crate::trace::{
+    self, Counters, Pixels, Sampling, TraceOptions, Traced, Watch, pixels, trace_in,
+};
 use crate::world::World;
 
 /// Samples along the side of a pixel, a half: from [`Reference::COARSEST`] on each has about twice the
 /// samples of the last.
 const SIDES: [u32; 8] = [2, 8, 11, 16, 23, 32, 45, 64];
 
+/// A list is looked at in so many blocks, the two halves of one after those of the other: where it is
+/// stopped, no more than a block is lost.
+const BLOCKS: usize = 16;
+/// Pixels of a block at least: enough for many threads.
+const LEAST_BLOCK: usize = 64;
+
 /// A colour as errors are measured: linear, clamped to 0 … 1.
 pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
     radiance.components().map(|c| assumed_gamma.linear(c).min(1.0))
 }
 
-/// The same World in each arithmetic, the second made when it is first asked for.
+/// The same World in each arithmetic, each made when it is first asked for.
+#[derive(Default)]
 pub struct Geometries {
-    double: Geometry,
+    double: OnceLock<Geometry>,
     single: OnceLock<Geometry>,
-}
-
-impl Geometries {
-    pub fn new(world: &World) -> Self {
-        Self { double: Geometry::build(world), single: OnceLock::new() }
-    }
 }
 
 /// What is traced, and with what.
@@ -43,6 +46,37 @@ pub struct Studio<'a> {
 }
 
 impl Studio<'_> {
+    fn geometry(&self, plan: &Plan) -> &Geometry {
+        let made = match plan.precision {
+            Precision::Double => &self.geometry.double,
+            Precision::Single => &self.geometry.single,
+        };
+        made.get_or_init(|| trace::geometry(self.world, plan, &self.options))
+    }
+
+    /// The whole picture under a Plan.
+    pub fn picture(&self, plan: &Plan, watch: &dyn Watch) -> Traced {
+        trace_in(self.world, self.geometry(plan), plan, &self.options, watch)
+    }
+
+    /// Some pixels under a Plan.
+    pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
+        let geometry = self.geometry(plan);
+        pixels(self.world, geometry, plan, list, sampling, &self.options, self.watch)
+    }
+
+    /// The colours of the first pixels of a list: of all of them, unless it was stopped.
+    fn first_colors(
+        &self,
+        plan: &Plan,
+        list: &[(u32, u32)],
+        sampling: Sampling,
+    ) -> (Vec<[f64; 3]>, Counters) {
+        let Pixels { radiance, counters } = self.pixels(plan, list, sampling);
+        let gamma = self.world.settings.assumed_gamma;
+        (radiance.into_iter().map_while(|c| Some(clamped(c?, gamma))).collect(), counters)
+    }
+
     /// The colours of some pixels under a Plan, and the work they were. `None` when stopped.
     pub fn colors(
         &self,
@@ -50,16 +84,8 @@ impl Studio<'_> {
         list: &[(u32, u32)],
         sampling: Sampling,
     ) -> Option<(Vec<[f64; 3]>, Counters)> {
-        let Self { world, geometry, options, watch } = *self;
-        let geometry = match plan.precision {
-            Precision::Double => &geometry.double,
-            Precision::Single => {
-                geometry.single.get_or_init(|| trace::geometry(world, plan, &options))
-            }
-        };
-        let seen = pixels(world, geometry, plan, list, sampling, &options, watch)?;
-        let gamma = world.settings.assumed_gamma;
-        Some((seen.radiance.iter().map(|&c| clamped(c, gamma)).collect(), seen.counters))
+        let (colors, counters) = self.first_colors(plan, list, sampling);
+        (colors.len() == list.len()).then_some((colors, counters))
     }
 }
 
@@ -78,15 +104,18 @@ impl Reference {
     pub const ROUGH: usize = 0;
     /// The step of the coarsest that settings are chosen by.
     pub const COARSEST: usize = 1;
-    /// Of the coarsest, each pixel.
-    pub const LEAST_SAMPLES: f64 = 128.0;
-
     /// The last step that `samples` a pixel are enough for, or the rough one.
     pub fn finest_within(samples: usize) -> usize {
         SIDES.iter().rposition(|&side| 2 * side as usize * side as usize <= samples).unwrap_or(0)
     }
 
-    /// The reference of a step. `plan` says how deep; its antialiasing is not used.
+    /// Samples of each pixel at a step.
+    pub fn samples_at(step: usize) -> u32 {
+        let side = SIDES[step.min(SIDES.len() - 1)];
+        2 * side * side
+    }
+
+    /// The reference of a step; `None` when stopped. `plan` says how deep; its antialiasing is not used.
     pub fn new(
         studio: &Studio,
         plan: &Plan,
@@ -94,18 +123,43 @@ impl Reference {
         seed: u64,
         step: usize,
     ) -> Option<Self> {
+        let first = Self::first(studio, plan, list, seed, step);
+        (first.pixels() == list.len()).then_some(first)
+    }
+
+    /// As [`Reference::new`], of those pixels of the list that were done when it was stopped, from the
+    /// first on.
+    pub fn first(
+        studio: &Studio,
+        plan: &Plan,
+        list: &[(u32, u32)],
+        seed: u64,
+        step: usize,
+    ) -> Self {
         let step = step.min(SIDES.len() - 1);
-        let mut counters = Counters::default();
-        let mut half = |number: u64| {
-            let (steps, step_seed) = (2 * SIDES.len() as u64 - 2, 2 * step as u64 + number);
-            let seed = seed.wrapping_mul(steps).wrapping_add(step_seed).wrapping_sub(2);
-            let sampling = Sampling::Jittered { side: SIDES[step], seed };
-            let (colors, work) = studio.colors(plan, list, sampling)?;
-            counters += work;
-            Some(colors)
-        };
-        let halves = [half(0)?, half(1)?];
-        Some(Self { halves, step, seed, counters })
+        let mut reference =
+            Self { halves: Default::default(), step, seed, counters: Counters::default() };
+        let block = list.len().div_ceil(BLOCKS).max(LEAST_BLOCK);
+        for pixels in list.chunks(block) {
+            let mut half = |number: u64| {
+                let (steps, step_seed) = (2 * SIDES.len() as u64 - 2, 2 * step as u64 + number);
+                let seed = seed.wrapping_mul(steps).wrapping_add(step_seed).wrapping_sub(2);
+                let sampling = Sampling::Jittered { side: SIDES[step], seed };
+                let (colors, work) = studio.first_colors(plan, pixels, sampling);
+                reference.counters += work;
+                colors
+            };
+            let (mut a, mut b) = (half(0), half(1));
+            let done = a.len().min(b.len());
+            a.truncate(done);
+            b.truncate(done);
+            reference.halves[0].extend(a);
+            reference.halves[1].extend(b);
+            if done < pixels.len() {
+                break;
+            }
+        }
+        reference
     }
 
     /// Of twice the samples; `Ok(false)` where it is as fine as it gets.
@@ -137,9 +191,18 @@ impl Reference {
         self.step + 1 == SIDES.len()
     }
 
+    /// How many pixels.
+    pub fn pixels(&self) -> usize {
+        self.halves[0].len()
+    }
+
+    pub fn step(&self) -> usize {
+        self.step
+    }
+
     /// Samples of each pixel.
     pub fn samples(&self) -> u32 {
-        2 * SIDES[self.step] * SIDES[self.step]
+        Self::samples_at(self.step)
     }
 
     /// How far `colors` are from it, pixel by pixel.

@@ -26,6 +26,9 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
         report.reference_samples,
         amount(report.metric, floor)
     )?;
+    if !report.cut.is_empty() {
+        writeln!(out, "to keep the budget only {}", report.cut.join(", "))?;
+    }
     writeln!(
         out,
         "seconds of {}, {}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s",

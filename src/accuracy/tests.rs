@@ -32,7 +32,7 @@ box { <0.4, -1, -1>, <1.6, 0.3, 1> rotate 30*y pigment { rgb <0.3, 0.5, 1> } }
 plane { y, -1 pigment { rgb 0.7 } }
 ";
 
-fn compiled(text: &str, number: f64) -> (World, Origins) {
+pub(super) fn compiled(text: &str, number: f64) -> (World, Origins) {
     let mut road = Road::new(&NoFiles, RoadOptions::new(Dialect::Scene));
     let text = text.replace("{}", &number.to_string());
     let compiled = road.compile("a.scene", text.into_bytes());
@@ -40,9 +40,9 @@ fn compiled(text: &str, number: f64) -> (World, Origins) {
     compiled
 }
 
-const ONE_THREAD: TraceOptions = TraceOptions::on_threads(1);
+pub(super) const ONE_THREAD: TraceOptions = TraceOptions::on_threads(1);
 
-fn asked(width: u32, height: u32) -> Options<'static> {
+pub(super) fn asked(width: u32, height: u32) -> Options<'static> {
     Options {
         frame: Frame::whole(width, height),
         knobs: KNOBS,
@@ -54,10 +54,10 @@ fn asked(width: u32, height: u32) -> Options<'static> {
 }
 
 /// A clock that stands still unless it is asked: then a tick passes.
-struct Ticking(AtomicU64, f64);
+pub(super) struct Ticking(AtomicU64, f64);
 
 impl Ticking {
-    fn new(tick: f64) -> Self {
+    pub(super) fn new(tick: f64) -> Self {
         Self(AtomicU64::new(0), tick)
     }
 }
@@ -80,7 +80,7 @@ struct Truth {
 
 impl Truth {
     fn new(world: &World, origins: &Origins, frame: Frame, step: usize) -> Self {
-        let geometry = Geometries::new(world);
+        let geometry = Geometries::default();
         let studio = Studio { world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let list = audit::sets(frame.region, u32::MAX, 1, 0).remove(0);
         let deep = plan(world, origins, &dearest(own(world, frame), KNOBS));
@@ -110,7 +110,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
         let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
         let traced = trace(&world, &plan, &ONE_THREAD, &Unwatched);
         let exact = truth.deviations(&traced);
-        let geometry = Geometries::new(&world);
+        let geometry = Geometries::default();
         let studio =
             Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let mut holds = [0; 3];

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::thread::available_parallelism;
 
 use lucarne::accuracy::json::{self, Host};
-use lucarne::accuracy::{Clock, KNOBS, Knob, Options, accuracy, svg, table};
+use lucarne::accuracy::{Clock, KNOBS, Knob, Options, Unmeasured, accuracy, svg, table};
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
 
@@ -66,9 +66,20 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     let progress = Progress::start();
     let report = accuracy(&world, &origins, &options, &clock, &progress);
     progress.end();
-    let Some(report) = report else {
-        messages::eprint("interrupted: nothing was reported\n");
-        return Ok(Exit::Interrupted);
+    let report = match report {
+        Ok(report) => report,
+        Err(Unmeasured::Stopped) => {
+            messages::eprint("interrupted: nothing was reported\n");
+            return Ok(Exit::Interrupted);
+        }
+        Err(Unmeasured::TooShort) => {
+            let sentence = format!(
+                "{} s are too few for the scene's own picture and a reference: nothing was measured",
+                arguments.budget
+            );
+            let failure = Failure { exit: Exit::Limit, sentence, help: None };
+            return Err(failure.help("a longer `--budget`, or a smaller `--size`"));
+        }
     };
     let host = host(cores, threads);
     match arguments.json {

@@ -24,7 +24,7 @@ mod tiles;
 
 use std::ops::AddAssign;
 
-use crate::color::Gamma;
+use crate::color::{Gamma, Rgb};
 use crate::film::Film;
 use crate::geometry::{Geometry, Hit, Occluder, Work};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
@@ -59,7 +59,8 @@ pub trait Watch: Sync {
     fn built(&self) {}
     /// `done` of `total` pieces of work are done.
     fn progress(&self, done: usize, total: usize);
-    /// Asked before each piece; once it says yes, no further piece is begun.
+    /// Asked before each piece, and now and then within one; once it says yes, no further piece is
+    /// begun, and the pixels under way are left as they were.
     fn should_stop(&self) -> bool;
 }
 
@@ -136,6 +137,40 @@ pub(crate) struct Walk {
     /// forgotten at each tile, so that no count depends on who takes it.
     occluders: Vec<Occluder>,
     counters: Counters,
+    patience: Patience,
+}
+
+/// How long a thread works within one pixel before it asks again whether to stop. One pixel can be
+/// more work than all others together: where every path forks, 250 surfaces deep.
+#[derive(Debug, Default)]
+struct Patience {
+    /// Steps until then.
+    left: u32,
+    /// The watch wants no more: what the pixel at hand shows is no longer true.
+    is_over: bool,
+}
+
+impl Patience {
+    /// A step is a sample of a pixel, or a surface that rays go on behind.
+    const STEPS: u32 = 64;
+
+    /// Whether to give up, after some more steps.
+    #[inline(always)]
+    fn is_over_after(&mut self, steps: u32, watch: &dyn Watch) -> bool {
+        if steps <= self.left {
+            self.left -= steps;
+            return false;
+        }
+        self.ask(watch)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn ask(&mut self, watch: &dyn Watch) -> bool {
+        self.is_over = self.is_over || watch.should_stop();
+        self.left = if self.is_over { 0 } else { Self::STEPS };
+        self.is_over
+    }
 }
 
 impl Walk {
@@ -154,8 +189,19 @@ impl Walk {
 /// (and through those of a border one pixel wide around a region), then `grid` × `grid` samples
 /// instead in each pixel that differs from a neighbour.
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
-    let geometry = geometry(world, plan, options);
-    let tracer = Tracer::new(world, &geometry, plan);
+    trace_in(world, &geometry(world, plan, options), plan, options, watch)
+}
+
+/// As [`trace`], with a `geometry` that stands already: that of [`geometry`] for this Plan, or one
+/// like it.
+pub fn trace_in(
+    world: &World,
+    geometry: &Geometry,
+    plan: &Plan,
+    options: &TraceOptions,
+    watch: &dyn Watch,
+) -> Traced {
+    let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options.threads, watch);
     match (plan.kernel.shadows, plan.kernel.secondary) {
@@ -188,11 +234,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens { camera: &tracer.world.camera, width, height };
     let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
-        let radiance = antialias::mean(grid, |i, j| {
-            walk.counters.camera += 1;
-            tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray((x, y), (i, j), grid))
-        });
-        (radiance, grid * grid)
+        sampled::<SHADOWS, SECONDARY>(tracer, &lens, walk, (x, y), grid)
     };
     let region = plan.frame.region;
     let empty =
@@ -216,6 +258,22 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
             second
         }
     }
+}
+
+/// The mean of a pixel's samples, and how many.
+#[inline(always)]
+fn sampled<const SHADOWS: bool, const SECONDARY: bool>(
+    tracer: &Tracer,
+    lens: &Lens,
+    walk: &mut Walk,
+    pixel: (u32, u32),
+    grid: u32,
+) -> (Rgb, u32) {
+    let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
+        walk.counters.camera += 1;
+        tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray(pixel, (i, j), grid))
+    });
+    (radiance, grid * grid)
 }
 
 /// The region and the pixels around it.

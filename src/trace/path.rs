@@ -11,7 +11,7 @@
 use super::media::Border;
 use super::shade::Place;
 use super::sharpness::Sharpness;
-use super::{Walk, pigment, reflection, refraction, shade, sky};
+use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
 use crate::math::Vector;
@@ -37,6 +37,8 @@ pub(super) struct Tracer<'a> {
     pub filters_shadows: bool,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
+    /// Asked within a pixel, where work can pile up.
+    pub watch: &'a dyn Watch,
 }
 
 /// A ray under way.
@@ -94,7 +96,12 @@ struct Met<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(world: &'a World, geometry: &'a Geometry, plan: &Plan) -> Self {
+    pub fn new(
+        world: &'a World,
+        geometry: &'a Geometry,
+        plan: &Plan,
+        watch: &'a dyn Watch,
+    ) -> Self {
         Self {
             world,
             geometry,
@@ -106,6 +113,7 @@ impl<'a> Tracer<'a> {
             filters_shadows: plan.simulates(Effect::ColoredShadows),
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
+            watch,
         }
     }
 
@@ -259,7 +267,7 @@ impl<'a> Tracer<'a> {
 
     /// Goes on from a surface that is clear, or mirrors by Fresnel's equations: what it lets through
     /// goes on behind it, what it mirrors before it, and if both are, that behind it waits. `None`
-    /// where nothing goes on.
+    /// where nothing goes on, or where the watch wants no more: then nor does any ray that waits.
     ///
     /// Where nothing can go through, what is mirrored has the weight of what else would have gone
     /// through, and comes back whole, in the place of the finish's own reflection.
@@ -272,6 +280,10 @@ impl<'a> Tracer<'a> {
         let Met { ref hit, ref place, paint, local, .. } = *met;
         let seed = place.finish.seed;
         let clear = self.clear && paint.is_clear();
+        if walk.patience.is_over_after(1, self.watch) {
+            walk.forks.clear();
+            return None;
+        }
         walk.coinciding.clear();
         if clear && hit.contested {
             let straight = Ray { origin: met.behind, direction: way.ray.direction };

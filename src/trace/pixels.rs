@@ -32,14 +32,14 @@ pub enum Sampling {
 /// What was seen in the pixels of a list, in its order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pixels {
-    /// The mean of each pixel's samples, in the scene's working space.
-    pub radiance: Vec<Rgb>,
+    /// The mean of each pixel's samples, in the scene's working space; `None` for those that the
+    /// watch left undone, the last of the list as a rule.
+    pub radiance: Vec<Option<Rgb>>,
     pub counters: Counters,
 }
 
 /// Traces the pixels `list` of the Plan's frame; all must lie in its region. `geometry` is that of
-/// [`super::geometry`] for this Plan, or one like it. `None` when the
-/// watch stopped it.
+/// [`super::geometry`] for this Plan, or one like it.
 pub fn pixels(
     world: &World,
     geometry: &Geometry,
@@ -48,8 +48,8 @@ pub fn pixels(
     sampling: Sampling,
     options: &TraceOptions,
     watch: &dyn Watch,
-) -> Option<Pixels> {
-    let tracer = Tracer::new(world, geometry, plan);
+) -> Pixels {
+    let tracer = Tracer::new(world, geometry, plan, watch);
     let Frame { width, height, .. } = plan.frame;
     let kernel = match (plan.kernel.shadows, plan.kernel.secondary) {
         (false, false) => Tracer::radiance::<false, false>,
@@ -67,8 +67,8 @@ pub fn pixels(
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
         Sampling::Planned => pixel.planned(walk, place),
         Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
-    })?;
-    Some(Pixels { radiance, counters })
+    });
+    Pixels { radiance, counters }
 }
 
 struct Pixel<'a> {
@@ -114,7 +114,9 @@ impl Pixel<'_> {
     }
 
     fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Rgb {
-        antialias::mean(grid, |i, j| self.seen(walk, self.lens.ray(place, (i, j), grid)))
+        antialias::mean(walk, self.tracer.watch, grid, |walk, i, j| {
+            self.seen(walk, self.lens.ray(place, (i, j), grid))
+        })
     }
 
     fn jittered(&self, walk: &mut Walk, (x, y): (u32, u32), side: u32, seed: u64) -> Rgb {
@@ -122,7 +124,7 @@ impl Pixel<'_> {
         let within = |part: u32, random: &mut Random| {
             (f64::from(part) + random.number(0.0, 1.0)) / f64::from(side)
         };
-        antialias::mean(side, |i, j| {
+        antialias::mean(walk, self.tracer.watch, side, |walk, i, j| {
             let place = (within(i, &mut random), within(j, &mut random));
             self.seen(walk, self.lens.ray_within((x, y), place))
         })

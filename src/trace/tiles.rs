@@ -34,33 +34,46 @@ impl<'a> Crew<'a> {
         Self { pool, watch }
     }
 
-    /// Computes something for each thing of a list, in the list's order, and the work it was;
-    /// `None` when the watch stopped it.
+    /// Computes something for each thing of a list, begun in the list's order, and the work it was;
+    /// `None` for those that were not done when the watch stopped it.
     pub fn each<I: Sync, T: Send>(
         &self,
         list: &[I],
         one: impl Fn(&mut Walk, &I) -> T + Sync,
-    ) -> Option<(Vec<T>, Counters)> {
-        let done = AtomicUsize::new(0);
-        let work = |part: &[I]| {
+    ) -> (Vec<Option<T>>, Counters) {
+        let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = |(number, part): (usize, &[I])| {
             let mut walk = Walk::default();
-            let stopped = self.watch.should_stop();
-            let values = part.iter().take_while(|_| !stopped).map(|thing| one(&mut walk, thing));
-            let values: Vec<T> = values.collect();
+            let mut values = Vec::new();
+            walk.patience.is_over = stopped.load(Ordering::Relaxed);
+            walk.patience.ask(self.watch);
+            for thing in part {
+                if walk.patience.is_over {
+                    break;
+                }
+                let value = one(&mut walk, thing);
+                values.push((!walk.patience.is_over).then_some(value));
+            }
+            stopped.fetch_or(walk.patience.is_over, Ordering::Relaxed);
             let done = done.fetch_add(part.len(), Ordering::Relaxed) + part.len();
             self.watch.progress(done, list.len());
-            (!stopped).then_some((values, walk.counters))
+            (number, values, walk.counters)
         };
-        let parts: Option<Vec<_>> = match &self.pool {
-            Some(pool) => pool.install(|| list.par_chunks(PART).map(work).collect()),
-            None => list.chunks(PART).map(work).collect(),
+        let parts = list.chunks(PART).enumerate();
+        let mut parts: Vec<_> = match &self.pool {
+            // Each thread takes the next part, so that what is done is the list's first.
+            Some(pool) => pool.install(|| parts.par_bridge().map(work).collect()),
+            None => parts.map(work).collect(),
         };
-        let mut all = (Vec::with_capacity(list.len()), Counters::default());
-        for (values, counters) in parts? {
-            all.0.extend(values);
-            all.1 += counters;
+        parts.sort_unstable_by_key(|&(number, ..)| number);
+        let mut all = Vec::with_capacity(list.len());
+        let mut counters = Counters::default();
+        for (number, values, these) in parts {
+            all.extend(values);
+            all.resize_with(list.len().min(PART * (number + 1)), || None);
+            counters += these;
         }
-        Some(all)
+        (all, counters)
     }
 
     /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`;
@@ -88,9 +101,17 @@ impl<'a> Crew<'a> {
                     break;
                 }
                 for ((x, radiance), samples) in (tile.x..).zip(radiance).zip(samples) {
-                    if let Some(seen) = pixel(walk, x, y) {
+                    let seen = pixel(walk, x, y);
+                    if walk.patience.is_over {
+                        stopped.store(true, Ordering::Relaxed);
+                        break;
+                    }
+                    if let Some(seen) = seen {
                         (*radiance, *samples) = seen;
                     }
+                }
+                if walk.patience.is_over {
+                    break;
                 }
             }
             *counters.lock().unwrap_or_else(PoisonError::into_inner) +=

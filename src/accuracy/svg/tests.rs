@@ -146,6 +146,7 @@ fn report(rows: &[(f64, f64, f64)], knobs: &[&'static str], floor: f64) -> Repor
         metric: Metric::Rmse,
         seed: 1,
         audited: 4800,
+        cut: Vec::new(),
         reference_samples: 512,
         floors: [floor; 3],
         runs: 3,

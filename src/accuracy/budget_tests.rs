@@ -1,0 +1,165 @@
+//! Budgets are kept where one pixel is more work than all others together. Time is counted here:
+//! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
+
+use super::refine::{refine, spread};
+use super::tests::{ONE_THREAD, Ticking, asked, compiled};
+use super::*;
+use crate::film::Film;
+use crate::plan::Antialias;
+use crate::trace::{Traced, Unwatched, trace};
+
+/// Clear balls that mirror: every path forks at each surface, as deep as one looks.
+const GLASS: &str = "
+global_settings { max_trace_level {} }
+camera { location <0, 3, 6> look_at 0 angle 45 }
+light_source { <-8, 12, 10>, rgb 1 }
+background { rgb <0.3, 0.5, 0.8> }
+plane { y, -1 pigment { checker rgb 1, rgb 0.1 } }
+#for (I, 0, 3)
+  #for (J, 0, 3)
+    sphere {
+      <2*I - 3, 0, 2*J - 3>, 0.9
+      pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection 0.9 } interior { ior 1.5 }
+    }
+  #end
+#end
+";
+
+#[test]
+fn work_is_stopped_within_a_pixel_and_the_pixel_is_left_undone() {
+    // A single one of these pixels would take longer than there is.
+    let (world, origins) = compiled(GLASS, 200.0);
+    let own = own(&world, Frame::whole(8, 6));
+    for antialias in [Antialias::Off, Antialias::Grid(3), Antialias::default()] {
+        let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
+        let clock = Ticking::new(1.0);
+        let watch = afford::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
+        let Traced { film, counters, complete } = trace(&world, &plan, &ONE_THREAD, &watch);
+        assert!(!complete && film.samples.contains(&0), "{antialias:?}");
+        assert!(counters.rays() < 300 * 1000, "{counters:?}");
+        let undone = film.samples.iter().zip(&film.radiance).filter(|(samples, _)| **samples == 0);
+        assert!(undone.into_iter().all(|(_, &radiance)| radiance == crate::color::Rgb::BLACK));
+    }
+}
+
+#[test]
+fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_looked_at() {
+    let (world, origins) = compiled(GLASS, 5.0);
+    for time in [3000.0, 20_000.0] {
+        let clock = Ticking::new(1.0);
+        let spent = spend(&world, &origins, &asked(48, 36), time, &clock, &Unwatched);
+        assert!(spent.traced.complete && clock.wall() <= 1.05 * time, "{}", clock.wall());
+        let depth = spent.audit.expect("told").depth.expect("not all the way");
+        assert!((2..200).contains(&depth), "{depth}");
+        let finer = spent.traced.film.samples.iter().filter(|&&samples| samples > 1).count();
+        assert!(finer > 0 && finer <= spent.refined);
+    }
+    // Not even the first pass.
+    let (world, origins) = compiled(GLASS, 200.0);
+    let clock = Ticking::new(1.0);
+    let spent = spend(&world, &origins, &asked(48, 36), 2000.0, &clock, &Unwatched);
+    assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 2100.0);
+}
+
+#[test]
+fn a_budget_is_kept_and_what_was_given_up_for_it_is_told() {
+    let (world, origins) = compiled(GLASS, 5.0);
+    for budget in [4000.0, 30_000.0] {
+        let clock = Ticking::new(1.0);
+        let options = Options { budget, ..asked(48, 36) };
+        let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
+        assert!(clock.wall() <= 1.05 * budget, "{} of {budget}", clock.wall());
+        let cut = report.cut.join(", ");
+        assert!(cut.contains(" of 250 surfaces deep in the reference"), "{cut}");
+        let depth = report.knobs.iter().find(|knob| knob.name == "depth").expect("called for");
+        assert!(depth.left_out.contains(&"250".to_owned()), "{depth:?}");
+        assert!(depth.settings.iter().any(|setting| setting.is_own && setting.row == 0));
+        let all: usize = report.knobs.iter().map(|k| k.settings.len() + k.left_out.len()).sum();
+        assert_eq!(all, 14 + 7 + 5 + 2, "each is measured or listed as left out");
+    }
+    let options = Options { budget: 100.0, ..asked(48, 36) };
+    let clock = Ticking::new(1.0);
+    let none = accuracy(&world, &origins, &options, &clock, &Unwatched);
+    assert_eq!(none, Err(Unmeasured::TooShort));
+    assert!(clock.wall() <= 110.0, "{}", clock.wall());
+}
+
+#[test]
+fn without_a_clock_a_reference_is_as_deep_on_every_run() {
+    let (world, origins) = compiled(GLASS, 5.0);
+    let own = own(&world, Frame::whole(48, 36));
+    let depths = Depths { origins: &origins, deepest: dearest(own, KNOBS) };
+    let list = audit::shuffled(audit::sets(own.frame.region, 200, 1, 3).remove(0), 3);
+    let depth = |threads| {
+        let geometry = Geometries::default();
+        let options = TraceOptions::on_threads(threads);
+        let studio = Studio { world: &world, geometry: &geometry, options, watch: &Unwatched };
+        afford::counted_depth(&studio, &depths, &list, 1, 2).expect("not stopped")
+    };
+    assert_eq!(depth(1), depth(3));
+    assert!((5..40).contains(&depth(1)), "{}", depth(1));
+}
+
+/// A film of one ray a pixel, refined until the clock shows `until`.
+fn refined(threads: usize, until: f64) -> (Film, usize) {
+    let (world, origins) = compiled(GLASS, 3.0);
+    let own = own(&world, Frame::whole(40, 30));
+    let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
+    let geometry = Geometries::default();
+    let clock = Ticking::new(1.0);
+    let watch = afford::Deadline { clock: &clock, until, watch: &Unwatched };
+    let options = TraceOptions::on_threads(threads);
+    let studio = Studio { world: &world, geometry: &geometry, options, watch: &watch };
+    let mut film = studio.picture(&plan, &Unwatched).film;
+    let refined = refine(&studio, &plan, false, &mut film);
+    (film, refined.pixels)
+}
+
+#[test]
+fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
+    let (film, pixels) = refined(1, 6000.0);
+    let counts: std::collections::BTreeSet<u32> = film.samples.iter().copied().collect();
+    assert!(counts.len() > 3 && counts.contains(&1) && pixels > 100, "{counts:?}");
+    let (world, origins) = compiled(GLASS, 3.0);
+    for samples in counts {
+        let side = samples.isqrt();
+        let antialias = Antialias::Grid(side);
+        let options = PlanOptions { antialias, ..own(&world, film.frame) };
+        let whole = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched).film;
+        for (i, &n) in film.samples.iter().enumerate() {
+            assert!(n != samples || film.radiance[i] == whole.radiance[i], "{side} {i}");
+        }
+    }
+}
+
+#[test]
+fn time_is_spent_over_the_whole_picture() {
+    // Few pixels are done, and each quarter of those that are worth it has its share.
+    let (film, pixels) = refined(1, 60.0);
+    let (more, _) = refined(1, 6000.0);
+    let quarter = |film: &Film, top: usize, left: usize| {
+        let inside = |i: &usize| i / 40 / 15 == top && i % 40 / 20 == left;
+        (0..1200).filter(inside).filter(|&i| film.samples[i] > 1).count()
+    };
+    assert!(pixels > 0 && pixels < 600, "{pixels}");
+    for (top, left) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let (done, worth) = (quarter(&film, top, left), quarter(&more, top, left));
+        assert!(5 * done >= worth.min(pixels / 4), "{top} {left}: {done} of {worth}, {pixels}");
+    }
+}
+
+#[test]
+fn a_list_that_is_spread_has_all_its_pixels_and_each_first_part_has_some_of_each_part() {
+    for count in [0usize, 1, 5, 16, 17, 1000, 4800] {
+        let mut list = spread((0..count).collect());
+        if count > 500 {
+            let first = &list[..count / 4];
+            for eighth in 0..8 {
+                let inside = first.iter().filter(|&&i| 8 * i / count == eighth).count();
+                assert!(4 * inside >= first.len() / 8, "{count}: {eighth} has {inside}");
+            }
+        }
+        list.sort_unstable();
+        assert!(list.into_iter().eq(0..count));
+    }
+}

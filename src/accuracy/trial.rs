@@ -1,0 +1,228 @@
+//! A picture of each setting and the reference they are held against, within a time.
+//!
+//! **In:** plans, pixels to audit, a time to be done by. **Out:** a [`Trial`]. **Invariant:** the time is
+//! kept: what does not fit is not in it, dear settings first, then audited pixels, samples and depth
+//! of the reference.
+
+use super::afford::{self, Affordable, Deadline, Depths};
+use super::measure::{Clock, Span, Timer, Times, round};
+use super::reference::{Reference, Studio, clamped};
+use super::statistics::{Deviation, Metric};
+use super::{Options, Unmeasured};
+use crate::plan::Plan;
+use crate::trace::Counters;
+
+/// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then one
+/// picture of each other setting, then a finer reference.
+const FOR_OWN: f64 = 0.7;
+const FOR_REFERENCE: f64 = 0.3;
+const FOR_PICTURES: f64 = 0.5;
+const FOR_FINER: f64 = 0.6;
+/// Of all the time: what finding the intervals of all settings may take.
+const FOR_STATISTICS: f64 = 0.1;
+/// Of the time for pictures that is left: what one may take.
+const FOR_ONE: f64 = 0.5;
+/// The most runs of each picture.
+const MOST_ROUNDS: usize = 9;
+
+/// A setting to be tried.
+pub struct Candidate {
+    pub name: String,
+    pub plan: Plan,
+    /// Of its knob.
+    pub knob: usize,
+    /// The least it can cost, in camera rays a pixel.
+    pub least: f64,
+    /// Each setting of the knob takes at least as long as the one before.
+    pub rises: bool,
+}
+
+/// A setting's picture.
+pub struct Picture {
+    /// Which of the candidates.
+    pub candidate: usize,
+    pub times: Times,
+    pub counters: Counters,
+    /// Of the audited pixels, clamped.
+    pub colors: Vec<[f64; 3]>,
+}
+
+pub struct Trial {
+    pub reference: Reference,
+    /// How deep it looks.
+    pub depth: u32,
+    /// In the order of the candidates; the first is that of the first.
+    pub pictures: Vec<Picture>,
+    pub runs: usize,
+}
+
+/// What a trial is made with.
+pub struct Bench<'a> {
+    pub studio: Studio<'a>,
+    pub depths: Depths<'a>,
+    pub options: &'a Options<'a>,
+    pub clock: &'a dyn Clock,
+    /// As the clock shows.
+    pub until: f64,
+}
+
+impl Bench<'_> {
+    /// When a part of the time that is left is over.
+    fn after(&self, part: f64, until: f64) -> f64 {
+        let now = self.clock.wall();
+        now + part * (until - now).max(0.0)
+    }
+
+    /// One timed run of a candidate. `None` where it takes longer.
+    fn picture(
+        &self,
+        (number, candidate): (usize, &Candidate),
+        list: &[(u32, u32)],
+        until: f64,
+    ) -> Option<Picture> {
+        let in_time = Deadline { clock: self.clock, until, watch: self.studio.watch };
+        let timer = Timer::new(self.clock, &in_time);
+        let traced = self.studio.picture(&candidate.plan, &timer);
+        let (cpu, wall) = timer.read();
+        let film = &traced.film;
+        let color =
+            |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
+        traced.complete.then(|| Picture {
+            candidate: number,
+            times: Times { cpu: vec![cpu], wall: vec![wall] },
+            counters: traced.counters,
+            colors: list.iter().map(color).collect(),
+        })
+    }
+
+    /// Tries the candidates, the first being the scene's own settings.
+    pub fn run(&self, candidates: &[Candidate], list: &[(u32, u32)]) -> Result<Trial, Unmeasured> {
+        let stopped = || match self.studio.watch.should_stop() {
+            true => Unmeasured::Stopped,
+            false => Unmeasured::TooShort,
+        };
+        let Options { metric, seed, .. } = *self.options;
+
+        // Intervals take their time, too: for fewer pixels less.
+        let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
+        let whole = self.until - self.clock.wall();
+        let most = (FOR_STATISTICS * whole / all_rows) as usize;
+        let list = &list[..list.len().min(most.max(afford::LEAST))];
+        let until = self.until - all_rows * list.len() as f64;
+
+        let own = self.picture((0, &candidates[0]), list, self.after(FOR_OWN, until));
+        let own = own.ok_or_else(stopped)?;
+        let known = afford::reference(
+            &self.studio,
+            &self.depths,
+            list,
+            seed,
+            (self.clock, self.after(FOR_REFERENCE, until)),
+            Reference::samples_at(Reference::COARSEST),
+        );
+        let Affordable { mut reference, plan: deep, a_sample } = known.ok_or_else(stopped)?;
+        let list = &list[..reference.pixels()];
+
+        let mut pictures = vec![own];
+        pictures[0].colors.truncate(list.len());
+        self.others(candidates, &deep, list, self.after(FOR_PICTURES, until), &mut pictures)?;
+
+        // As fine a reference as is needed, or as there is time for.
+        let finer_until = self.after(FOR_FINER, until);
+        let in_time = Deadline { clock: self.clock, until: finer_until, watch: self.studio.watch };
+        let finer = Studio { watch: &in_time, ..self.studio };
+        loop {
+            let errors = pictures.iter().map(|p| metric.of(&reference.deviations(&p.colors)));
+            let resolved = errors.filter(|&error| error > 0.0).fold(f64::INFINITY, f64::min);
+            let enough = 4.0 * reference.floor(metric) <= resolved;
+            let samples = f64::from(reference.samples()) * list.len() as f64;
+            let fits = self.clock.wall() + 2.0 * a_sample * samples <= finer_until;
+            if enough || !fits || reference.double(&finer, &deep, list) != Some(true) {
+                break;
+            }
+        }
+        let a_round = |pictures: &[Picture]| {
+            pictures.iter().map(|picture| picture.times.wall[0]).sum::<f64>()
+        };
+        // Where there is no time to run all once more, some that were too dear may still fit.
+        if self.clock.wall() + a_round(&pictures) >= until {
+            self.others(candidates, &deep, list, until, &mut pictures)?;
+        }
+
+        let plans: Vec<Plan> =
+            pictures.iter().map(|p| candidates[p.candidate].plan.clone()).collect();
+        let mut times: Vec<Times> = pictures.iter().map(|p| p.times.clone()).collect();
+        let in_time = Deadline { clock: self.clock, until, watch: self.studio.watch };
+        let (mut runs, mut takes) = (1, a_round(&pictures));
+        // More runs, while there is time for a whole round.
+        while runs < MOST_ROUNDS && self.clock.wall() + takes < until {
+            let began = self.clock.wall();
+            if round(&self.studio, &plans, self.clock, &in_time, &mut times).is_none() {
+                break;
+            }
+            (runs, takes) = (runs + 1, self.clock.wall() - began);
+        }
+        for (picture, mut times) in pictures.iter_mut().zip(times) {
+            times.cpu.truncate(runs);
+            times.wall.truncate(runs);
+            picture.times = times;
+        }
+        if self.studio.watch.should_stop() {
+            return Err(Unmeasured::Stopped);
+        }
+        Ok(Trial { reference, depth: deep.max_trace_level, pictures, runs })
+    }
+
+    /// One picture of each other candidate that there is time for, the cheap ones first, and none that
+    /// looks deeper than the reference.
+    fn others(
+        &self,
+        candidates: &[Candidate],
+        deep: &Plan,
+        list: &[(u32, u32)],
+        until: f64,
+        pictures: &mut Vec<Picture>,
+    ) -> Result<(), Unmeasured> {
+        let tried = |number: &usize| pictures.iter().any(|picture| picture.candidate == *number);
+        let mut order: Vec<usize> = (0..candidates.len()).filter(|n| !tried(n)).collect();
+        order.sort_by(|&a, &b| candidates[a].least.total_cmp(&candidates[b].least));
+        // Of those a camera ray a pixel was seen to take less than.
+        let mut a_ray = f64::INFINITY;
+        let mut too_dear = Vec::new();
+        for number in order {
+            let candidate = &candidates[number];
+            for picture in pictures.iter() {
+                let least = candidates[picture.candidate].least;
+                a_ray = a_ray.min(Span::of(&picture.times.wall).min / least);
+            }
+            let end = self.after(FOR_ONE, until);
+            let cannot = self.clock.wall() + candidate.least * a_ray > end && candidate.least > 1.0;
+            let deeper = candidate.plan.max_trace_level > deep.max_trace_level;
+            if cannot || deeper || too_dear.contains(&candidate.knob) {
+                continue;
+            }
+            match self.picture((number, candidate), list, end) {
+                Some(picture) => pictures.push(picture),
+                None if self.studio.watch.should_stop() => return Err(Unmeasured::Stopped),
+                None if candidate.rises => too_dear.push(candidate.knob),
+                None => {}
+            }
+        }
+        pictures.sort_by_key(|picture| picture.candidate);
+        Ok(())
+    }
+}
+
+/// Seconds that the intervals of one row take, for each audited pixel.
+fn statistics_take(clock: &dyn Clock, metric: Metric) -> f64 {
+    let some: Vec<Deviation> = (0..SOME)
+        .map(|i| Deviation { off: [f64::from(i * 37 % SOME); 3], noise: [0.0; 3] })
+        .collect();
+    let began = clock.wall();
+    let bounds = Metric::ALL.map(|metric| metric.estimate(&some));
+    let resamples = metric.resampled(&some);
+    std::hint::black_box((bounds, resamples));
+    (clock.wall() - began) / f64::from(SOME)
+}
+
+const SOME: u32 = 256;
