@@ -146,7 +146,7 @@ fn times(ratio: f64) -> String {
 /// A small part with one digit or two.
 fn percent(part: f64) -> String {
     let percent = 100.0 * part;
-    let digits = (-log10(percent.max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
+    let digits = (-log10(percent).floor()).clamp(0.0, 9.0) as usize;
     format!("{percent:.digits$} %")
 }
 

@@ -58,8 +58,9 @@ impl Axis {
 
 /// A digit times a power of ten, in as few characters as will do.
 pub fn number(value: f64) -> String {
-    if (0.000_9..10_000.0).contains(&value) {
-        let digits = (-log10(value * 1.000_001).floor()).max(0.0) as usize;
+    let exponent = log10(value * 1.000_001).floor();
+    if (-3.0..4.0).contains(&exponent) {
+        let digits = (-exponent).max(0.0) as usize;
         format!("{value:.digits$}")
     } else {
         format!("{value:.0e}")
