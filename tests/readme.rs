@@ -64,3 +64,34 @@ fn every_link_of_a_page_leads_somewhere() {
     }
     assert!(dead.is_empty(), "{dead:#?}");
 }
+
+/// The table of `lucarne accuracy` on a page.
+fn accuracy_table(page: &str) -> &str {
+    let from = page.find("```text\nscenes/gallery/first.scene ").expect("the table is there");
+    &page[from..from + 8 + page[from + 8..].find("```").expect("it ends")]
+}
+
+#[test]
+fn the_tables_of_accuracy_and_the_diagram_are_of_one_run() {
+    let table = accuracy_table(include_str!("../README.md"));
+    assert_eq!(table, accuracy_table(include_str!("../docs/accuracy.md")));
+    let svg = include_str!("../docs/images/first-accuracy.svg");
+    let mut knob = "";
+    let mut settings = 0;
+    for line in table.lines().skip_while(|line| !line.contains("setting")).skip(1) {
+        let Some(at) = line.find("..") else {
+            // A knob has a line of its own; what was not tried, and the sentences, have spaces.
+            knob = if line.contains(' ') { knob } else { line };
+            continue;
+        };
+        let label = line[2..at].rsplit_once(' ').expect("a label before the seconds").0.trim();
+        let cpu = line[2..].split_whitespace().find(|word| word.contains("..")).expect("seconds");
+        let title = format!("<title>{knob} {label}: {cpu} s, ");
+        let error = svg.split(&title).nth(1).unwrap_or_else(|| panic!("{title} is not drawn"));
+        let error = error.split("</title>").next().expect("its end").replace("&lt;", "<");
+        assert!(line.contains(&format!(" {error} [")), "{line}: {error}");
+        settings += 1;
+    }
+    assert_eq!(svg.matches(" s, ").count(), settings);
+    assert!(settings > 10);
+}

@@ -32,7 +32,9 @@ pub struct Deadline<'a> {
 }
 
 impl Watch for Deadline<'_> {
-    fn progress(&self, _: usize, _: usize) {}
+    fn progress(&self, done: usize, total: usize) {
+        self.watch.progress(done, total);
+    }
 
     fn built(&self) {
         self.watch.built();

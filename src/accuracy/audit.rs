@@ -51,6 +51,18 @@ pub fn shuffled(mut set: Vec<(u32, u32)>, seed: u64) -> Vec<(u32, u32)> {
     set
 }
 
+/// One value for each pixel of a list, in an order in which pixels side by side stand close together.
+///
+/// **Source:** G. Morton, A Computer Oriented Geodetic Data Base (1966): the bits of both coordinates in
+/// turn.
+pub fn by_place<T>(list: &[(u32, u32)], values: Vec<T>) -> Vec<T> {
+    let spread = |c: u32| (0..32).fold(0u64, |bits, i| bits | u64::from(c >> i & 1) << (2 * i));
+    let mut placed: Vec<(u64, T)> =
+        list.iter().map(|&(x, y)| spread(x) | spread(y) << 1).zip(values).collect();
+    placed.sort_by_key(|placed| placed.0);
+    placed.into_iter().map(|placed| placed.1).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,5 +110,21 @@ mod tests {
         let region = Region { x: 0, y: 0, width: 64, height: 48 };
         assert_eq!(sets(region, 100, 2, 5), sets(region, 100, 2, 5));
         assert_ne!(sets(region, 100, 2, 5), sets(region, 100, 2, 6));
+    }
+
+    #[test]
+    fn in_their_places_neighbours_stand_close_together() {
+        let region = Region { x: 0, y: 0, width: 320, height: 240 };
+        let list = shuffled(sets(region, 768, 1, 5).remove(0), 5);
+        let mean_step = |list: &[(u32, u32)]| {
+            let step = |pair: &[(u32, u32)]| {
+                f64::from(pair[0].0.abs_diff(pair[1].0) + pair[0].1.abs_diff(pair[1].1))
+            };
+            list.windows(2).map(step).sum::<f64>() / list.len() as f64
+        };
+        let placed = by_place(&list, list.clone());
+        // Squares are 10 pixels wide; anywhere is 180 pixels away.
+        assert!(mean_step(&list) > 150.0 && mean_step(&placed) < 25.0, "{}", mean_step(&placed));
+        assert_eq!(placed.len(), list.len());
     }
 }

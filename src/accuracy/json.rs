@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Estimate, Metric, Report, Verdict};
+use super::{Estimate, Metric, Report, Saving, Verdict};
 use crate::geometry;
 use crate::trace::Counters;
 
@@ -67,19 +67,22 @@ struct RowJson<'a> {
     wall_s: &'a [f64],
     rays: Rays,
     work: Work,
+    cost: f64,
     errors: Errors,
-    resolved: bool,
     #[serde(flatten)]
     verdict: VerdictJson,
 }
 
-/// `front`; `tied` with another row; or `dominated` by one, in whose time this one's is
-/// `times_its_time`, and in this one's error that one's is `part_of_error`.
+/// `front`; `tied` with another row; `unproven` over a cheaper one; or `dominated` by one whose error
+/// is `part_of_error` of this one's. This one's cost (or time, if that is what proved it) is
+/// `times_its_cost` (`times_its_time`) that of the other.
 #[derive(Serialize)]
 struct VerdictJson {
     verdict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     other: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times_its_cost: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     times_its_time: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,14 +91,20 @@ struct VerdictJson {
 
 impl From<Verdict> for VerdictJson {
     fn from(verdict: Verdict) -> Self {
-        let (verdict, other, times_its_time, part_of_error) = match verdict {
+        let (verdict, other, saving, part_of_error) = match verdict {
             Verdict::Front => ("front", None, None, None),
             Verdict::Tied { with } => ("tied", Some(with), None, None),
-            Verdict::Dominated { by, time, error } => {
-                ("dominated", Some(by), Some(time), Some(error))
+            Verdict::Unproven { over, saving } => ("unproven", Some(over), Some(saving), None),
+            Verdict::Dominated { by, saving, error } => {
+                ("dominated", Some(by), saving, Some(error))
             }
         };
-        Self { verdict, other, times_its_time, part_of_error }
+        let (times_its_cost, times_its_time) = match saving {
+            None => (None, None),
+            Some(Saving::Work(ratio)) => (Some(ratio), None),
+            Some(Saving::Time(ratio)) => (None, Some(ratio)),
+        };
+        Self { verdict, other, times_its_cost, times_its_time, part_of_error }
     }
 }
 
@@ -120,16 +129,19 @@ struct Errors {
     bad: Bounds,
 }
 
+/// Where it is not `resolved`, the error is less than `value`.
 #[derive(Serialize)]
 struct Bounds {
     value: f64,
     low: f64,
     high: f64,
+    resolved: bool,
 }
 
-impl From<Estimate> for Bounds {
-    fn from(Estimate { value, low, high }: Estimate) -> Self {
-        Self { value, low, high }
+impl Bounds {
+    fn of(report: &Report, row: usize, metric: Metric) -> Self {
+        let Estimate { value, low, high } = report.shown(metric, row);
+        Self { value, low, high, resolved: report.is_resolved(metric, row) }
     }
 }
 
@@ -153,7 +165,7 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
             .collect(),
     });
     let rows = report.rows.iter().enumerate().map(|(place, row)| {
-        let [rmse, p99, bad] = row.errors.map(Bounds::from);
+        let [rmse, p99, bad] = Metric::ALL.map(|metric| Bounds::of(report, place, metric));
         let Counters { camera, shadow, reflection, transmission, work } = row.counters;
         let geometry::Work { box_visits, root_solves } = work;
         RowJson {
@@ -162,8 +174,8 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
             wall_s: &row.times.wall,
             rays: Rays { camera, shadow, reflection, transmission },
             work: Work { box_visits, root_solves },
+            cost: report.cost(place),
             errors: Errors { rmse, p99, bad },
-            resolved: report.is_resolved(place),
             verdict: row.verdict.into(),
         }
     });

@@ -13,7 +13,8 @@ pub struct Knob {
     pub name: &'static str,
     /// Without any of them the knob does nothing.
     pub effects: &'static [Effect],
-    /// From cheap to dear, rising or falling.
+    /// From coarse to fine, rising or falling; that is from cheap to dear, but for `precision`, whose
+    /// coarse setting costs more. A report has them in the order of what they cost there.
     pub settings: &'static [f64],
     /// Whether the scene's own value may stand between them; else it is one of them.
     pub between: bool,
@@ -109,7 +110,7 @@ fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }
 }
 
-/// The ways to antialias, about from cheap to dear; the third is what `render` does.
+/// The ways to antialias, about from coarse to fine; the third is what `render` does.
 const LADDER: [Antialias; 14] = [
     Antialias::Off,
     Antialias::Adaptive { threshold: 0.1, grid: 3 },
@@ -128,7 +129,17 @@ const LADDER: [Antialias; 14] = [
 ];
 
 impl Knob {
-    /// The settings, with the scene's `own` among them: each once, from cheap to dear.
+    /// The setting that costs least in any scene.
+    pub fn cheapest(&self) -> f64 {
+        let cost = |setting: f64| (self.least)(setting) * (self.factor)(setting);
+        let first = self.settings.first().copied().unwrap_or_default();
+        self.settings
+            .iter()
+            .copied()
+            .fold(first, |best, s| if cost(s) < cost(best) { s } else { best })
+    }
+
+    /// The settings, with the scene's `own` among them: each once, from coarse to fine.
     pub fn with(&self, own: f64) -> Vec<f64> {
         let mut all = self.settings.to_vec();
         if self.between && !all.contains(&own) {
@@ -171,6 +182,15 @@ mod tests {
         let options = PlanOptions::new(Frame::whole(1, 1));
         assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 4×4");
         assert_eq!(KNOBS[0].settings.len(), LADDER.len());
+    }
+
+    #[test]
+    fn the_cheapest_setting_costs_least_and_the_last_is_the_finest() {
+        let cheapest: Vec<String> = KNOBS.iter().map(|k| (k.label)(k.cheapest())).collect();
+        assert_eq!(cheapest, ["off", "1", "1/10", "double"]);
+        let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
+        let finest: Vec<String> = KNOBS.iter().map(finest).collect();
+        assert_eq!(finest, ["32×32", "250", "1/1000000", "double"]);
     }
 
     #[test]

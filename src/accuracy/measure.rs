@@ -44,15 +44,6 @@ impl Span {
     }
 }
 
-impl Times {
-    /// What runs of the same thing differ by: two that are closer cannot be told apart. From fewer
-    /// than three runs nobody can know, and a third of the time is taken.
-    pub fn spread(&self) -> f64 {
-        let Span { min, median } = Span::of(&self.cpu);
-        if self.cpu.len() < 3 { min / 3.0 } else { median - min }
-    }
-}
-
 /// Watches one picture: notes when tracing begins, and passes on only the wish to stop.
 pub struct Timer<'a> {
     clock: &'a dyn Clock,
@@ -79,7 +70,30 @@ impl Watch for Timer<'_> {
         }
     }
 
-    fn progress(&self, _: usize, _: usize) {}
+    fn progress(&self, done: usize, total: usize) {
+        self.watch.progress(done, total);
+    }
+
+    fn should_stop(&self) -> bool {
+        self.watch.should_stop()
+    }
+}
+
+/// Watches many pictures, and says at each step of any of them how much of the time is spent.
+pub struct Elapsing<'a> {
+    pub clock: &'a dyn Clock,
+    pub began: f64,
+    /// Seconds.
+    pub budget: f64,
+    pub watch: &'a dyn Watch,
+}
+
+impl Watch for Elapsing<'_> {
+    fn progress(&self, _: usize, _: usize) {
+        let elapsed = self.clock.wall() - self.began;
+        let thousandths = |seconds: f64| (1000.0 * seconds) as usize;
+        self.watch.progress(thousandths(elapsed), thousandths(elapsed.max(self.budget)));
+    }
 
     fn should_stop(&self) -> bool {
         self.watch.should_stop()
@@ -121,9 +135,33 @@ mod tests {
     }
 
     #[test]
-    fn a_spread_is_not_believed_before_the_third_run() {
-        let spread = |cpu: &[f64]| Times { cpu: cpu.to_vec(), wall: Vec::new() }.spread();
-        assert_eq!(spread(&[3.0, 3.0]), 1.0);
-        assert_eq!(spread(&[3.0, 3.5, 9.0]), 0.5);
+    fn progress_is_the_part_of_the_budget_that_is_spent_and_never_falls_back() {
+        struct Seen(Mutex<Vec<(usize, usize)>>);
+        impl Watch for Seen {
+            fn progress(&self, done: usize, total: usize) {
+                self.0.lock().expect("one thread").push((done, total));
+            }
+            fn should_stop(&self) -> bool {
+                true
+            }
+        }
+        struct Hand(Mutex<f64>);
+        impl Clock for Hand {
+            fn wall(&self) -> f64 {
+                *self.0.lock().expect("one thread")
+            }
+            fn cpu(&self) -> f64 {
+                0.0
+            }
+        }
+        let (seen, hand) = (Seen(Mutex::new(Vec::new())), Hand(Mutex::new(0.0)));
+        let whole = Elapsing { clock: &hand, began: 1.0, budget: 4.0, watch: &seen };
+        let picture = Timer::new(&hand, &whole);
+        for (now, done) in [(2.0, 1), (3.0, 7), (6.0, 1)] {
+            *hand.0.lock().expect("one thread") = now;
+            picture.progress(done, 9);
+        }
+        assert_eq!(*seen.0.lock().expect("one thread"), [(1000, 4000), (2000, 4000), (5000, 5000)]);
+        assert!(whole.should_stop());
     }
 }

@@ -20,7 +20,7 @@ pub mod svg;
 pub mod table;
 mod trial;
 
-pub use front::Verdict;
+pub use front::{ENOUGH_RUNS, Order, Saving, Verdict};
 pub use knob::{KNOBS, Knob};
 pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
@@ -31,6 +31,7 @@ use crate::trace::{Counters, TraceOptions, Watch};
 use crate::world::{Origins, World};
 use afford::Depths;
 use front::Point;
+use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
 use trial::{Bench, Candidate, Picture, Trial};
 
@@ -106,6 +107,8 @@ pub struct Row {
     pub times: Times,
     /// Of the whole picture.
     pub counters: Counters,
+    /// The unit cost of a ray in this row's arithmetic, in rays of the camera.
+    pub factor: f64,
     /// In each of [`Metric::ALL`].
     pub errors: [Estimate; 3],
     /// Among all rows.
@@ -117,23 +120,78 @@ pub struct Row {
 }
 
 impl Report {
+    /// As it is shown.
     pub fn error(&self, row: usize) -> Estimate {
-        self.rows[row].errors[self.metric as usize]
+        self.shown(self.metric, row)
+    }
+
+    /// An error with what can be said of it: below what the reference resolves, nothing but that it
+    /// lies between 0 and there, or where its own interval ends if that is further.
+    pub fn shown(&self, metric: Metric, row: usize) -> Estimate {
+        let (error, resolution) = (self.rows[row].errors[metric as usize], self.resolution(metric));
+        match error.value < resolution {
+            true => Estimate { value: resolution, low: 0.0, high: error.high.max(resolution) },
+            false => error,
+        }
     }
 
     /// Errors below this cannot be told from the reference's own.
-    pub fn resolution(&self) -> f64 {
-        4.0 * self.floors[self.metric as usize]
+    pub fn resolution(&self, metric: Metric) -> f64 {
+        4.0 * self.floors[metric as usize]
     }
 
-    pub fn is_resolved(&self, row: usize) -> bool {
-        self.error(row).value >= self.resolution()
+    pub fn is_resolved(&self, metric: Metric, row: usize) -> bool {
+        self.rows[row].errors[metric as usize].value >= self.resolution(metric)
+    }
+
+    /// What the rows cost, counted.
+    pub fn cost(&self, row: usize) -> f64 {
+        self.rows[row].factor * knob::cost(&self.rows[row].counters)
+    }
+
+    /// Whether there are enough runs for the clock to be heard.
+    pub fn is_timed(&self) -> bool {
+        self.runs >= ENOUGH_RUNS
+    }
+
+    /// Puts settings in order and says what they are worth.
+    fn judge(&mut self) {
+        let order = self.order();
+        let all: Vec<usize> = (0..self.rows.len()).collect();
+        for (row, verdict) in self.rows.iter_mut().zip(order.verdicts(&all)) {
+            row.verdict = verdict;
+        }
+        for tried in &mut self.knobs {
+            let rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
+            let sorted = order.from_cheap_to_dear(&rows);
+            let place = |row| sorted.iter().position(|&other| other == row);
+            for (setting, verdict) in tried.settings.iter_mut().zip(order.verdicts(&rows)) {
+                setting.verdict = verdict;
+            }
+            tried.settings.sort_by_key(|setting| place(setting.row));
+        }
+        for knob in 0..self.knobs.len() {
+            self.knobs[knob].sentence = sentence::of(self, &order, &self.knobs[knob]);
+        }
+    }
+
+    /// Which rows are cheaper, which better.
+    pub fn order(&self) -> Order {
+        let point = |row: usize| {
+            let this = &self.rows[row];
+            let value = this.errors[self.metric as usize].value;
+            let errors = [&[value], &this.resamples[..]].concat();
+            let resolution = self.resolution(self.metric);
+            let work = (this.counters, this.factor);
+            Point { work, cost: self.cost(row), cpu: this.times.cpu.clone(), errors, resolution }
+        };
+        Order::of((0..self.rows.len()).map(point).collect())
     }
 
     /// Of a count of the whole picture.
-    pub fn a_pixel(&self, count: u64) -> f64 {
+    pub fn a_pixel(&self, count: f64) -> f64 {
         let Region { width, height, .. } = self.frame.region;
-        count as f64 / (f64::from(width) * f64::from(height))
+        count / (f64::from(width) * f64::from(height))
     }
 }
 
@@ -179,18 +237,23 @@ pub fn accuracy(
     clock: &dyn Clock,
     watch: &dyn Watch,
 ) -> Result<Report, Unmeasured> {
-    let until = clock.wall() + options.budget;
+    let began = clock.wall();
+    let until = began + options.budget;
     let own = own(world, options.frame);
     let called = called_for(world, origins, own, options.knobs);
     let geometry = Geometries::default();
-    let quiet = Quiet(watch);
+    let elapsing = Elapsing { clock, began, budget: options.budget, watch };
     // All alike, so that their times compare.
     let counted = TraceOptions { count_work: true, ..options.trace };
-    let studio = Studio { world, geometry: &geometry, options: counted, watch: &quiet };
+    let studio = Studio { world, geometry: &geometry, options: counted, watch: &elapsing };
     let list = audit::sets(options.frame.region, audit::WANTED, 1, options.seed).remove(0);
     let list = audit::shuffled(list, options.seed);
     watch.built();
 
+    let factor = |options: &PlanOptions| {
+        called.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
+    };
+    let mut factors = vec![factor(&own)];
     let mut candidates = vec![Candidate {
         name: "*".to_owned(),
         plan: plan(world, origins, &own),
@@ -207,6 +270,7 @@ pub fn accuracy(
             if !is_own {
                 let mut turned = own;
                 (knob.set)(&mut turned, setting);
+                factors.push(factor(&turned));
                 candidates.push(Candidate {
                     name: format!("{} {}", knob.name, (knob.label)(setting)),
                     plan: plan(world, origins, &turned),
@@ -219,7 +283,7 @@ pub fn accuracy(
     }
     let depths = Depths { origins, deepest: dearest(own, options.knobs) };
     let most_depth = depths.most();
-    let bench = Bench { studio, depths, options, clock, watch, until };
+    let bench = Bench { studio, depths, options, clock, until };
     let Trial { reference, depth, pictures, runs } = bench.run(&candidates, &list)?;
 
     let mut knobs: Vec<Tried> = called
@@ -256,40 +320,19 @@ pub fn accuracy(
     }
 
     let floors = Metric::ALL.map(|metric| reference.floor(metric));
-    let mut rows: Vec<Row> = pictures
-        .into_iter()
-        .map(|Picture { candidate, times, counters, colors }| {
-            let off = reference.deviations(&colors);
-            Row {
-                name: candidates[candidate].name.clone(),
-                times,
-                counters,
-                errors: Metric::ALL.map(|metric| metric.estimate(&off)),
-                verdict: Verdict::Front,
-                resamples: options.metric.resampled(&off),
-                colors,
-            }
-        })
-        .collect();
-    let resolution = 4.0 * floors[options.metric as usize];
-    let points: Vec<Point> =
-        rows.iter().map(|row| point(row, options.metric, resolution)).collect();
-    for (row, verdict) in rows.iter_mut().zip(front::verdicts(&points)) {
-        row.verdict = verdict;
-    }
-    for tried in &mut knobs {
-        let mine: Vec<Point> = tried.settings.iter().map(|s| points[s.row].clone()).collect();
-        for (i, verdict) in front::verdicts(&mine).into_iter().enumerate() {
-            let row = |place: usize| tried.settings[place].row;
-            tried.settings[i].verdict = match verdict {
-                Verdict::Front => Verdict::Front,
-                Verdict::Tied { with } => Verdict::Tied { with: row(with) },
-                Verdict::Dominated { by, time, error } => {
-                    Verdict::Dominated { by: row(by), time, error }
-                }
-            };
+    let rows = pictures.into_iter().map(|Picture { candidate, times, counters, colors }| {
+        let off = audit::by_place(&list, reference.deviations(&colors));
+        Row {
+            name: candidates[candidate].name.clone(),
+            times,
+            counters,
+            factor: factors[candidate],
+            errors: Metric::ALL.map(|metric| metric.estimate(&off)),
+            verdict: Verdict::Front,
+            resamples: options.metric.resampled(&off),
+            colors,
         }
-    }
+    });
     let mut report = Report {
         frame: options.frame,
         metric: options.metric,
@@ -299,26 +342,11 @@ pub fn accuracy(
         reference_samples: reference.samples(),
         floors,
         runs,
+        rows: rows.collect(),
         knobs,
-        rows,
     };
-    let sentences: Vec<String> =
-        report.knobs.iter().map(|tried| sentence::of(&report, tried)).collect();
-    for (tried, sentence) in report.knobs.iter_mut().zip(sentences) {
-        tried.sentence = sentence;
-    }
+    report.judge();
     Ok(report)
-}
-
-fn point(row: &Row, metric: Metric, resolution: f64) -> Point {
-    let value = row.errors[metric as usize].value;
-    let resolved = value >= resolution;
-    Point {
-        time: Span::of(&row.times.cpu).min,
-        spread: row.times.spread(),
-        error: value.max(resolution),
-        resamples: if resolved { row.resamples.clone() } else { Vec::new() },
-    }
 }
 
 /// Passes on the wish to stop, and not how far one of many parts has come.

@@ -199,7 +199,9 @@ pub fn spend(
     let kept = KEPT_FOR_AUDIT * (until - clock.wall()).max(0.0);
     let easel = Easel::new(world, origins, options);
     let geometry = Geometries::default();
-    let late = |until| Deadline { clock, until, watch };
+    // Many parts, none of which is the whole.
+    let quiet = Quiet(watch);
+    let late = |until| Deadline { clock, until, watch: &quiet };
     let in_time = late(until);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
     let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
@@ -304,7 +306,7 @@ fn audited(traced: &Traced, list: &[(u32, u32)], reference: &Reference, metric: 
     let colors: Vec<_> = list.iter().map(color).collect();
     Audit {
         metric,
-        error: metric.estimate(&reference.deviations(&colors)),
+        error: metric.estimate(&audit::by_place(list, reference.deviations(&colors))),
         resolution: 4.0 * reference.floor(metric),
         pixels: list.len(),
         depth: None,

@@ -1,10 +1,10 @@
 //! One sentence a knob: what it bought, or that it buys nothing here.
 
-use super::statistics::{difference, interval};
-use super::{Report, Setting, Span, Tried, table};
+use super::statistics::difference;
+use super::{Order, Report, Setting, Tried, table};
 
 /// What turning the knob did to this picture.
-pub fn of(report: &Report, tried: &Tried) -> String {
+pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
     let name = tried.name;
     let settings = &tried.settings;
     let (Some(cheap), Some(dear)) = (settings.first(), settings.last()) else {
@@ -21,14 +21,11 @@ pub fn of(report: &Report, tried: &Tried) -> String {
             cheap.label, dear.label
         );
     }
-    let best = best(report, settings);
-    let (from, to) = (report.error(cheap.row), report.error(best.row));
-    let less = difference(&report.rows[cheap.row].resamples, &report.rows[best.row].resamples);
-    let proven = report.is_resolved(cheap.row) && less.0 > 0.0 && best.row != cheap.row;
-    if !proven {
+    let best = best(order, settings);
+    if !order.gains(best.row, cheap.row) {
         let change = |setting: &Setting| {
             let (a, b) = (&report.rows[setting.row].resamples, &report.rows[dear.row].resamples);
-            let (low, high) = interval(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>());
+            let (low, high) = difference(a, b);
             low.abs().max(high.abs())
         };
         let most_change = settings.iter().map(change).fold(0.0, f64::max);
@@ -37,14 +34,14 @@ pub fn of(report: &Report, tried: &Tried) -> String {
             table::amount(report.metric, most_change)
         );
     }
-    let enough = settings.iter().find(|setting| changed(report, setting, dear) == 0);
-    let beyond = match enough {
-        Some(enough) if enough.row != dear.row => {
-            format!("; beyond {} not one audited pixel changes", enough.label)
-        }
-        _ => String::new(),
+    let (from, to) = (report.error(cheap.row), report.error(best.row));
+    let differs = |setting: &Setting| changed(report, setting, dear) > 0;
+    let enough = &settings[settings.iter().rposition(differs).map_or(0, |last| last + 1)];
+    let beyond = match enough.row == dear.row {
+        true => String::new(),
+        false => format!("; beyond {} not one audited pixel changes", enough.label),
     };
-    let share = match report.is_resolved(best.row) {
+    let share = match report.is_resolved(report.metric, best.row) {
         true => format!(" ({:.0} % of it)", 100.0 * (1.0 - to.value / from.value)),
         false => String::new(),
     };
@@ -54,7 +51,7 @@ pub fn of(report: &Report, tried: &Tried) -> String {
         best.label,
         table::error(report, best.row),
         table::error(report, cheap.row),
-        price(report, cheap, best),
+        price(order, cheap, best),
     )
 }
 
@@ -64,35 +61,14 @@ fn changed(report: &Report, a: &Setting, b: &Setting) -> usize {
     a.iter().zip(b).filter(|(a, b)| a != b).count()
 }
 
-/// The first, from cheap to dear, whose error is not proven to be more than a hundredth above the
-/// least, and that is no slower than another of those.
-fn best<'a>(report: &Report, settings: &'a [Setting]) -> &'a Setting {
-    let error = |setting: &Setting| report.error(setting.row).value.max(report.resolution());
-    let resamples = |setting: &Setting| &report.rows[setting.row].resamples;
-    let times = |setting: &Setting| &report.rows[setting.row].times;
-    let least = settings.iter().map(error).fold(f64::INFINITY, f64::min);
-    let champion = settings.iter().find(|setting| error(setting) <= least).unwrap_or(&settings[0]);
-    let as_good = |setting: &&Setting| {
-        let above = difference(resamples(setting), resamples(champion)).0;
-        error(setting) <= 1.01 * least || above <= 0.01 * least
-    };
-    let good: Vec<&Setting> = settings.iter().filter(as_good).collect();
-    let time = |setting: &&Setting| Span::of(&times(setting).cpu).min;
-    let fastest = good.iter().map(time).fold(f64::INFINITY, f64::min);
-    let in_time = |setting: &&&Setting| time(setting) <= fastest + times(setting).spread();
-    good.iter().find(in_time).copied().unwrap_or(champion)
+/// The cheapest that no other is proven to be better than.
+fn best<'a>(order: &Order, settings: &'a [Setting]) -> &'a Setting {
+    let unsurpassed =
+        |this: &&Setting| !settings.iter().any(|other| order.gains(other.row, this.row));
+    settings.iter().find(unsurpassed).unwrap_or(&settings[0])
 }
 
 /// What the second costs beyond the first.
-fn price(report: &Report, from: &Setting, to: &Setting) -> String {
-    let times = |setting: &Setting| &report.rows[setting.row].times;
-    let (a, b) = (times(from), times(to));
-    let (low, high) = (Span::of(&a.cpu).min, Span::of(&b.cpu).min);
-    if high <= low + a.spread().max(b.spread()) || low <= 0.0 {
-        return "no more time than runs differ by".to_owned();
-    }
-    match high / low {
-        ratio if ratio < 2.0 => format!("{:.0} % more time", 100.0 * (ratio - 1.0)),
-        ratio => format!("{ratio:.1} times the time"),
-    }
+fn price(order: &Order, from: &Setting, to: &Setting) -> String {
+    order.saving(from.row, to.row).map_or_else(|| "no more cost".to_owned(), table::more)
 }

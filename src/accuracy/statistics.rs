@@ -56,10 +56,14 @@ impl Metric {
     }
 
     /// The part of one pixel in the number: its square error without what the reference's noise
-    /// adds to it, its largest component, or 1 if it is bad.
+    /// adds to it, its largest component, or about 1 if it is bad.
     ///
     /// The first is (x − A)(x − B) for a reference of independent halves A and B, whose mean is
-    /// the true square error whatever their noise.
+    /// the true square error whatever their noise. The last is twice what both halves together say
+    /// less what each alone says: noise pushes more pixels over the limit than back, twice as many
+    /// with half the samples.
+    ///
+    /// **Source:** M. Quenouille, "Notes on bias in estimation", Biometrika 43, 1956.
     fn part(self, pixel: &Deviation) -> f64 {
         let largest = pixel.off.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
         match self {
@@ -68,7 +72,12 @@ impl Metric {
                 parts.map(|(off, noise)| off * off - noise * noise).sum::<f64>() / 3.0
             }
             Self::P99 => largest,
-            Self::Bad => f64::from(u8::from(largest > BAD)),
+            Self::Bad => {
+                let bad = |off: [f64; 3]| f64::from(u8::from(off.iter().any(|c| c.abs() > BAD)));
+                let half =
+                    |sign: f64| bad(std::array::from_fn(|i| pixel.off[i] + sign * pixel.noise[i]));
+                2.0 * bad(pixel.off) - (half(1.0) + half(-1.0)) / 2.0
+            }
         }
     }
 
@@ -78,7 +87,7 @@ impl Metric {
         match self {
             Self::Rmse => mean(parts).max(0.0).sqrt(),
             Self::P99 => quantile(parts, 0.99),
-            Self::Bad => mean(parts),
+            Self::Bad => mean(parts).max(0.0),
         }
     }
 
@@ -118,7 +127,11 @@ impl Metric {
     }
 
     /// The number with its interval: by bootstrap for RMSE, by Wilson's for shares, and for the
-    /// 99th percentile by the ranks that Wilson's interval of 99 % spans.
+    /// 99th percentile by the ranks that Wilson's interval of 99 % spans. The pixels are as
+    /// [`super::audit::by_place`] has them: neighbours close together.
+    ///
+    /// **Source:** R. Woodruff, "Confidence intervals for medians and other position measures", JASA 47,
+    /// 1952, for the percentile.
     pub fn estimate(self, pixels: &[Deviation]) -> Estimate {
         let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
         let value = self.whole(&mut parts);
@@ -129,9 +142,14 @@ impl Metric {
                 parts.extend(parts.iter().copied().max_by(f64::total_cmp));
                 (low, self.corrected(&parts).1)
             }
-            Self::Bad => wilson(parts.iter().sum(), parts.len() as f64),
+            Self::Bad => {
+                let count = worth(&parts);
+                wilson(value * count, count)
+            }
             Self::P99 => {
-                let count = parts.len() as f64;
+                let beyond: Vec<f64> =
+                    pixels.iter().map(|p| f64::from(u8::from(self.part(p) > value))).collect();
+                let count = worth(&beyond);
                 let (low, high) = wilson(0.99 * count, count);
                 (quantile(&mut parts, low), quantile(&mut parts, high))
             }
@@ -166,6 +184,24 @@ impl Metric {
         };
         (bound(-Z), bound(Z))
     }
+}
+
+/// How many pixels drawn from anywhere would tell the share of hits as surely as these do, each of
+/// which was drawn from a square of its own: what squares side by side have in common adds nothing to
+/// the share's error. Two neighbours estimate the variance in a square; where hits are few they say
+/// little, and one that stands alone is supposed beside those that were seen.
+///
+/// **Source:** the variance is that of successive differences (K. Wolter, Introduction to Variance
+/// Estimation, 2nd ed. 2007, ch. 8); an interval from as many draws as are worth the same is that of
+/// E. Korn, B. Graubard, "Confidence intervals for proportions with small expected number of positive
+/// counts estimated from survey data", Survey Methodology 24, 1998.
+fn worth(hits: &[f64]) -> f64 {
+    let count = hits.len() as f64;
+    let share = hits.iter().sum::<f64>() / count.max(1.0);
+    let anywhere = count * share * (1.0 - share);
+    let here =
+        hits.windows(2).map(|pair| (pair[0] - pair[1]) * (pair[0] - pair[1])).sum::<f64>() / 2.0;
+    count * (anywhere.max(0.0) + 1.0) / (here + 1.0)
 }
 
 /// What lies between the 2½th and the 97½th hundredth.

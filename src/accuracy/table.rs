@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{Estimate, Metric, Report, Setting, Span, Tried, Verdict};
+use super::{Estimate, Metric, Report, Saving, Setting, Span, Tried, Verdict};
+use crate::math::elementary::log10;
 
 /// The whole report.
 pub fn text(report: &Report, file: &str, threads: usize) -> String {
@@ -30,19 +31,28 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
     }
     writeln!(
         out,
-        "CPU seconds of {}, {}; wall clock beside; * is the scene's own, or `render`'s\n",
+        "seconds of {}, {}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s",
         count(report.runs, "interleaved run"),
         count(threads, "thread")
     )?;
     writeln!(
         out,
-        "  {:22} {:>15} {:>8} {:>9} {:>9} {:>9}  {:>9} {:21} worth it?",
+        "{}\n",
+        match report.is_timed() {
+            true => "cheaper is less cost; where runs are clearly the other way round, less time",
+            false => "cheaper is less cost; so few runs prove nothing of time",
+        }
+    )?;
+    writeln!(
+        out,
+        "  {:18} {:>14} {:>14} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
         "setting",
-        "CPU min..median",
-        "wall",
+        "CPU min..med",
+        "wall min..med",
         "rays/px",
         "boxes/px",
         "roots/px",
+        "cost/px",
         heading(report.metric),
         "95 % interval"
     )?;
@@ -50,17 +60,17 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
         writeln!(out, "{}", knob.name)?;
         for setting in &knob.settings {
             let row = &report.rows[setting.row];
-            let (cpu, wall) = (Span::of(&row.times.cpu), Span::of(&row.times.wall));
             writeln!(
                 out,
-                "{} {:22} {:>15} {:>8} {:>9.2} {:>9.2} {:>9.2}  {:>9} {:21} {}",
+                "{} {:18} {:>14} {:>14} {:>8.2} {:>8.2} {:>8.2} {:>8.2}  {:>9} {:18} {}",
                 if setting.is_own { '*' } else { ' ' },
                 setting.label,
-                format!("{}..{}", seconds(cpu.min), seconds(cpu.median)),
-                seconds(wall.min),
-                report.a_pixel(row.counters.rays()),
-                report.a_pixel(row.counters.work.box_visits),
-                report.a_pixel(row.counters.work.root_solves),
+                span(Span::of(&row.times.cpu)),
+                span(Span::of(&row.times.wall)),
+                report.a_pixel(row.counters.rays() as f64),
+                report.a_pixel(row.counters.work.box_visits as f64),
+                report.a_pixel(row.counters.work.root_solves as f64),
+                report.a_pixel(report.cost(setting.row)),
                 error(report, setting.row),
                 bounds(report, report.error(setting.row)),
                 verdict(report, knob, setting)
@@ -90,18 +100,54 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
     match verdict {
         Verdict::Front => "front".to_owned(),
         Verdict::Tied { with } => format!("tied with {}", name(with)),
-        Verdict::Dominated { by, time, error } => {
-            let time = match time {
-                ratio if ratio >= 1.05 => format!("{ratio:.1}× faster"),
-                _ => "as fast".to_owned(),
-            };
+        Verdict::Unproven { over, saving } => {
+            format!("no proven gain over {}, for {}", name(over), more(saving))
+        }
+        Verdict::Dominated { by, saving, error } => {
+            let saving = saving.map_or_else(|| "costs the same".to_owned(), less);
+            let below = if report.is_resolved(report.metric, by) { "" } else { "< " };
             let error = match 100.0 * error {
-                percent if percent < 99.5 => format!("with {percent:.0} % of the error"),
+                percent if percent < 99.0 => format!("with {below}{percent:.0} % of the error"),
+                percent if percent < 99.95 => format!("with {below}{percent:.1} % of the error"),
                 _ => "with no more error".to_owned(),
             };
-            format!("no: {} is {time}, {error}", name(by))
+            format!("no: {} {saving}, {error}", name(by))
         }
     }
+}
+
+/// From here on a ratio is told as one, and below as a percentage.
+const LARGE: f64 = 1.2;
+
+/// What the better of two is.
+fn less(saving: Saving) -> String {
+    match saving {
+        Saving::Work(ratio) if ratio >= LARGE => format!("is {} cheaper", times(ratio)),
+        Saving::Work(ratio) => format!("costs {} less", percent(1.0 - 1.0 / ratio)),
+        Saving::Time(ratio) if ratio >= LARGE => format!("is {} faster", times(ratio)),
+        Saving::Time(ratio) => format!("takes {} less time", percent(1.0 - 1.0 / ratio)),
+    }
+}
+
+/// What the dearer of two takes.
+pub(super) fn more(saving: Saving) -> String {
+    match saving {
+        Saving::Work(ratio) if ratio >= LARGE => format!("{} the cost", times(ratio)),
+        Saving::Work(ratio) => format!("{} more cost", percent(ratio - 1.0)),
+        Saving::Time(ratio) if ratio >= LARGE => format!("{} the time", times(ratio)),
+        Saving::Time(ratio) => format!("{} more time", percent(ratio - 1.0)),
+    }
+}
+
+fn times(ratio: f64) -> String {
+    if ratio < 10.0 { format!("{ratio:.1}×") } else { format!("{ratio:.0}×") }
+}
+
+/// A small part with one digit or two.
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    let digits = (-log10(percent).floor()).clamp(0.0, 9.0) as usize;
+    format!("{percent:.digits$} %")
 }
 
 fn heading(metric: Metric) -> &'static str {
@@ -114,9 +160,9 @@ fn heading(metric: Metric) -> &'static str {
 
 /// An error of a row, or that it is below what the reference can resolve.
 pub fn error(report: &Report, row: usize) -> String {
-    match report.is_resolved(row) {
+    match report.is_resolved(report.metric, row) {
         true => amount(report.metric, report.error(row).value),
-        false => format!("< {}", amount(report.metric, report.resolution())),
+        false => format!("< {}", amount(report.metric, report.resolution(report.metric))),
     }
 }
 
@@ -136,10 +182,19 @@ pub fn amount(metric: Metric, value: f64) -> String {
     }
 }
 
-pub(super) fn seconds(s: f64) -> String {
+/// The least of some runs and the middle one.
+pub(super) fn span(Span { min, median }: Span) -> String {
+    format!("{}..{}", seconds(min), seconds(median))
+}
+
+/// Seconds with three digits.
+fn seconds(s: f64) -> String {
     match s {
+        100.0.. => format!("{s:.0}"),
         10.0.. => format!("{s:.1}"),
+        1.0.. => format!("{s:.2}"),
         0.1.. => format!("{s:.3}"),
+        0.01.. => format!("{s:.4}"),
         _ => format!("{s:.5}"),
     }
 }
@@ -161,5 +216,24 @@ mod tests {
         assert_eq!(rmse(1.234e-7), "1.2e-7");
         assert_eq!(rmse(0.0), "0");
         assert_eq!(amount(Metric::Bad, 0.161), "16.10 %");
+    }
+
+    #[test]
+    fn a_saving_is_told_however_small() {
+        let savings = [31.86, 1.857, 1.0526, 1.0004, 1.000_012].map(Saving::Work);
+        assert_eq!(
+            savings.map(less),
+            [
+                "is 32× cheaper",
+                "is 1.9× cheaper",
+                "costs 5 % less",
+                "costs 0.04 % less",
+                "costs 0.001 % less"
+            ]
+        );
+        assert_eq!(more(savings[1]), "1.9× the cost");
+        assert_eq!(more(savings[2]), "5 % more cost");
+        assert_eq!(less(Saving::Time(1.1)), "takes 9 % less time");
+        assert_eq!(more(Saving::Time(2.0)), "2.0× the time");
     }
 }

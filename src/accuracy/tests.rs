@@ -130,10 +130,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
                 *holds += u32::from((low..=high).contains(&metric.of(&exact)));
             }
         }
-        // Those of shares and percentiles are wide on purpose.
-        let [rmse, p99, bad] = holds;
-        let fair = (90..=99).contains(&rmse) && p99 >= 90 && bad >= 90;
-        assert!(fair, "{antialias:?} {holds:?}");
+        assert!(holds.iter().all(|holds| (90..=99).contains(holds)), "{antialias:?} {holds:?}");
     }
 }
 
@@ -155,7 +152,7 @@ const PLANTED: Knob = Knob {
 fn a_knob_that_does_nothing_is_said_to_buy_nothing() {
     let (world, origins) = compiled(BALLS, 0.0);
     let options = Options { knobs: &[KNOBS[0], PLANTED], ..asked(40, 30) };
-    let clock = Ticking::new(1e-3);
+    let clock = Ticking::new(1.0 / 1024.0);
     let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
     let planted = report.knobs.iter().find(|knob| knob.name == "planted").expect("tried");
     assert_eq!(
@@ -190,7 +187,7 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
 fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
     let (world, origins) = compiled(BALLS, 0.0);
     let options = Options { knobs: &KNOBS[..2], ..asked(40, 30) };
-    let clock = Ticking::new(1e-3);
+    let clock = Ticking::new(1.0 / 1024.0);
     let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
     assert_eq!(report.audited, 1200, "all of them");
     let truth = Truth::new(&world, &origins, options.frame, 3);
@@ -222,7 +219,7 @@ fn the_same_seed_gives_the_same_errors_whatever_the_threads() {
     let errors = |threads, seed| {
         let trace = TraceOptions::on_threads(threads);
         let options = Options { knobs: &KNOBS[2..], trace, seed, ..asked(120, 90) };
-        let clock = Ticking::new(1e-3);
+        let clock = Ticking::new(1.0 / 1024.0);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("done");
         report.rows.iter().map(|row| row.errors).collect::<Vec<_>>()
     };
@@ -234,7 +231,7 @@ fn the_same_seed_gives_the_same_errors_whatever_the_threads() {
 #[test]
 fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let (world, origins) = compiled(BALLS, 0.0);
-    let clock = Ticking::new(1e-3);
+    let clock = Ticking::new(1.0 / 1024.0);
     let report =
         accuracy(&world, &origins, &asked(40, 30), &clock, &Unwatched).expect("not stopped");
     let table = table::text(&report, "a.scene", 1);
@@ -244,7 +241,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     // What the reference cannot resolve is no number.
     let coarse = Report { floors: [0.1; 3], ..report.clone() };
     assert_eq!(table::error(&coarse, 0), "< 0.400");
-    assert!(table::text(&coarse, "a.scene", 1).contains(" < 0.400 "));
+    assert!(table::text(&coarse, "a.scene", 1).contains(" < 0.400 [0, 0.400] "));
     let host = json::Host {
         os: "linux".to_owned(),
         arch: "x86_64".to_owned(),
@@ -257,9 +254,16 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
         serde_json::from_str(&json::line(&report, "a.scene", &host)).expect("JSON");
     assert_eq!(value["host"]["threads"], 1);
     assert_eq!(value["rows"].as_array().map(Vec::len), Some(report.rows.len()));
-    assert_eq!(value["knobs"][1]["settings"][3]["flag"], "--depth 5");
+    let settings = value["knobs"][1]["settings"].as_array().expect("a list");
+    let own = settings.iter().find(|setting| setting["own"] == true).expect("the scene's own");
+    assert_eq!(own["flag"], "--depth 5");
+    let coarse: serde_json::Value =
+        serde_json::from_str(&json::line(&coarse, "a.scene", &host)).expect("JSON");
+    let error = &coarse["rows"][0]["errors"]["rmse"];
+    assert!(error["resolved"] == false && error["low"] == 0.0 && error["high"] == 0.4, "{error}");
     let svg = svg::text(&report, "a<b>.scene", &host);
     balanced(&svg);
+    svg::tests::is_legible(&svg);
     let points = report.knobs.iter().map(|knob| knob.settings.len()).sum::<usize>();
     assert_eq!(svg.matches("<g class=\"k").count(), points + report.knobs.len());
     assert!(!svg.contains("NaN") && !svg.contains("inf"));

@@ -10,7 +10,7 @@ use super::reference::{Reference, Studio, clamped};
 use super::statistics::{Deviation, Metric};
 use super::{Options, Unmeasured};
 use crate::plan::Plan;
-use crate::trace::{Counters, Watch};
+use crate::trace::Counters;
 
 /// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then one
 /// picture of each other setting, then a finer reference.
@@ -62,8 +62,6 @@ pub struct Bench<'a> {
     pub depths: Depths<'a>,
     pub options: &'a Options<'a>,
     pub clock: &'a dyn Clock,
-    /// Hears how far it has come.
-    pub watch: &'a dyn Watch,
     /// As the clock shows.
     pub until: f64,
 }
@@ -99,12 +97,11 @@ impl Bench<'_> {
 
     /// Tries the candidates, the first being the scene's own settings.
     pub fn run(&self, candidates: &[Candidate], list: &[(u32, u32)]) -> Result<Trial, Unmeasured> {
-        let stopped = || match self.watch.should_stop() {
+        let stopped = || match self.studio.watch.should_stop() {
             true => Unmeasured::Stopped,
             false => Unmeasured::TooShort,
         };
         let Options { metric, seed, .. } = *self.options;
-        let steps = 2 * candidates.len() + 2;
 
         // Intervals take their time, too: for fewer pixels less.
         let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
@@ -115,7 +112,6 @@ impl Bench<'_> {
 
         let own = self.picture((0, &candidates[0]), list, self.after(FOR_OWN, until));
         let own = own.ok_or_else(stopped)?;
-        self.watch.progress(1, steps);
         let known = afford::reference(
             &self.studio,
             &self.depths,
@@ -130,7 +126,6 @@ impl Bench<'_> {
         let mut pictures = vec![own];
         pictures[0].colors.truncate(list.len());
         self.others(candidates, &deep, list, self.after(FOR_PICTURES, until), &mut pictures)?;
-        self.watch.progress(candidates.len() + 1, steps);
 
         // As fine a reference as is needed, or as there is time for.
         let finer_until = self.after(FOR_FINER, until);
@@ -146,7 +141,6 @@ impl Bench<'_> {
                 break;
             }
         }
-        self.watch.progress(candidates.len() + 2, steps);
         let a_round = |pictures: &[Picture]| {
             pictures.iter().map(|picture| picture.times.wall[0]).sum::<f64>()
         };
@@ -173,10 +167,9 @@ impl Bench<'_> {
             times.wall.truncate(runs);
             picture.times = times;
         }
-        if self.watch.should_stop() {
+        if self.studio.watch.should_stop() {
             return Err(Unmeasured::Stopped);
         }
-        self.watch.progress(steps, steps);
         Ok(Trial { reference, depth: deep.max_trace_level, pictures, runs })
     }
 
@@ -210,11 +203,10 @@ impl Bench<'_> {
             }
             match self.picture((number, candidate), list, end) {
                 Some(picture) => pictures.push(picture),
-                None if self.watch.should_stop() => return Err(Unmeasured::Stopped),
+                None if self.studio.watch.should_stop() => return Err(Unmeasured::Stopped),
                 None if candidate.rises => too_dear.push(candidate.knob),
                 None => {}
             }
-            self.watch.progress(pictures.len(), 2 * candidates.len() + 2);
         }
         pictures.sort_by_key(|picture| picture.candidate);
         Ok(())

@@ -1,11 +1,12 @@
 //! A bar while the tracer works, and Ctrl-C.
 //!
-//! **Invariant:** the bar stands on standard error, and only on a terminal.
+//! **Invariant:** the bar stands on standard error, and only on a terminal; it never stands still.
 
 use std::io::IsTerminal;
 use std::process;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lucarne::trace::Watch;
@@ -14,6 +15,8 @@ use super::exit::Exit;
 use super::messages;
 use super::stats::cpu_seconds;
 
+/// From one sign of life to the next.
+const TICK: Duration = Duration::from_millis(200);
 /// A trace is under way, or was.
 static TRACING: AtomicBool = AtomicBool::new(false);
 /// Ctrl-C was heard.
@@ -43,15 +46,17 @@ impl Progress {
     /// From here on Ctrl-C stops the trace.
     pub fn start() -> Self {
         let bar = match std::io::stderr().is_terminal() {
-            true => ProgressBar::new(0),
+            true => ProgressBar::new(1),
             false => ProgressBar::hidden(),
         };
-        let template = "  {bar:40} {percent:>3} %  {elapsed} (about {eta} left)";
+        let template = "{spinner} {bar:40} {percent:>3} %  {elapsed} (about {eta} left)";
         bar.set_style(
             ProgressStyle::with_template(template)
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .progress_chars("━━ "),
         );
+        // A piece may take long: the time goes on, and is seen to.
+        bar.enable_steady_tick(TICK);
         TRACING.store(true, Ordering::SeqCst);
         Self { bar, started: cpu_seconds(), built: OnceLock::new() }
     }
