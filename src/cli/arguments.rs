@@ -165,7 +165,7 @@ pub struct AccuracyArguments {
     /// The knobs to turn, separated by commas [default: all that the scene calls for]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
     pub knobs: Vec<&'static str>,
-    /// About how long it may take, such as 60s or 5m: more time, more runs and dearer settings
+    /// How long it may take, such as 60s or 5m: more time, more runs and dearer settings
     #[arg(long, value_name = "T", value_parser = seconds, default_value = "60s")]
     pub budget: f64,
     /// What is called an error
