@@ -11,7 +11,7 @@ use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
 use crate::source::{FileId, Files, Source, Sources, Span, decode};
 use crate::syntax::ast::Ast;
-use crate::syntax::{ParseOptions, parse};
+use crate::syntax::{ParseOptions, legacy, parse};
 use crate::world::{Origins, World};
 
 /// What the caller may choose about a scene.
@@ -21,6 +21,8 @@ pub struct Options {
     pub levels: Levels,
     /// Width and height in pixels of the picture that will be made, where it is known.
     pub picture: Option<(u32, u32)>,
+    /// Tell every old form of the main file, also where it is not run.
+    pub legacy: bool,
     pub evaluate: EvaluateOptions,
 }
 
@@ -28,7 +30,12 @@ impl Options {
     /// The defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
         let evaluate = EvaluateOptions { dialect, ..EvaluateOptions::default() };
-        Self { levels: Levels::new(dialect == Dialect::Scene), picture: None, evaluate }
+        Self {
+            levels: Levels::new(dialect == Dialect::Scene),
+            picture: None,
+            legacy: false,
+            evaluate,
+        }
     }
 }
 
@@ -92,6 +99,9 @@ impl<'a> Road<'a> {
         let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
         let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
         let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
+        if self.options.legacy {
+            legacy(&ast, self.sources.get(file), &mut self.diagnostics);
+        }
         self.silence(0);
         ast
     }

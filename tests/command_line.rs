@@ -898,3 +898,74 @@ fn single_precision_makes_nearly_the_same_picture() {
     let plan = place.run("plan a.scene --precision single").ends(0, &[]).stdout();
     assert!(plan.contains("\nprecision single\n"), "{plan}");
 }
+
+const CROOKED: &str = "sphere{0,1 // a ball\n   pigment{rgb 1}}\n";
+const STRAIGHT: &str = "sphere {\n  0, 1  // a ball\n  pigment { rgb 1 }\n}\n";
+
+#[test]
+fn fmt_lays_files_out_and_leaves_those_alone_that_it_cannot_read() {
+    let place = Place::new();
+    place.write("a.inc", CROOKED);
+    place.write("open.scene", "sphere{0,1");
+    place.run("fmt a.inc open.scene no.scene").ends(3, &["unclosed-block", "no such file"]);
+    assert_eq!(String::from_utf8_lossy(&place.read("a.inc")), STRAIGHT);
+    assert_eq!(place.read("open.scene"), b"sphere{0,1");
+    let again = place.run("fmt a.inc --check").ends(0, &[]);
+    assert_eq!(again.stdout() + &again.stderr(), "");
+    assert_eq!(place.names(), ["a.inc", "a.scene", "broken.scene", "open.scene"]);
+    // A misspelt word is no fault of form.
+    place.run("fmt broken.scene --check").ends(0, &[]);
+}
+
+#[test]
+fn fmt_says_what_would_change_and_writes_nothing() {
+    let place = Place::new();
+    place.write("b.scene", CROOKED);
+    let listed = place.run("fmt a.scene b.scene --check").ends(1, &[]);
+    assert_eq!(listed.stdout(), "b.scene\n");
+    let diff = place.run("fmt a.scene b.scene --diff").ends(0, &[]).stdout();
+    assert!(diff.starts_with("--- b.scene\n+++ b.scene (formatted)\n@@ -1,2 +1,4 @@\n"), "{diff}");
+    assert!(diff.contains("\n-   pigment{rgb 1}}\n") && diff.contains("\n+  pigment { rgb 1 }\n"));
+    place.run("fmt b.scene --diff --check").ends(1, &[]);
+    assert_eq!(place.read("b.scene"), CROOKED.as_bytes());
+}
+
+#[test]
+fn fmt_keeps_the_bytes_of_a_file_that_are_no_layout() {
+    let place = Place::new();
+    let write = |name: &str, bytes: &[u8]| fs::write(place.path(name), bytes).expect("written");
+    write("latin.pov", b"// caf\xe9\nA( )\n");
+    write("mark.pov", b"\xef\xbb\xbfA( )\r\n");
+    place.run("fmt latin.pov mark.pov").ends(0, &[]);
+    assert_eq!(place.read("latin.pov"), b"// caf\xe9\nA()\n");
+    assert_eq!(place.read("mark.pov"), b"\xef\xbb\xbfA()\r\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn fmt_keeps_permissions_and_links() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = Place::new();
+    place.write("b.scene", CROOKED);
+    fs::set_permissions(place.path("b.scene"), fs::Permissions::from_mode(0o640)).expect("set");
+    std::os::unix::fs::symlink(place.path("b.scene"), place.path("link.scene")).expect("a link");
+    place.run("fmt link.scene").ends(0, &[]);
+    assert!(fs::symlink_metadata(place.path("link.scene")).expect("there").is_symlink());
+    let mode = fs::metadata(place.path("b.scene")).expect("there").permissions().mode();
+    assert_eq!((mode & 0o777, place.read("b.scene")), (0o640, STRAIGHT.as_bytes().to_vec()));
+}
+
+#[test]
+fn old_forms_are_listed_and_rewritten() {
+    let place = Place::new();
+    let old = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Size = 2\n\
+               sphere { <0 0 0>, Size pigment { color red 1 green 0.5 } }\n";
+    place.write("a.pov", old);
+    assert_eq!(place.run("check a.pov").ends(0, &[]).stderr(), "");
+    place.run("check a.pov --legacy").ends(0, &["legacy-form", "rgb <1, 0.5, 0>", "3 warnings"]);
+    place.run("check a.pov --legacy --fix").ends(0, &["a.pov: 3 fixes applied"]);
+    let new = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Size = 2;\n\
+               sphere { <0, 0, 0>, Size pigment { color rgb <1, 0.5, 0> } }\n";
+    assert_eq!(String::from_utf8_lossy(&place.read("a.pov")), new);
+    assert_eq!(place.run("check a.pov --legacy").ends(0, &[]).stderr(), "");
+}

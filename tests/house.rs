@@ -116,6 +116,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
     ("nix", &["cli/"]),
+    ("similar", &["cli/"]),
     ("tempfile", &["cli/"]),
     ("terminal_size", &["cli/"]),
 ];

@@ -1,8 +1,6 @@
 //! `lucarne check`: messages, and no picture.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
@@ -11,9 +9,10 @@ use lucarne::source::FileId;
 use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
-use super::exit::{Exit, Failure, Outcome, reason};
+use super::exit::{Exit, Failure, Outcome};
 use super::files::{DiskFiles, is_stdin, name_of, read_main};
 use super::messages::{self, Messages};
+use super::output::replace;
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
@@ -50,7 +49,7 @@ fn compiled<T>(
     then: impl FnOnce(&Road) -> T,
 ) -> T {
     let files = DiskFiles::new(file, &arguments.scene.include);
-    let mut road = Road::new(&files, arguments.scene.options(file, arguments.frame()));
+    let mut road = Road::new(&files, arguments.options(file));
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
     if !arguments.syntax_only {
@@ -117,22 +116,4 @@ fn fixes_elsewhere(file: &Path, text: &str, arguments: &CheckArguments) -> Vec<(
         }
         counts.into_iter().collect()
     })
-}
-
-/// Writes the file anew, beside and renamed, with the permissions it had.
-fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let path = fs::canonicalize(file).unwrap_or(file.to_owned());
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let cannot = |why: String| Failure::file(format!("cannot write `{}`: {why}", file.display()));
-    let mut beside = tempfile::Builder::new()
-        .prefix(".lucarne-")
-        .tempfile_in(folder)
-        .map_err(|error| cannot(reason(&error)))?;
-    beside.write_all(bytes).map_err(|error| cannot(reason(&error)))?;
-    if let Ok(about) = fs::metadata(&path) {
-        let set = beside.as_file().set_permissions(about.permissions());
-        set.map_err(|error| cannot(reason(&error)))?;
-    }
-    beside.persist(&path).map_err(|error| cannot(reason(&error.error)))?;
-    Ok(())
 }

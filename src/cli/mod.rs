@@ -8,12 +8,14 @@ mod check;
 mod exit;
 mod explain;
 mod files;
+mod fmt;
 mod messages;
 mod output;
 mod plan;
 mod progress;
 mod promise;
 mod render;
+mod scene;
 mod show;
 mod stats;
 mod values;
@@ -52,6 +54,7 @@ fn run(arguments: Arguments) -> Outcome {
     match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Fmt(arguments) => fmt::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),

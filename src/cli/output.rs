@@ -147,6 +147,20 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes a text of the author's anew: whole or not at all, with the permissions it had.
+pub fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    // A link stays a link: what it leads to is replaced.
+    let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
+    let mut beside = temporary(path)?;
+    beside.write_all(bytes).map_err(|error| cannot(file, &reason(&error)))?;
+    if let Ok(about) = fs::metadata(path) {
+        let set = beside.as_file().set_permissions(about.permissions());
+        set.map_err(|error| cannot(file, &reason(&error)))?;
+    }
+    beside.persist(path).map_err(|error| cannot(file, &reason(&error.error)))?;
+    Ok(())
+}
+
 fn folder(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -4,10 +4,11 @@ use lucarne::plan;
 use lucarne::road::Road;
 use lucarne::{scene, syntax, world};
 
-use super::arguments::{PictureArguments, SceneArguments, ShowArguments, Stage};
+use super::arguments::{PictureArguments, ShowArguments, Stage};
 use super::exit::{Exit, Failure, Outcome};
 use super::files::{DiskFiles, name_of, read_main};
 use super::messages;
+use super::scene::SceneArguments;
 
 pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)

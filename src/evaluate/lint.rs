@@ -10,7 +10,8 @@ mod unit;
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
-use crate::source::{FileId, Site, Span};
+use crate::source::{Site, Span};
+use crate::syntax::ast::{Ast, DirectiveKind, ItemKind};
 use crate::vocabulary::{PREDECLARED, Word};
 
 use super::scope::Owner;
@@ -102,7 +103,8 @@ impl Evaluator<'_> {
     }
 
     /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
-    pub(super) fn warn_of_old_version(&mut self, main: FileId) {
+    pub(super) fn warn_of_old_version(&mut self, main: &Unit) {
+        let file = main.ast.file;
         let missing = match (self.says_version, self.says_gamma) {
             _ if self.options.dialect == Dialect::Scene => return,
             (true, true) => return,
@@ -111,9 +113,16 @@ impl Evaluator<'_> {
             (false, false) => "`#version` and no `assumed_gamma`",
         };
         let message = format!("the file has no {missing}; it is read as version 3.7 with gamma 1");
-        let diagnostic = Diagnostic::new(Code::OldVersion, message)
-            .at(Span::new(main, 0, 0), "POV-Ray would read this as an old file")
+        let mut diagnostic = Diagnostic::new(Code::OldVersion, message)
+            .at(Span::new(file, 0, 0), "POV-Ray would read this as an old file")
             .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
+        // What is included is not a scene, and says nothing for itself.
+        if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
+            let preamble = Preamble::of(&main.ast);
+            for (at, text) in preamble.completed(self.says_version, self.says_gamma) {
+                diagnostic = diagnostic.fix(Span::new(file, at, at), text);
+            }
+        }
         self.diagnostics.push(diagnostic);
     }
 
@@ -149,6 +158,55 @@ impl Evaluator<'_> {
         let diagnostic =
             Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
         self.report(here, diagnostic);
+    }
+}
+
+/// Where the main file says what it is written for, outside of all branches.
+#[derive(Default)]
+struct Preamble {
+    /// Behind the first `#version …;`.
+    version: Option<u32>,
+    /// Behind the brace of the first `global_settings`.
+    settings: Option<u32>,
+}
+
+impl Preamble {
+    /// What has to be inserted, and where.
+    fn completed(&self, says_version: bool, says_gamma: bool) -> Vec<(usize, &'static str)> {
+        let gamma = match (self.settings, self.version) {
+            _ if says_gamma => None,
+            (Some(at), _) => Some((at as usize, " assumed_gamma 1")),
+            (None, Some(at)) => Some((at as usize, "\nglobal_settings { assumed_gamma 1 }")),
+            (None, None) => Some((0, "global_settings { assumed_gamma 1 }\n")),
+        };
+        let version = (!says_version).then_some((0, "#version 3.7;\n"));
+        match gamma {
+            // Two insertions at one place are one.
+            Some((0, _)) if !says_version => {
+                vec![(0, "#version 3.7; global_settings { assumed_gamma 1 }\n")]
+            }
+            gamma => version.into_iter().chain(gamma).collect(),
+        }
+    }
+
+    fn of(ast: &Ast) -> Self {
+        let mut preamble = Self::default();
+        for two in ast.items(ast.root).windows(2) {
+            match (two[0].kind, two[1].kind) {
+                (ItemKind::Directive(id), next)
+                    if matches!(ast.directive(id).kind, DirectiveKind::Version(_)) =>
+                {
+                    let ends = next == ItemKind::Semicolon;
+                    let last = if ends { two[1].span } else { two[0].span };
+                    preamble.version.get_or_insert(last.end);
+                }
+                (ItemKind::Word(Word::GlobalSettings), ItemKind::Block(_)) => {
+                    preamble.settings.get_or_insert(two[1].span.start + 1);
+                }
+                _ => {}
+            }
+        }
+        preamble
     }
 }
 

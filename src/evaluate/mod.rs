@@ -371,7 +371,7 @@ impl<'a> Evaluator<'a> {
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
-            self.warn_of_old_version(file);
+            self.warn_of_old_version(&here.unit);
         }
     }
 

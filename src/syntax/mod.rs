@@ -12,9 +12,11 @@ mod control;
 mod directive;
 mod dump;
 mod expression;
+mod format;
 mod habits;
 mod head;
 mod layout;
+mod legacy;
 mod list;
 mod loose;
 mod mark;
@@ -30,6 +32,8 @@ mod target;
 mod token;
 
 pub use self::dump::dump;
+pub use self::format::{Unformatted, format};
+pub use self::legacy::legacy;
 pub use self::print::print;
 
 use self::ast::Ast;

@@ -325,7 +325,8 @@ impl<'a> Nest<'a> {
         if text == "#" {
             return self.report(
                 Diagnostic::new(Code::LegacyForm, "this `#` stands alone")
-                    .at(span, "expected a directive's word after it; it is left out"),
+                    .at(span, "expected a directive's word after it; it is left out")
+                    .fix(span, ""),
             );
         }
         if text == "“"

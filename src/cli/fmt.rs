@@ -1,0 +1,81 @@
+//! `lucarne fmt`: scenes in canonical layout.
+
+use std::path::Path;
+
+use lucarne::diagnostic::Diagnostics;
+use lucarne::road::dialect;
+use lucarne::source::{Source, Sources, decode};
+use lucarne::syntax::{ParseOptions, Unformatted, format};
+use similar::TextDiff;
+
+use super::arguments::FmtArguments;
+use super::exit::{Exit, Failure, Outcome};
+use super::files::{is_stdin, name_of, read_main};
+use super::messages::{self, Messages};
+use super::output::replace;
+
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
+pub fn run(arguments: &FmtArguments) -> Outcome {
+    let mut messages = Messages::new(arguments.message_format, false);
+    let mut exit = Exit::Done;
+    for file in &arguments.files {
+        match one(file, arguments, &mut messages) {
+            Ok(of_file) => exit = exit.max(of_file),
+            // A file that cannot be read is no reason to leave the others.
+            Err(failure) => {
+                messages::fail(&failure);
+                exit = exit.max(failure.exit);
+            }
+        }
+    }
+    messages.summarize();
+    Ok(exit.max(messages.exit()))
+}
+
+fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcome {
+    let bytes = read_main(file)?;
+    let name = name_of(file);
+    let mark: &[u8] = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { b"" };
+    let (text, latin) = decode(bytes.clone());
+    let mut sources = Sources::default();
+    let id = sources.add(Source::new(&*name, text));
+    let options = ParseOptions { dialect: dialect(&name), ..ParseOptions::default() };
+    let mut diagnostics = Diagnostics::new(false);
+    let source = sources.get(id);
+    let formatted = match format(source, id, &options, &mut diagnostics) {
+        Ok(formatted) => formatted,
+        Err(Unformatted::Broken) => {
+            messages.print(diagnostics.in_text_order().into_iter(), &sources)?;
+            return Ok(Exit::Scene);
+        }
+        Err(Unformatted::Unsafe) => {
+            let sentence =
+                format!("`{name}` is left as it is: its layout would change its meaning");
+            return Err(Failure { exit: Exit::Panic, ..Failure::file(sentence) }
+                .help("this is a bug in lucarne; please report it with the file"));
+        }
+    };
+    let same = formatted == source.text;
+    if arguments.diff && !same {
+        let diff = TextDiff::from_lines(&source.text, &formatted);
+        let diff = diff.unified_diff().header(&name, &format!("{name} (formatted)")).to_string();
+        messages::print(&diff)?;
+    } else if arguments.check && !same {
+        messages::print(&format!("{name}\n"))?;
+    }
+    if arguments.check || arguments.diff {
+        return Ok(if arguments.check && !same { Exit::Scene } else { Exit::Done });
+    }
+    let encoded = match latin {
+        // Each character was one byte, and is again.
+        true => formatted.chars().map(|c| c as u8).collect(),
+        false => [mark, formatted.as_bytes()].concat(),
+    };
+    if is_stdin(file) {
+        messages::print_bytes(&encoded)?;
+    } else if encoded != bytes {
+        replace(file, &encoded)?;
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,106 @@
+//! Canonical layout: blanks and indents are ours, tokens and comments stay the author's.
+//!
+//! **In:** a text. **Out:** the same tokens and comments in canonical layout, or what is wrong with it.
+//! **Invariant:** no token or comment is added, dropped or reordered: the result is compared with the
+//! text, always. Formatting twice is formatting once.
+
+mod atom;
+mod flow;
+mod group;
+mod rows;
+mod space;
+
+use self::atom::Atom;
+use super::{ParseOptions, balance, comment, control, parse, token};
+use crate::diagnostic::Diagnostics;
+use crate::source::{FileId, Source};
+use crate::syntax::comment::Quiet;
+use crate::syntax::token::{Token, TokenKind};
+
+/// Why a text has no canonical layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unformatted {
+    /// It has errors, which have been told.
+    Broken,
+    /// Its tokens would have changed: a bug.
+    Unsafe,
+}
+
+/// The text in canonical layout. Its lines end as the author's first one does.
+pub fn format(
+    source: &Source,
+    file: FileId,
+    options: &ParseOptions,
+    diagnostics: &mut Diagnostics,
+) -> Result<String, Unformatted> {
+    let mut found = Diagnostics::new(false);
+    let ast = parse(source, file, options, &mut found);
+    let broken = found.has_errors();
+    found.iter().for_each(|diagnostic| diagnostics.push(diagnostic.clone()));
+    if broken {
+        return Err(Unformatted::Broken);
+    }
+    let (quiet, tokens) = tokens(&source.text, file);
+    let quiet = &quiet.text;
+    let (tokens, _) = balance::balance(tokens, &source.text, file, options, &mut found);
+    let mut atoms = atom::atoms(source, quiet, &tokens, &ast);
+    let groups = group::Groups::of(&mut atoms);
+    let end = end_of_line(&source.text, &atoms);
+    let formatted = rows::write(&flow::rows(&atoms, &groups, end), end);
+    match same_but_blanks(&source.text, &formatted) {
+        true => Ok(formatted),
+        false => Err(Unformatted::Unsafe),
+    }
+}
+
+fn tokens(text: &str, file: FileId) -> (Quiet<'_>, Vec<Token>) {
+    let mut unheard = Diagnostics::new(false);
+    let mut quiet = comment::quiet(text, file, &mut unheard);
+    quiet.text = control::blank(quiet.text, file, &mut unheard);
+    let tokens = token::tokens(&quiet.text);
+    (quiet, tokens)
+}
+
+/// As the first line ends; ends in strings and comments do not count.
+fn end_of_line(text: &str, atoms: &[Atom]) -> &'static str {
+    let behind = &text[text.trim_end().len()..];
+    let first = atoms.iter().find(|atom| atom.lines > 0);
+    match first.map_or(behind.contains("\r\n"), |atom| atom.wide) {
+        true => "\r\n",
+        false => "\n",
+    }
+}
+
+/// True if two texts have the same tokens and comments in the same order.
+fn same_but_blanks(one: &str, other: &str) -> bool {
+    pieces(one) == pieces(other)
+}
+
+/// Each token and each comment of a text.
+fn pieces(text: &str) -> Vec<String> {
+    let (quiet, tokens) = tokens(text, FileId(0));
+    let mut pieces = Vec::with_capacity(tokens.len());
+    let mut comments = quiet.comments.iter().peekable();
+    let mut comment = |pieces: &mut Vec<String>, up_to: u32| {
+        while let Some(comment) = comments.next_if(|comment| comment.start < up_to) {
+            let text = text.get(comment.range()).unwrap_or("");
+            // Its lines may be moved.
+            let lines = text.split(['\n', '\r']).map(str::trim).filter(|line| !line.is_empty());
+            pieces.push(lines.collect::<Vec<_>>().join("\n"));
+        }
+    };
+    for token in tokens.into_iter().flat_map(|token| atom::parts(token, &quiet.text)) {
+        comment(&mut pieces, token.start);
+        let text = quiet.text.get(token.start as usize..token.end as usize).unwrap_or("");
+        pieces.push(match token.kind {
+            // Blanks may stand behind its `#`.
+            TokenKind::Directive(head) => format!("#{}", head.word()),
+            _ => text.to_owned(),
+        });
+    }
+    comment(&mut pieces, u32::MAX);
+    pieces
+}
+
+#[cfg(test)]
+mod tests;
