@@ -3,10 +3,11 @@
 //! **In:** the tree of one file. **Out:** a `legacy-form` for each, with a fix where the rewriting is sure.
 //! **Invariant:** a fix changes no picture. Branches that are not run are looked at, too.
 //!
-//! **Source:** POV-Ray 3.7 manual: 3.3.1.7 "Specifying Colors" (components, `alpha`), 3.4.6.1.4 "Color Maps"
-//! (entries with two values), 3.3.2.2.1 "Declaring identifiers" (`;`), 3.4.5.1.1 "Blob" (`component`),
-//! 3.4.5.4.2 "Union" (`composite`), 3.4.6.5.2 "Tiles", 3.4.6.5.3 "Material Maps", 3.4.1.4 "HF_Gray_16",
-//! 3.4.8.1 "Interior" (what was in `finish`), 3.4.6.3.6 "Reflection" (`reflection_exponent`).
+//! **Source:** POV-Ray 3.7 manual: 3.3.1.7 and 3.3.1.7.3 "Color Keywords" (components, `alpha`),
+//! 3.3.2.2.1 "Declaring identifiers" (`;`), 3.4.1.4 "HF_Gray_16", 3.4.5.1.1 "Blob" (`component`),
+//! 3.4.5.4.2 "Union" (`composite`), 3.4.6.1.2 "Color Map" (entries with two values), 3.4.6.3.5 "Specular
+//! Reflection" (`reflection_exponent`), 3.4.6.5.2 "Tiles", 3.4.6.5.3 "Material Maps", 3.4.8.1 "Interior"
+//! (what was in `finish`).
 
 mod form;
 
