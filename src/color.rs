@@ -130,6 +130,16 @@ impl Color {
         Self { rgb, filter: 0.0, transmit: 0.0 }
     }
 
+    /// Each number rounded to single precision; what is too large for that is its largest.
+    pub fn single(self) -> Self {
+        let single = |number: f64| {
+            let largest = f64::from(f32::MAX);
+            f64::from(number.clamp(-largest, largest) as f32)
+        };
+        let (filter, transmit) = (single(self.filter), single(self.transmit));
+        Self { rgb: self.rgb.map(single), filter, transmit }
+    }
+
     /// Whether any light goes through.
     #[inline]
     pub fn is_clear(self) -> bool {

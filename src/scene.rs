@@ -96,7 +96,7 @@ pub enum ObjectKind {
     Union(Vec<ObjectId>),
     /// A use of another object, with further modifiers: `object { Name … }`.
     Use(ObjectId),
-    LightSource(LightSource),
+    LightSource(Box<LightSource>),
 }
 
 #[derive(Debug, Clone, PartialEq)]

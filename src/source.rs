@@ -71,8 +71,7 @@ pub struct Expansion {
     /// The call itself.
     pub call: Span,
     pub kind: ExpansionKind,
-    /// Index into the names that [`Expansions`] keeps, each once.
-    name: u32,
+    name: ExpansionName,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,32 +82,38 @@ pub enum ExpansionKind {
     Include,
 }
 
+/// Index into the names that [`Expansions`] keeps, each once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExpansionName(u32);
+
 /// Every expansion of one evaluation, parents before children. Entry `n` has the id `n + 1`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expansions {
     list: Vec<Expansion>,
     names: Vec<String>,
-    by_name: BTreeMap<String, u32>,
+    by_name: BTreeMap<String, ExpansionName>,
 }
 
 impl Expansions {
-    /// Adds a call of the macro, or the include of the file, called `name`.
+    /// What a macro or a file is called, to be told of its calls.
+    pub fn named(&mut self, name: &str) -> ExpansionName {
+        if let Some(&known) = self.by_name.get(name) {
+            return known;
+        }
+        let new = ExpansionName(self.names.len() as u32);
+        self.names.push(name.to_owned());
+        self.by_name.insert(name.to_owned(), new);
+        new
+    }
+
+    /// Adds a call of the macro, or the include of the file, of this name.
     pub fn add(
         &mut self,
         parent: ExpansionId,
         call: Span,
         kind: ExpansionKind,
-        name: &str,
+        name: ExpansionName,
     ) -> ExpansionId {
-        let name = match self.by_name.get(name) {
-            Some(&known) => known,
-            None => {
-                let new = self.names.len() as u32;
-                self.names.push(name.to_owned());
-                self.by_name.insert(name.to_owned(), new);
-                new
-            }
-        };
         self.list.push(Expansion { parent, call, kind, name });
         ExpansionId(self.list.len() as u32)
     }
@@ -120,7 +125,7 @@ impl Expansions {
 
     /// What is called or included.
     pub fn name(&self, expansion: &Expansion) -> &str {
-        &self.names[expansion.name as usize]
+        &self.names[expansion.name.0 as usize]
     }
 
     /// Two places as they are seen from the innermost text that holds both, in its order: what came

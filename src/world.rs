@@ -4,6 +4,7 @@
 //! invertible; every number finite. One flat list per kind; an object is (kind, index, material).
 //! Specified in `docs/world.md`.
 
+pub mod pigment;
 pub mod print;
 
 use crate::color::{Color, Gamma, Rgb};

@@ -20,7 +20,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("vocabulary", &[]),
     ("diagnostic", &["source"]),
     // things
-    ("function", &["math"]),
+    // Noise stands outside of tapes.
+    ("function", &["math", "pattern"]),
     ("pattern", &["math"]),
     ("shape", &["math"]),
     ("spline", &[]),

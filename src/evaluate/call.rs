@@ -111,6 +111,13 @@ impl Evaluator<'_> {
             Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
                 return self.probe(here, word, word_span, list);
             }
+            Word::Internal => {
+                let message = "`internal(n)` is a whole function, and no number";
+                let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                    .at(span, "expected alone in the braces of a function")
+                    .help("`#declare F = function { internal(57) }`, then `F(x, y, z)`");
+                return Err(self.report(here, diagnostic));
+            }
             _ => {}
         }
         let Some(arity) = builtin::arity(word) else {
@@ -121,7 +128,7 @@ impl Evaluator<'_> {
         let mut failed = false;
         for argument in list {
             let value = match *argument {
-                Argument::Expression(id) => self.expression(here, id),
+                Argument::Expression(id) => self.operand(here, id),
                 Argument::Items(items) => {
                     self.inside(here, items, |evaluator| evaluator.only_value(here, span))
                 }

@@ -230,7 +230,9 @@ impl Evaluator<'_> {
 
     /// Runs what is left of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
-        while let Some(Token { kind, here, span }) = self.next() {
+        loop {
+            self.skip_run();
+            let Some(Token { kind, here, span }) = self.next() else { break };
             match kind {
                 TokenKind::Expression(id) => match self.unknown_name(&here, id) {
                     Some(symbol) => drop(self.undeclared_among(&here, symbol, span, |word| {

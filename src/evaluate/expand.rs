@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{ExpansionId, ExpansionKind, Span};
+use crate::source::{ExpansionId, ExpansionKind, ExpansionName, Span};
 use crate::syntax::ast::{
     Argument, Arguments, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
 };
@@ -27,6 +27,7 @@ const MOST_AROUND: u64 = 10;
 #[derive(Debug)]
 pub(super) struct Macro {
     pub name: Symbol,
+    called: ExpansionName,
     /// Each with whether it is optional.
     pub parameters: Vec<(Symbol, bool)>,
     body: MacroBody,
@@ -54,7 +55,7 @@ impl Macro {
 }
 
 /// What a parameter is bound to.
-enum Bound {
+pub(super) enum Bound {
     Variable(Slot),
     Element(Slot, Box<[f64]>),
     Value(Value),
@@ -78,6 +79,7 @@ impl Evaluator<'_> {
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
         self.macros.push(Rc::new(Macro {
             name: symbol,
+            called: self.scene.expansions.named(self.scopes.name(symbol)),
             parameters,
             body: match body {
                 Body::Items(items) => MacroBody::Items(*items),
@@ -166,13 +168,18 @@ impl Evaluator<'_> {
             let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
-        let mut bound = Vec::with_capacity(definition.parameters.len());
+        // Kept from call to call; an argument that calls a macro itself makes do with another.
+        let mut bound = std::mem::take(&mut self.bound);
         for (argument, &(_, optional)) in list.iter().zip(&definition.parameters) {
             bound.push(self.bound(here, argument, optional, span));
         }
         bound.resize_with(definition.parameters.len(), || Bound::Nothing);
-        let name = self.scopes.name(definition.name);
-        let expansion = self.scene.expansions.add(here.expansion, span, ExpansionKind::Macro, name);
+        let expansion = self.scene.expansions.add(
+            here.expansion,
+            span,
+            ExpansionKind::Macro,
+            definition.called,
+        );
         let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
         if u64::from(expansion.0) > most {
             let message = format!("macros and includes have been called {most} times");
@@ -180,7 +187,7 @@ impl Evaluator<'_> {
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         self.scopes.open();
-        for (&(parameter, _), bound) in definition.parameters.iter().zip(bound) {
+        for (&(parameter, _), bound) in definition.parameters.iter().zip(bound.drain(..)) {
             match bound {
                 Bound::Variable(slot) => self.scopes.bind(parameter, slot),
                 Bound::Element(slot, indices) => self.scopes.bind_element(parameter, slot, indices),
@@ -188,6 +195,7 @@ impl Evaluator<'_> {
                 Bound::Nothing => self.scopes.bind_nothing(parameter),
             }
         }
+        self.bound = bound;
         Ok(expansion)
     }
 

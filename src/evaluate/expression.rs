@@ -3,12 +3,15 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
-use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::syntax::ast::{ExpressionId, ExpressionKind, UnaryOperator};
 use crate::vocabulary::Word;
 
 use super::stream::TokenKind;
 use super::value::{self, Components, OperationError, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
+
+/// How deep an expression of plain numbers is looked into.
+const PLAIN_DEPTH: u32 = 8;
 
 impl Evaluator<'_> {
     /// The value of an expression; poison if something in it is not built yet.
@@ -31,6 +34,9 @@ impl Evaluator<'_> {
             ExpressionKind::Missing => Err(Reported),
             // Brackets in brackets.
             _ => {
+                if let Some(number) = self.plain_number(here, id, PLAIN_DEPTH) {
+                    return Ok(Value::Number(number));
+                }
                 self.calculating += 1;
                 let value = stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id));
                 self.calculating -= 1;
@@ -39,11 +45,31 @@ impl Evaluator<'_> {
         }
     }
 
+    /// The value of what is made of numbers, and of names of numbers, alone: most of what loops calculate.
+    /// `None` where it takes more than that, or has no finite value.
+    fn plain_number(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Number(number) => Some(number).filter(|number| number.is_finite()),
+            ExpressionKind::Name(name) => self.scopes.read(here.symbol(name))?.as_number(),
+            _ if depth == 0 => None,
+            ExpressionKind::Group(inner) => self.plain_number(here, inner, depth - 1),
+            ExpressionKind::Unary(UnaryOperator::Minus, operand) => {
+                self.plain_number(here, operand, depth - 1).map(|number| -number)
+            }
+            ExpressionKind::Binary(operator, left, right) => {
+                let left = self.plain_number(here, left, depth - 1)?;
+                let right = self.plain_number(here, right, depth - 1)?;
+                value::numbers_meet(operator, left, right).ok()
+            }
+            _ => None,
+        }
+    }
+
     fn compound(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let expression = *here.unit.expression(id);
         match expression.kind {
             ExpressionKind::Unary(operator, operand) => {
-                let value = self.expression(here, operand)?;
+                let value = self.operand(here, operand)?;
                 if let Value::Poison(_) = value {
                     return Ok(value);
                 }
@@ -86,7 +112,7 @@ impl Evaluator<'_> {
             }
             ExpressionKind::Index(..) => self.indexed(here, id),
             ExpressionKind::Component(base, component) => {
-                let value = self.expression(here, base)?;
+                let value = self.operand(here, base)?;
                 self.component_value(here, &value, component, here.unit.expression(base).span)
             }
             ExpressionKind::Group(inner) => self.expression(here, inner),
@@ -125,7 +151,7 @@ impl Evaluator<'_> {
             operations.push(innermost);
             innermost = left;
         }
-        let value = self.expression(here, leftmost);
+        let value = self.operand(here, leftmost);
         let value = self.operation(here, innermost, value);
         operations.into_iter().rev().fold(value, |value, id| self.operation(here, id, value))
     }
@@ -140,7 +166,7 @@ impl Evaluator<'_> {
         let expression = *here.unit.expression(id);
         let ExpressionKind::Binary(operator, left, right) = expression.kind else { return value };
         // Both sides are evaluated before either fails: each may report, and both draw from streams.
-        let operand = self.expression(here, right);
+        let operand = self.operand(here, right);
         match (value, operand) {
             (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
             (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
@@ -149,6 +175,16 @@ impl Evaluator<'_> {
                 self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
             }),
         }
+    }
+
+    /// A value to calculate with: what a name kept as a colour, or as five numbers, is read back in single
+    /// precision.
+    pub(super) fn operand(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let value = self.expression(here, id)?;
+        Ok(match here.unit.expression(id).kind {
+            ExpressionKind::Name(_) | ExpressionKind::Index(..) => value.read_back(),
+            _ => value,
+        })
     }
 
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {

@@ -199,12 +199,9 @@ impl Evaluator<'_> {
             return self.constant(here, formula, id);
         };
         let span = here.unit.expression(base).span;
-        let (wanted, components) = self.signature(function);
-        let index = match component {
-            Component::Word(word, _) => super::vector::component_index(word),
-            Component::Name(..) => None,
-        };
-        let Some(index) = index.filter(|index| *index < components && components > 1) else {
+        let asked = &self.functions[function.0 as usize];
+        let (wanted, index) = (asked.parameters(), asked.component(component));
+        let Some(index) = index else {
             let text = self.sources.text(here.unit.expression(id).span).to_owned();
             let message = format!("`{text}`: this function's value has no such component");
             let diagnostic = Diagnostic::new(Code::WrongArity, message).at(span, "of this");
@@ -212,7 +209,10 @@ impl Evaluator<'_> {
         };
         let nodes = self.argument_nodes(here, formula, arguments)?;
         self.check_count(here, wanted, nodes.len(), span)?;
-        let built = formula.builder.ask(outside_id(function, index), &nodes);
+        let built = match &self.functions[function.0 as usize] {
+            AuthorFunction::Transform(functions) => formula.builder.call(&functions[index], &nodes),
+            _ => formula.builder.ask(outside_id(function, index), &nodes),
+        };
         self.built(here, span, built)
     }
 
@@ -289,16 +289,20 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Outcome<Node> {
         let nodes = self.argument_nodes(here, formula, arguments)?;
-        self.check_count(here, self.signature(function).0, nodes.len(), span)?;
+        let asked = &self.functions[function.0 as usize];
+        let wanted = asked.parameters();
+        if let Some(kind) = asked.compound() {
+            let message = format!("this function gives {kind}, and a number is wanted");
+            let part = if kind == "a colour" { ".red" } else { ".x" };
+            let diagnostic = Diagnostic::new(Code::WrongType, message)
+                .at(span, kind)
+                .help(format!("write one of its components, as `{part}`"));
+            return Err(self.report(here, diagnostic));
+        }
+        self.check_count(here, wanted, nodes.len(), span)?;
         let built = match &self.functions[function.0 as usize] {
             AuthorFunction::Formula(called) => formula.builder.call(called, &nodes),
-            AuthorFunction::Spline(_) => {
-                let message = "this function gives a vector, and a number is wanted";
-                let diagnostic = Diagnostic::new(Code::WrongType, message)
-                    .at(span, "a vector")
-                    .help("write one of its components, as `.x`");
-                return Err(self.report(here, diagnostic));
-            }
+            _ => formula.builder.ask(outside_id(function, 0), &nodes),
         };
         self.built(here, span, built)
     }

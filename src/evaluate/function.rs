@@ -1,38 +1,29 @@
 //! Functions of the author's: `function (a, b) { … }`, defined and called.
 //!
-//! A body that is one formula becomes a tape (see `formula`); one that is a `spline` is asked as a
-//! whole, and gives a vector. **Invariant:** what a formula asks outside of itself is one component
-//! of another function, by [`outside_id`].
+//! A body that is one formula becomes a tape (see `formula`), as does `internal(n)`; what is a block, a
+//! `spline`, a `pattern`, a `pigment` or a `transform`, is asked as a whole, at a time or at a point.
 //!
 //! **Source:** manual, section 3.3.1.8 ("User-Defined Functions").
 
-use std::sync::Arc;
-
 use crate::diagnostic::{Code, Diagnostic};
-use crate::function::{Function, Outside, OutsideId};
-use crate::source::Span;
-use crate::syntax::ast::{Argument, ExpressionKind};
+use crate::function::{Binary, Builder, Function, Outside, TooLong};
+use crate::lower::alone;
+use crate::scene::TransformId;
+use crate::source::{Site, Span};
+use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::report::count;
 use super::scope::Symbol;
-use super::spline::SplineValue;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// A function as it was defined.
-#[derive(Debug, Clone, PartialEq)]
-pub enum AuthorFunction {
-    /// Numbers to a number.
-    Formula(Function),
-    /// A time to a vector.
-    Spline(Arc<SplineValue>),
-}
+mod asked;
+mod internal;
 
-/// Names one of the author's functions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FunctionId(pub u32);
+pub use asked::{AuthorFunction, FunctionId};
+pub(super) use asked::{Functions, outside_id};
 
 /// What a parameter is called: by a name, or by an axis (`u` is `x`, `v` is `y`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,27 +43,6 @@ impl ParameterName {
     }
 }
 
-/// A component of a function's value, as a tape names it.
-pub(super) fn outside_id(function: FunctionId, component: usize) -> OutsideId {
-    OutsideId(function.0 * 8 + component as u32)
-}
-
-/// The functions that tapes ask.
-pub(super) struct Functions<'f>(pub &'f [AuthorFunction]);
-
-impl Outside for Functions<'_> {
-    fn value(&self, id: OutsideId, arguments: &[f64]) -> f64 {
-        match self.0.get((id.0 / 8) as usize) {
-            Some(AuthorFunction::Formula(function)) => function.run().at(arguments, self),
-            Some(AuthorFunction::Spline(spline)) => {
-                let values = spline.spline.at(arguments.first().copied().unwrap_or(0.0));
-                values.get((id.0 % 8) as usize).copied().unwrap_or(f64::NAN)
-            }
-            None => f64::NAN,
-        }
-    }
-}
-
 impl Evaluator<'_> {
     /// `function [(a, b)] { … }`, after its word.
     pub(super) fn function(&mut self, token: &Token) -> Outcome<Value> {
@@ -86,42 +56,105 @@ impl Evaluator<'_> {
             let Some(first) = evaluator.next() else {
                 return Err(evaluator.expected("a formula", None, (&token.here, token.span)));
             };
-            let value = match first.kind {
-                TokenKind::Expression(id) => evaluator
-                    .formula(&first.here, id, &parameters)
-                    .map(|value| value.map(AuthorFunction::Formula)),
-                TokenKind::Word(Word::Spline) => match evaluator.spline(&first)? {
-                    Value::Spline(spline) => Ok(Ok(AuthorFunction::Spline(spline))),
-                    Value::Poison(poison) => Ok(Err(poison)),
-                    _ => Err(Reported),
-                },
-                TokenKind::Word(word) => {
-                    let site = first.here.site(first.span);
-                    evaluator.run_items();
-                    return Ok(Value::Poison(Poison { word, site }));
-                }
-                _ => {
-                    return Err(evaluator.expected(
-                        "a formula",
-                        Some(&first),
-                        (&token.here, token.span),
-                    ));
-                }
-            };
+            let value = evaluator.function_body(token, &first, &parameters);
             if let Some(extra) = evaluator.next() {
                 let message = "a function is one formula, and there is more";
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                     .at(extra.span, "this is more than one formula");
                 return Err(evaluator.report(&extra.here, diagnostic));
             }
-            match value? {
-                Ok(function) => {
-                    evaluator.functions.push(function);
-                    Ok(Value::Function(FunctionId(evaluator.functions.len() as u32 - 1)))
-                }
-                Err(poison) => Ok(Value::Poison(poison)),
-            }
+            value
         })
+    }
+
+    /// The formula, or the block that gives a value at every point.
+    fn function_body(
+        &mut self,
+        token: &Token,
+        first: &Token,
+        parameters: &[ParameterName],
+    ) -> Outcome<Value> {
+        let function = match first.kind {
+            TokenKind::Expression(id) => {
+                let kind = first.here.unit.expression(id).kind;
+                if let ExpressionKind::Call(Callee::Word(Word::Internal, _), list) = kind {
+                    return self.internal(&first.here, list, first.span).map(Value::Function);
+                }
+                match self.formula(&first.here, id, parameters)? {
+                    Ok(function) => AuthorFunction::Formula(function),
+                    Err(poison) => return Ok(Value::Poison(poison)),
+                }
+            }
+            TokenKind::Word(Word::Spline | Word::Pattern | Word::Pigment | Word::TransformWord) => {
+                match self.block_function(first)? {
+                    Ok(function) => function,
+                    Err(poison) => return Ok(Value::Poison(poison)),
+                }
+            }
+            TokenKind::Word(word) => {
+                let site = first.here.site(first.span);
+                self.run_items();
+                return Ok(Value::Poison(Poison { word, site }));
+            }
+            _ => {
+                let at = (&token.here, token.span);
+                return Err(self.expected("a formula", Some(first), at));
+            }
+        };
+        self.functions.push(function);
+        Ok(Value::Function(FunctionId(self.functions.len() as u32 - 1)))
+    }
+
+    /// `spline { … }` and its kin, or what in it is not built yet.
+    fn block_function(&mut self, first: &Token) -> Outcome<Result<AuthorFunction, Poison>> {
+        if first.kind == TokenKind::Word(Word::Pattern) {
+            let outer = self.poison.take();
+            let pattern = self.pattern_block(first);
+            let poison = std::mem::replace(&mut self.poison, outer);
+            let id = match (pattern, poison) {
+                (_, Some(poison)) => return Ok(Err(poison)),
+                (pattern, None) => pattern?,
+            };
+            let pattern = alone::pigment(&self.scene, id, self.diagnostics).ok_or(Reported)?;
+            return Ok(Ok(AuthorFunction::Pattern(Box::new(pattern))));
+        }
+        Ok(Ok(match self.value_of(first)? {
+            Value::Spline(spline) => AuthorFunction::Spline(spline),
+            Value::Pigment(id) => {
+                let pigment = alone::pigment(&self.scene, id, self.diagnostics).ok_or(Reported)?;
+                AuthorFunction::Pigment(Box::new(pigment))
+            }
+            Value::Transform(id) => {
+                let functions = self.transform_functions(id, first.here.site(first.span))?;
+                AuthorFunction::Transform(Box::new(functions))
+            }
+            Value::Poison(poison) => return Ok(Err(poison)),
+            _ => return Err(Reported),
+        }))
+    }
+
+    /// Each coordinate of a point that was moved.
+    fn transform_functions(&mut self, id: TransformId, site: Site) -> Outcome<[Function; 3]> {
+        let rows = alone::rows(&self.scene, id, site, self.diagnostics);
+        let (rows, offset) = rows.ok_or(Reported)?;
+        let coordinate = |axis: usize| -> Result<Function, TooLong> {
+            let mut builder = Builder::new(3)?;
+            let mut sum = builder.constant(offset[axis])?;
+            for from in 0..3 {
+                let Some(parameter) = builder.parameter(from) else { continue };
+                if rows[axis][from] != 0.0 {
+                    let factor = builder.constant(rows[axis][from])?;
+                    let part = builder.binary(Binary::Multiply, parameter, factor)?;
+                    sum = builder.binary(Binary::Add, part, sum)?;
+                }
+            }
+            Ok(builder.finish(sum))
+        };
+        match [0, 1, 2].map(coordinate) {
+            [Ok(x), Ok(y), Ok(z)] => Ok([x, y, z]),
+            // Seven operations are not too many.
+            _ => Err(Reported),
+        }
     }
 
     /// The names between the parentheses; without any, `x`, `y` and `z`. `None` before a number.
@@ -189,14 +222,6 @@ impl Evaluator<'_> {
         Ok(Some(names))
     }
 
-    /// How many arguments a function takes, and how many numbers it gives.
-    pub(super) fn signature(&self, id: FunctionId) -> (usize, usize) {
-        match &self.functions[id.0 as usize] {
-            AuthorFunction::Formula(function) => (function.parameters(), 1),
-            AuthorFunction::Spline(spline) => (1, spline.components()),
-        }
-    }
-
     /// `F(1, 2)` as a value.
     pub(super) fn function_value(
         &mut self,
@@ -205,7 +230,7 @@ impl Evaluator<'_> {
         list: &[Argument],
         span: Span,
     ) -> Outcome<Value> {
-        let (wanted, _) = self.signature(id);
+        let wanted = self.functions[id.0 as usize].parameters();
         let mut arguments = Vec::with_capacity(list.len());
         let mut outcome = Ok(());
         for argument in list {
@@ -222,10 +247,19 @@ impl Evaluator<'_> {
         }
         outcome?;
         self.check_count(here, wanted, list.len(), span)?;
+        let functions = Functions { all: &self.functions, noise: self.noise };
         let value = match &self.functions[id.0 as usize] {
             AuthorFunction::Spline(spline) => return Ok(spline.at(arguments[0])),
-            AuthorFunction::Formula(function) => {
-                function.run().at(&arguments, &Functions(&self.functions))
+            AuthorFunction::Pigment(pigment) => {
+                return Ok(Value::Color(asked::color(pigment, &arguments).single()));
+            }
+            AuthorFunction::Transform(rows) => {
+                let coordinate = |axis: usize| rows[axis].run().at(&arguments, &functions);
+                return Ok(Value::vector3([0, 1, 2].map(coordinate).into()));
+            }
+            AuthorFunction::Formula(function) => function.run().at(&arguments, &functions),
+            AuthorFunction::Noise(_) | AuthorFunction::Pattern(_) => {
+                functions.value(outside_id(id, 0), &arguments)
             }
         };
         if value.is_finite() {

@@ -76,8 +76,9 @@ impl Evaluator<'_> {
             }
         };
         let call = head.to(span);
+        let name = self.scene.expansions.named(&name);
         let expansion =
-            self.scene.expansions.add(here.expansion, call, ExpansionKind::Include, &name);
+            self.scene.expansions.add(here.expansion, call, ExpansionKind::Include, name);
         self.push_include(&unit, expansion, path);
         Ok(())
     }

@@ -36,6 +36,7 @@ use std::rc::Rc;
 
 use crate::color::Color;
 use crate::diagnostic::{Diagnostics, suggest};
+use crate::pattern::noise::NoiseGenerator;
 use crate::scene::{
     ClassicFinish, Dialect, Finish, FinishId, Pigment, PigmentId, PigmentKind, Scene, Texture,
     TextureId,
@@ -202,7 +203,13 @@ struct Evaluator<'a> {
     made: Vec<block::Made>,
     scopes: Scopes,
     macros: Vec<Rc<Macro>>,
+    /// Empty; the room in it is for the arguments of the next call.
+    bound: Vec<expand::Bound>,
     functions: Vec<function::AuthorFunction>,
+    /// The functions that are built in and are formulas, by their number; empty until one is asked for.
+    internals: Vec<Option<function::FunctionId>>,
+    /// What functions of noise are made of.
+    noise: NoiseGenerator,
     streams: RandomStreams,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
@@ -317,7 +324,10 @@ impl<'a> Evaluator<'a> {
             made: Vec::new(),
             scopes,
             macros: Vec::new(),
+            bound: Vec::new(),
             functions: Vec::new(),
+            internals: Vec::new(),
+            noise: NoiseGenerator::default(),
             streams: RandomStreams::default(),
             frames: Vec::new(),
             enclosures: Vec::new(),

@@ -162,7 +162,10 @@ impl Probe {
         let ray = Ray { origin, direction: direction.get() };
         let hit = self.geometry.nearest(&ray)?;
         let surface = geometry::surface(&self.world, &ray, &hit);
-        Some((surface.point, surface.normal))
+        // Out of an inverse object it points into the shape. Zero has no sign where people read it.
+        let inverse = self.world.objects[hit.object as usize].inverse;
+        let normal = if inverse { -surface.normal } else { surface.normal };
+        Some((surface.point, normal + Vector::ZERO))
     }
 }
 

@@ -77,6 +77,8 @@ pub struct Scopes {
     free: Vec<Slot>,
     /// The bindings of each open table, and whether the slot is its own; the first is the main file's.
     tables: Vec<Vec<(Symbol, bool)>>,
+    /// Tables that have closed, to be opened again.
+    spare: Vec<Vec<(Symbol, bool)>>,
 }
 
 impl Default for Scopes {
@@ -89,6 +91,7 @@ impl Default for Scopes {
             held: 0,
             free: Vec::new(),
             tables: vec![Vec::new()],
+            spare: Vec::new(),
         }
     }
 }
@@ -155,12 +158,14 @@ impl Scopes {
     }
 
     pub fn open(&mut self) {
-        self.tables.push(Vec::new());
+        let table = self.spare.pop().unwrap_or_default();
+        self.tables.push(table);
     }
 
     /// Closes the newest table; its names are forgotten.
     pub fn close(&mut self) {
-        for (symbol, own) in self.tables.pop().unwrap_or_default() {
+        let mut table = self.tables.pop().unwrap_or_default();
+        for (symbol, own) in table.drain(..) {
             if let Some((_, slot)) = self.states[symbol.0 as usize].bindings.pop()
                 && own
             {
@@ -168,6 +173,7 @@ impl Scopes {
                 self.free.push(slot);
             }
         }
+        self.spare.push(table);
     }
 
     pub fn depth(&self) -> usize {

@@ -97,7 +97,7 @@ pub(super) enum TokenKind {
     Comma,
     Semicolon,
     /// An element of a number run.
-    Literal(Value),
+    Literal(Box<Value>),
 }
 
 impl Evaluator<'_> {
@@ -264,6 +264,17 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Passes over a run of numbers, if one comes next: there may be megabytes of them.
+    pub(super) fn skip_run(&mut self) {
+        if self.peeked.is_none()
+            && let Some(frame) = self.frames.last_mut()
+            && frame.at < frame.end
+            && let ItemKind::Numbers { .. } = frame.here.unit.ast.items[frame.at as usize].kind
+        {
+            (frame.at, frame.taken) = (frame.at + 1, 0);
+        }
+    }
+
     fn pull(&mut self) -> Option<Token> {
         loop {
             if self.halted {
@@ -327,7 +338,7 @@ impl Evaluator<'_> {
                     [number] => Value::Number(*number),
                     _ => Components::new(numbers).map_or(Value::Broken, Value::Vector),
                 };
-                return token(TokenKind::Literal(value));
+                return token(TokenKind::Literal(Box::new(value)));
             }
             if item.kind == ItemKind::Close && self.may_close(&here, item.span) {
                 return None;

@@ -51,7 +51,9 @@ macro_rules! facts {
 }
 
 mod deep;
+mod internal;
 mod made;
+mod promotion;
 
 facts! {
     a_lone_name_is_passed_by_reference:

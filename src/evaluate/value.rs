@@ -167,6 +167,20 @@ impl Value {
         }
     }
 
+    /// As calculations get it from a name: colours, and vectors of five numbers, which are kept as
+    /// colours, have single precision (measured on POV-Ray: with `C = rgb 0.1`, `C.red = 0.1` is
+    /// false). What reaches the scene as it is has all its digits.
+    pub fn read_back(self) -> Self {
+        match self {
+            Self::Color(color) => Self::Color(color.single()),
+            Self::Vector(Components { len: 5, .. }) => match self.as_color() {
+                Some(color) => Self::Color(color.single()).numbers().map_or(self, Self::Vector),
+                None => self,
+            },
+            other => other,
+        }
+    }
+
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Self::Number(n) => Some(*n),
@@ -233,7 +247,7 @@ pub fn binary(
     right: &Value,
 ) -> Result<Value, OperationError> {
     if let (Value::Number(a), Value::Number(b)) = (left, right) {
-        return finite(apply(operator, *a, *b)?).map(Value::Number);
+        return numbers_meet(operator, *a, *b).map(Value::Number);
     }
     if let (Value::String(a), Value::String(b)) = (left, right)
         && matches!(operator, BinaryOperator::Equal | BinaryOperator::NotEqual)
@@ -251,6 +265,11 @@ pub fn binary(
     }
     let color = matches!(left, Value::Color(_)) || matches!(right, Value::Color(_));
     Ok(same_kind(Components { values, len }, color))
+}
+
+/// [`binary`] of two numbers.
+pub fn numbers_meet(operator: BinaryOperator, a: f64, b: f64) -> Result<f64, OperationError> {
+    finite(apply(operator, a, b)?)
 }
 
 fn finite(value: f64) -> Result<f64, OperationError> {

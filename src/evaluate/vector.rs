@@ -1,5 +1,6 @@
 //! Vectors: made of their components, and asked for one of them.
 
+use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionKind};
@@ -93,8 +94,7 @@ impl Evaluator<'_> {
                 let Some(color) = value.as_color() else {
                     return Err(self.wrong_type(here, base, "a colour before `.gray`", value));
                 };
-                let gray = 0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue;
-                return Ok(Value::Number(gray));
+                return Ok(Value::Number(gray(color)));
             }
             Component::Word(word, span) => (component_index(word), span),
             Component::Name(_, span) => (None, span),
@@ -120,6 +120,11 @@ impl Evaluator<'_> {
             }
         }
     }
+}
+
+/// How bright a colour is: `.gray`.
+pub(super) fn gray(color: Color) -> f64 {
+    0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue
 }
 
 /// Which number of a vector or colour a word after a dot means.

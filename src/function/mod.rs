@@ -11,6 +11,7 @@
 //! names it by a number, and whoever runs it brings an [`Outside`] that answers.
 
 mod build;
+mod noise;
 mod number;
 mod operation;
 mod tape;
@@ -18,6 +19,7 @@ mod tape;
 use crate::math::interval::Interval;
 
 pub use build::{Builder, DEEPEST_LOOP, Loop, MOST_ARGUMENTS, MOST_OPERATIONS, Node, TooLong};
+pub use noise::NoiseFunction;
 pub use number::{Batch, LANES, Number};
 pub use operation::{Binary, Unary};
 pub use tape::{Function, Run};

@@ -4,6 +4,7 @@
 //! **Invariant:** always yields a World; what cannot be built is reported and left out. Every number
 //! of the World was computed in extended precision and rounded once. Specified in `docs/world.md`.
 
+pub mod alone;
 mod camera;
 mod finish;
 mod interior;

@@ -263,7 +263,7 @@ fn is_patterned(world: &World, material: u32) -> bool {
 }
 
 /// From `place` in the world back to the pattern.
-fn inverse_map(place: &Affine) -> Result<Map, Fault> {
+pub(super) fn inverse_map(place: &Affine) -> Result<Map, Fault> {
     let map = Map { centre: place.offset().round(), matrix: place.checked()?.matrix(Double::ONE) };
     if map.centre.is_finite() && map.matrix.is_finite() {
         Ok(map)
@@ -302,7 +302,7 @@ fn lone_color(map: &[(f64, Color)]) -> Option<Color> {
 }
 
 /// A pigment all of one colour has no pattern.
-fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
+pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(*color),
         PigmentKind::Patterned { pattern, map: colors } => match lone_color(&colors.0) {

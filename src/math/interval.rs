@@ -190,7 +190,8 @@ impl Interval {
             let base = if even { self.abs() } else { self };
             return base.rising(|x| elementary::pow(x, whole));
         }
-        if self.low <= 0.0 || !self.is_finite() || !exponent.is_finite() {
+        let is_root_of_zero = self.low == 0.0 && exponent.low > 0.0;
+        if (self.low <= 0.0 && !is_root_of_zero) || !self.is_finite() || !exponent.is_finite() {
             return Self::EVERYTHING;
         }
         // Monotone in each argument alone: the extremes lie on corners.

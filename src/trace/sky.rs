@@ -1,10 +1,10 @@
 //! What a ray sees that leaves the scene.
 
-use super::pigment;
 use super::sharpness::{ROUNDED, Sharpness};
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::world::World;
+use crate::world::pigment::at;
 
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
 /// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
@@ -15,7 +15,7 @@ use crate::world::World;
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
     let pigments = world.sky.iter().flat_map(|sky| &sky.pigments);
     pigments.zip(&sharpness.sky).fold(world.background, |below, (pigment, &is_sharp)| {
-        let top = pigment::at(pigment, direction, is_sharp, || Vector::splat(ROUNDED));
+        let top = at(pigment, direction, is_sharp, || Vector::splat(ROUNDED));
         if top.filter == 0.0 && top.transmit == 0.0 {
             return top.rgb;
         }

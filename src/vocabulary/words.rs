@@ -184,7 +184,7 @@ vocabulary! {
         Mandel "mandel" statement later "the flat Mandelbrot fractal";
         Marble "marble" statement later "parallel bands, to be stirred by turbulence";
         Onion "onion" statement later "shells about the origin";
-        Pattern "pattern" statement later "a pattern as a function";
+        Pattern "pattern" statement built "`function { pattern { checker } }`: a pattern as a function";
         Pavement "pavement" statement later "a floor of stones in several forms";
         PigmentPattern "pigment_pattern" statement later "the grey of a pigment as a pattern";
         Planar "planar" statement later "falls from 1 on the plane y = 0 to 0 at distance 1";
@@ -406,7 +406,7 @@ vocabulary! {
         MinimumReuse "minimum_reuse" statement later "how near radiosity samples stand";
         MmPerUnit "mm_per_unit" statement inert until [Subsurface] "millimetres in one unit for `subsurface`, which is not built yet";
         NearestCount "nearest_count" statement later "how many radiosity samples are mixed";
-        NoiseGenerator "noise_generator" statement inert until [Agate Bozo Bumps Crackle Dents Internal Granite Leopard Marble Spotted Turbulence Warp Wood Wrinkles] "which noise patterns are made of, 1 to 3; no such pattern is built yet";
+        NoiseGenerator "noise_generator" statement inert until [Agate Bozo Bumps Crackle Dents Granite Leopard Marble Spotted Turbulence Warp Wood Wrinkles] "which noise is made of, 1 to 3: that of functions, as no such pattern is built yet";
         NumberOfWaves "number_of_waves" statement inert until [Ripples Waves] "how many centres `waves` and `ripples` have, which are not built yet";
         PassThrough "pass_through" statement later "photons go through the object";
         Photons "photons" statement later "light followed from the lamps";
@@ -443,9 +443,9 @@ vocabulary! {
         Exp "exp" function1 built "`exp(a)`: e to the power of a";
         FileExists "file_exists" function1 built "`file_exists(name)`: 1 if the file can be read, else 0";
         Floor "floor" function1 built "`floor(a)`: the largest whole number not above a";
-        Inside "inside" function later "`inside(object, <point>)`: 1 if the point is inside, else 0";
+        Inside "inside" function built "`inside(object, <point>)`: 1 if the point is inside, else 0";
         Int "int" function1 built "`int(a)`: a without its fraction";
-        Internal "internal" function later "`internal(n)`: one of the functions that are built in";
+        Internal "internal" function built "`internal(n)`: one of the functions that are built in";
         Ln "ln" function1 built "`ln(a)`: the natural logarithm; a > 0";
         Log "log" function1 built "`log(a)`: the logarithm of base 10; a > 0";
         Max "max" function built "`max(a, b, …)`: the largest";
@@ -472,9 +472,9 @@ vocabulary! {
         Vlength "vlength" function1 built "`vlength(v)`: the length of a vector";
     }
     VectorFunction {
-        MaxExtent "max_extent" function1 later "`max_extent(object)`: the upper corner of its bounding box";
-        MinExtent "min_extent" function1 later "`min_extent(object)`: the lower corner of its bounding box";
-        Trace "trace" function later "`trace(object, <from>, <direction> [, Normal])`: where a ray meets it";
+        MaxExtent "max_extent" function1 built "`max_extent(object)`: the upper corner of its bounding box";
+        MinExtent "min_extent" function1 built "`min_extent(object)`: the lower corner of its bounding box";
+        Trace "trace" function built "`trace(object, <from>, <direction> [, Normal])`: where a ray meets it";
         VaxisRotate "vaxis_rotate" function built "`vaxis_rotate(a, b, degrees)`: a turned about b";
         Vcross "vcross" function built "`vcross(a, b)`: the cross product";
         Vnormalize "vnormalize" function1 built "`vnormalize(v)`: the same direction, length 1";

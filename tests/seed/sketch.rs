@@ -90,7 +90,7 @@ impl Sketch {
 
     pub fn light(&mut self, kind: LightKind, color: Rgb) {
         let light = LightSource::new(kind, color);
-        let object = self.object(ObjectKind::LightSource(light), None, &[]);
+        let object = self.object(ObjectKind::LightSource(Box::new(light)), None, &[]);
         self.place(object);
     }
 }

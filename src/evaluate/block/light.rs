@@ -39,7 +39,9 @@ impl Evaluator<'_> {
                 let (mut light, mut all) = evaluator.light_of(declared);
                 let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut(), None);
                 all.append(&mut modifiers);
-                let kind = light.map_or(ObjectKind::Use(declared), ObjectKind::LightSource);
+                let kind = light.map_or(ObjectKind::Use(declared), |light| {
+                    ObjectKind::LightSource(Box::new(light))
+                });
                 return outcome.map(|()| (kind, all));
             }
             if evaluator.takes_poison() {
@@ -50,7 +52,7 @@ impl Evaluator<'_> {
             let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok(), late);
             let light = light?;
             outcome?;
-            Ok((ObjectKind::LightSource(light), modifiers))
+            Ok((ObjectKind::LightSource(Box::new(light)), modifiers))
         })?;
         self.add_object(Object { kind, modifiers, site, item: None })
     }
@@ -65,7 +67,7 @@ impl Evaluator<'_> {
                 ObjectKind::Use(inner) => object = *inner,
                 ObjectKind::LightSource(light) => {
                     return (
-                        Some(light.clone()),
+                        Some(light.as_ref().clone()),
                         layers.into_iter().rev().flatten().cloned().collect(),
                     );
                 }

@@ -13,6 +13,7 @@ mod light;
 mod modifier;
 mod object;
 mod part;
+mod pattern;
 mod pigment;
 mod place;
 mod settings;
@@ -129,7 +130,7 @@ impl Evaluator<'_> {
                 Some(reported) => Err(reported),
                 None => self.expression(&token.here, *id),
             },
-            TokenKind::Literal(value) => Ok(value.clone()),
+            TokenKind::Literal(value) => Ok(value.as_ref().clone()),
             TokenKind::Word(word) => self.word_block(token, *word),
             TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
                 Err(self.expected("a value", Some(token), (&token.here, token.span)))

@@ -95,7 +95,7 @@ impl Evaluator<'_> {
         let Some(token) = self.next() else { return Err(Reported) };
         let (value, expression) = match &token.kind {
             TokenKind::Expression(id) => (self.expression(&token.here, *id)?, Some(*id)),
-            TokenKind::Literal(value) => (value.clone(), None),
+            TokenKind::Literal(value) => (value.as_ref().clone(), None),
             _ => return Err(Reported),
         };
         match value {

@@ -101,7 +101,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
+    pub(super) fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
         let map = match &pigment.kind {
             PigmentKind::Patterned { map, .. } => size_of_val(&map.0[..]),
             PigmentKind::Color(_) => 0,

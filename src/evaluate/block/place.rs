@@ -44,6 +44,11 @@ impl Place {
             Word::Object,
         ],
     };
+    pub const PATTERN: Self = Self {
+        word: Some(Word::Pattern),
+        families: &[Family::Pattern, Family::PatternItem, Family::Transform],
+        others: Self::PIGMENT.others,
+    };
     pub const COLOR_MAP: Self =
         Self { word: Some(Word::ColorMap), families: &[Family::Color], others: &[] };
     pub const FINISH: Self =

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::pattern::noise::NoiseGenerator;
 use crate::scene::{Background, SkySphere};
 use crate::vocabulary::Word;
 
@@ -64,6 +65,15 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::AdcBailout) => {
                 self.scene.settings.adc_bailout = self.at_least_zero(token, Word::AdcBailout)?;
+            }
+            TokenKind::Word(Word::NoiseGenerator) => {
+                let given = self.number_after(token, "a number")?;
+                self.noise = match given.value.trunc() {
+                    1.0 => NoiseGenerator::Plateaus,
+                    2.0 => NoiseGenerator::RangeCorrected,
+                    3.0 => NoiseGenerator::Perlin,
+                    _ => return Err(self.out_of_range(&given, Word::NoiseGenerator, "1, 2 or 3")),
+                };
             }
             _ => match self.inert(token, Place::SETTINGS) {
                 Some(outcome) => outcome?,

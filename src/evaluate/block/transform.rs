@@ -209,7 +209,7 @@ impl Evaluator<'_> {
             let value = self.sum_from(&token.here, id, value).unwrap_or(Value::Broken);
             let span = Span { start: name.end, ..token.span };
             let here = token.here.clone();
-            self.peeked = Some(Token { kind: TokenKind::Literal(value), span, here });
+            self.peeked = Some(Token { kind: TokenKind::Literal(Box::new(value)), span, here });
         }
         Some(word)
     }
@@ -231,7 +231,7 @@ impl Evaluator<'_> {
         let token = self.peek()?.clone();
         match token.kind {
             TokenKind::Expression(id) => self.named(&token, id),
-            TokenKind::Literal(value) => Some(value),
+            TokenKind::Literal(value) => Some(*value),
             _ => None,
         }
     }
@@ -245,7 +245,7 @@ impl Evaluator<'_> {
         if matches!(here.unit.expression(id).kind, ExpressionKind::Index(..)) {
             self.next();
             let value = self.expression(&here, id).unwrap_or(Value::Broken);
-            self.peeked = Some(Token { kind: TokenKind::Literal(value), span, here });
+            self.peeked = Some(Token { kind: TokenKind::Literal(Box::new(value)), span, here });
         }
     }
 

@@ -87,7 +87,7 @@ impl Evaluator<'_> {
                 }
             }
             TokenKind::Literal(value) => {
-                let value = value.clone();
+                let value = value.as_ref().clone();
                 self.unexpected_value(token, &value, place);
             }
             TokenKind::Block(contents) => {

@@ -342,13 +342,18 @@ mod tests {
     }
 
     /// What needs names, files, objects or formulas belongs to the evaluator.
-    const OF_THE_EVALUATOR: [Word; 6] = [
+    const OF_THE_EVALUATOR: [Word; 11] = [
         Word::Defined,
         Word::DimensionSize,
         Word::Dimensions,
         Word::FileExists,
+        Word::Inside,
+        Word::Internal,
+        Word::MaxExtent,
+        Word::MinExtent,
         Word::Prod,
         Word::Sum,
+        Word::Trace,
     ];
 
     #[test]

@@ -93,7 +93,7 @@ fn a_box_without_thickness_is_a_sheet() {
 
 fn light(color: Rgb) -> ObjectKind {
     let kind = LightKind::Point { location: v(1.0, 2.0, 3.0) };
-    ObjectKind::LightSource(LightSource::new(kind, color))
+    ObjectKind::LightSource(Box::new(LightSource::new(kind, color)))
 }
 
 #[test]
@@ -116,7 +116,8 @@ fn parallel_light_comes_from_where_it_stands() {
     let mut build = Build::new();
     let kind = LightKind::Parallel { location: v(0.0, 9.0, 0.0), point_at: v(0.0, 1.0, 0.0) };
     let source = LightSource { shadowless: true, ..LightSource::new(kind, Rgb::WHITE) };
-    let light = build.moved(ObjectKind::LightSource(source), vec![rotate(90.0, 0.0, 0.0)]);
+    let light =
+        build.moved(ObjectKind::LightSource(Box::new(source)), vec![rotate(90.0, 0.0, 0.0)]);
     build.root(light);
     let light = build.world().lights[0];
     let to_light = crate::math::UnitVector::Z;

@@ -1,0 +1,158 @@
+//! What functions of the author's are, and how a tape asks those that are no arithmetic.
+//!
+//! **Invariant:** a tape names one component of another function's value, by [`outside_id`].
+
+use std::sync::Arc;
+
+use crate::color::Color;
+use crate::function::{Function, NoiseFunction, Outside, OutsideId};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::pattern::noise::NoiseGenerator;
+use crate::syntax::ast::Component;
+use crate::vocabulary::Word;
+use crate::world::Pigment;
+use crate::world::pigment::at as color_at;
+
+use super::super::spline::SplineValue;
+use super::super::value::Value;
+use super::super::vector::{component_index, gray};
+
+/// A function as it was defined.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AuthorFunction {
+    /// Numbers to a number.
+    Formula(Function),
+    /// A time to a vector.
+    Spline(Arc<SplineValue>),
+    /// A point, and more, to a number.
+    Noise(NoiseFunction),
+    /// A point to the pattern's value there: the red of this pigment.
+    Pattern(Box<Pigment>),
+    /// A point to a colour.
+    Pigment(Box<Pigment>),
+    /// A point to a point, a component each.
+    Transform(Box<[Function; 3]>),
+}
+
+/// Names one of the author's functions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FunctionId(pub u32);
+
+/// The place of `.gray` among a colour's components, and that of `.hf`.
+const GRAY: usize = 5;
+
+/// So many components a value may be asked for.
+const COMPONENTS: u32 = 8;
+
+/// A component of a function's value, as a tape names it.
+pub(in crate::evaluate) fn outside_id(function: FunctionId, component: usize) -> OutsideId {
+    OutsideId(function.0 * COMPONENTS + component as u32)
+}
+
+/// The functions that tapes ask.
+pub(in crate::evaluate) struct Functions<'f> {
+    pub all: &'f [AuthorFunction],
+    pub noise: NoiseGenerator,
+}
+
+impl Functions<'_> {
+    fn of(&self, id: OutsideId) -> (Option<&AuthorFunction>, usize) {
+        let component = (id.0 % COMPONENTS) as usize;
+        (self.all.get((id.0 / COMPONENTS) as usize), component)
+    }
+}
+
+impl Outside for Functions<'_> {
+    fn value(&self, id: OutsideId, arguments: &[f64]) -> f64 {
+        let (function, component) = self.of(id);
+        match function {
+            Some(AuthorFunction::Formula(function)) => function.run().at(arguments, self),
+            Some(AuthorFunction::Spline(spline)) => {
+                let values = spline.spline.at(arguments.first().copied().unwrap_or(0.0));
+                values.get(component).copied().unwrap_or(f64::NAN)
+            }
+            Some(AuthorFunction::Noise(noise)) => noise.value(self.noise, arguments),
+            Some(AuthorFunction::Pattern(pattern)) => color(pattern, arguments).rgb.red,
+            Some(AuthorFunction::Pigment(pigment)) => {
+                part(color(pigment, arguments).single(), component)
+            }
+            Some(AuthorFunction::Transform(functions)) => match functions.get(component) {
+                Some(function) => function.run().at(arguments, self),
+                None => f64::NAN,
+            },
+            None => f64::NAN,
+        }
+    }
+
+    fn bounds(&self, id: OutsideId, arguments: &[Interval]) -> Interval {
+        let (function, component) = self.of(id);
+        match function {
+            Some(AuthorFunction::Formula(function)) => function.run().at(arguments, self),
+            Some(AuthorFunction::Noise(noise)) => noise.bounds(self.noise, arguments),
+            Some(AuthorFunction::Pattern(_)) => Interval::UNDECIDED,
+            Some(AuthorFunction::Pigment(pigment)) => {
+                // A colour lies between those of the map.
+                let parts = pigment.colors().map(|color| part(color.single(), component));
+                let range = parts.map(Interval::point).reduce(Interval::hull);
+                range.unwrap_or(Interval::EVERYTHING)
+            }
+            Some(AuthorFunction::Transform(functions)) => match functions.get(component) {
+                Some(function) => function.run().at(arguments, self),
+                None => Interval::EVERYTHING,
+            },
+            Some(AuthorFunction::Spline(_)) | None => Interval::EVERYTHING,
+        }
+    }
+}
+
+/// The colour at a point that is what it is, to the last bit.
+pub(super) fn color(pigment: &Pigment, point: &[f64]) -> Color {
+    let coordinate = |axis: usize| point.get(axis).copied().unwrap_or(0.0);
+    let point = Vector::new(coordinate(0), coordinate(1), coordinate(2));
+    color_at(pigment, point, false, || Vector::ZERO)
+}
+
+fn part(color: Color, component: usize) -> f64 {
+    match component {
+        GRAY => gray(color),
+        _ => Value::Color(color)
+            .numbers()
+            .and_then(|numbers| numbers.as_slice().get(component).copied())
+            .unwrap_or(f64::NAN),
+    }
+}
+
+impl AuthorFunction {
+    /// How many arguments it takes.
+    pub(in crate::evaluate) fn parameters(&self) -> usize {
+        match self {
+            Self::Formula(function) => function.parameters(),
+            Self::Spline(_) => 1,
+            Self::Noise(noise) => noise.parameters(),
+            Self::Pattern(_) | Self::Pigment(_) | Self::Transform(_) => 3,
+        }
+    }
+
+    /// What its value is called, if that is no number.
+    pub(in crate::evaluate) fn compound(&self) -> Option<&'static str> {
+        match self {
+            Self::Formula(_) | Self::Noise(_) | Self::Pattern(_) => None,
+            Self::Spline(_) | Self::Transform(_) => Some("a vector"),
+            Self::Pigment(_) => Some("a colour"),
+        }
+    }
+
+    /// Which part of its value the word after a dot means.
+    pub(in crate::evaluate) fn component(&self, component: Component) -> Option<usize> {
+        let Component::Word(word, _) = component else { return None };
+        let count = match self {
+            Self::Formula(_) | Self::Noise(_) | Self::Pattern(_) => 0,
+            Self::Spline(spline) => spline.components(),
+            Self::Transform(_) => 3,
+            Self::Pigment(_) if word == Word::Gray => return Some(GRAY),
+            Self::Pigment(_) => GRAY,
+        };
+        component_index(word).filter(|index| *index < count)
+    }
+}

@@ -1,0 +1,40 @@
+//! Parts of a Scene by themselves: for functions of the author's, which ask them at points.
+//!
+//! **Out:** the same as in a World; a diagnostic where it cannot be built.
+
+use super::texture::{inverse_map, lower_pigment};
+use super::transform::Transforms;
+use super::{Fault, Reporter};
+use crate::diagnostic::Diagnostics;
+use crate::math::Vector;
+use crate::scene::{PigmentId, Scene, TransformId};
+use crate::source::Site;
+use crate::world::Pigment;
+
+/// A pigment, as a World has it; what is wrong with it is told.
+pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> Option<Pigment> {
+    let written = &scene.pigments[id.index()];
+    let mut transforms = Transforms::new(&scene.transforms);
+    let lowered = transforms
+        .product(&written.transforms)
+        .and_then(|place| lower_pigment(&written.kind, inverse_map(&place)?));
+    Reporter { diagnostics, expansions: &scene.expansions }.made(lowered, written.site)
+}
+
+/// An affine map: three rows, and what is added.
+pub type Rows = ([Vector; 3], Vector);
+
+/// Where a transform, written at `site`, moves points.
+pub fn rows(
+    scene: &Scene,
+    id: TransformId,
+    site: Site,
+    diagnostics: &mut Diagnostics,
+) -> Option<Rows> {
+    let map = Transforms::new(&scene.transforms).get(id).and_then(|map| {
+        let (rows, offset) = (map.rows().map(|row| row.round()), map.offset().round());
+        let finite = offset.is_finite() && rows.iter().all(|row| row.is_finite());
+        finite.then_some((rows, offset)).ok_or(Fault::not_finite("this transform"))
+    });
+    Reporter { diagnostics, expansions: &scene.expansions }.made(map, site)
+}
