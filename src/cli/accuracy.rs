@@ -37,7 +37,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Err(Failure::usage(sentence));
     }
     let bytes = read_main(&arguments.file)?;
-    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
@@ -46,6 +46,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

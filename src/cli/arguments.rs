@@ -273,6 +273,9 @@ pub struct SceneArguments {
     /// and string (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
+    /// Let the scene write files, below the current folder, once it has been read without errors
+    #[arg(long)]
+    pub allow_write: bool,
     /// Warn about what is probably a mistake, in `.pov` files too
     #[arg(long)]
     lint: bool,

@@ -37,8 +37,9 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
 
 fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Result<(), Failure> {
     let bytes = read_main(file)?;
-    compiled(file, bytes, arguments, |road| {
-        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)
+    compiled(file, bytes, arguments, |road, files| {
+        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
+        files.settle(!road.diagnostics.has_errors())
     })
 }
 
@@ -47,9 +48,9 @@ fn compiled<T>(
     file: &Path,
     bytes: Vec<u8>,
     arguments: &CheckArguments,
-    then: impl FnOnce(&Road) -> T,
+    then: impl FnOnce(&Road, &DiskFiles) -> T,
 ) -> T {
-    let files = DiskFiles::new(file, &arguments.scene.include);
+    let files = DiskFiles::of(file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(file, arguments.frame()));
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
@@ -57,7 +58,7 @@ fn compiled<T>(
         let scene = road.evaluate(ast);
         road.lower(scene);
     }
-    then(&road)
+    then(&road, &files)
 }
 
 /// Applies the fixes that messages offer for this file, where that makes it better.
@@ -73,7 +74,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     };
     let messages = |text: &str| {
         let bytes = text.as_bytes().to_vec();
-        compiled(file, bytes, arguments, |road| road.diagnostics.iter().cloned().collect())
+        compiled(file, bytes, arguments, |road, _| road.diagnostics.iter().cloned().collect())
     };
     let mended = mend(text, messages);
     let fixed = mended.as_ref().map_or(0, |(_, fixed)| *fixed);
@@ -105,7 +106,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
 
 /// The included files that messages offer fixes for, but the standard ones, and how many.
 fn fixes_elsewhere(file: &Path, text: &str, arguments: &CheckArguments) -> Vec<(String, usize)> {
-    compiled(file, text.as_bytes().to_vec(), arguments, |road| {
+    compiled(file, text.as_bytes().to_vec(), arguments, |road, _| {
         let mut counts = BTreeMap::new();
         let fixed = road.diagnostics.iter().filter_map(|one| one.fixes.first());
         for place in fixed.map(|fix| fix.span.file).filter(|place| *place != FileId(0)) {

@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** nothing outside of the scene's folder, the `-I` folders and POV-Ray's well-known include
 //! folders is read, whatever a name says and wherever a link leads; the same file always has the
-//! same name.
+//! same name. What the scene writes is read as it will be.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,10 +12,12 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
 use lucarne::diagnostic::suggest::closest;
-use lucarne::source::{FileError, Files, Found};
+use lucarne::source::{FileError, Files, Found, WriteError};
 use lucarne::vocabulary::is_standard_include;
 
+use super::arguments::SceneArguments;
 use super::exit::{Failure, reason};
+use super::written::Written;
 
 /// Where POV-Ray's standard includes are installed; searched last.
 const WELL_KNOWN: &[&str] = &[
@@ -34,12 +36,14 @@ pub struct DiskFiles {
     folders: Vec<(PathBuf, PathBuf)>,
     /// The name each file got when it was first found, by its true path.
     names: Mutex<BTreeMap<PathBuf, String>>,
+    /// What the scene writes, where it may.
+    written: Option<Written>,
 }
 
 impl DiskFiles {
     /// The folders of a main file: its own, then `include` in order, then the well-known ones.
     /// Folders that do not exist are left out.
-    pub fn new(main: &Path, include: &[PathBuf]) -> Self {
+    fn new(main: &Path, include: &[PathBuf]) -> Self {
         let own = match main.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
             _ => PathBuf::from("."),
@@ -52,11 +56,23 @@ impl DiskFiles {
             .filter(|(_, truth)| truth.is_dir())
             .collect();
         let names = fs::canonicalize(main).map(|truth| (truth, main.display().to_string()));
-        Self { folders, names: Mutex::new(names.into_iter().collect()) }
+        Self { folders, names: Mutex::new(names.into_iter().collect()), written: None }
+    }
+
+    /// The folders of a main file, as the command line has them, and the leave to write.
+    pub fn of(main: &Path, arguments: &SceneArguments) -> Self {
+        let written = arguments.allow_write.then(Written::here);
+        Self { written, ..Self::new(main, &arguments.include) }
+    }
+
+    /// Writes what the scene has written, if it is `whole`.
+    pub fn settle(&self, whole: bool) -> Result<(), Failure> {
+        self.written.as_ref().map_or(Ok(()), |written| written.settle(whole))
     }
 
     fn allowed(&self, truth: &Path) -> bool {
         self.folders.iter().any(|(_, folder)| truth.starts_with(folder))
+            || self.written.as_ref().is_some_and(|written| written.covers(truth))
     }
 
     /// The name of a file: the one it was first found by.
@@ -66,6 +82,15 @@ impl DiskFiles {
             Ok(mut names) => names.entry(truth).or_insert_with(plain).clone(),
             Err(_) => plain(),
         }
+    }
+
+    /// The file as the scene writes it, if it does.
+    fn own(&self, path: &Path) -> Option<Found> {
+        let written = self.written.as_ref()?;
+        let folder = fs::canonicalize(or_here(path.parent()?)).ok()?;
+        let truth = folder.join(path.file_name()?);
+        let bytes = written.bytes(&truth)?;
+        Some(Found { name: self.name(truth, path), bytes })
     }
 
     /// Names near a missing one, in the folders where it was looked for.
@@ -98,7 +123,10 @@ impl DiskFiles {
 impl Files for DiskFiles {
     fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
         let here = Path::new(from).parent().map(Path::to_owned).unwrap_or_default();
-        let folders = std::iter::once(here).chain(self.folders.iter().map(|(f, _)| f.clone()));
+        // What is written in the current folder is found there again, before all others.
+        let current = self.written.as_ref().map(|_| PathBuf::new());
+        let folders = self.folders.iter().map(|(folder, _)| folder.clone());
+        let folders = current.into_iter().chain([here]).chain(folders);
         let mut tried: Vec<PathBuf> = Vec::new();
         for folder in folders {
             let path = plain(&folder.join(name));
@@ -115,6 +143,9 @@ impl Files for DiskFiles {
                 continue;
             }
             inside = true;
+            if let Some(found) = self.own(path) {
+                return Ok(found);
+            }
             match fs::canonicalize(path) {
                 Ok(truth) if !self.allowed(&truth) => leads_out = true,
                 Ok(truth) => {
@@ -139,6 +170,22 @@ impl Files for DiskFiles {
             searched.extend(absent.map(|folder| format!("{folder} (not there)")));
         }
         Err(FileError::NotFound { searched, similar: self.similar(&tried) })
+    }
+
+    fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
+        let written = self.written.as_ref().ok_or(WriteError::NotAllowed)?;
+        Ok(self.name(written.start(name, append)?, Path::new(name)))
+    }
+
+    fn add(&self, name: &str, bytes: &[u8]) {
+        let Some(written) = &self.written else { return };
+        let truth = self.names.lock().ok().and_then(|names| {
+            let mut found = names.iter().filter(|(_, other)| *other == name);
+            found.next().map(|(truth, _)| truth.clone())
+        });
+        if let Some(truth) = truth {
+            written.add(&truth, bytes);
+        }
     }
 }
 

@@ -17,6 +17,7 @@ mod render;
 mod show;
 mod stats;
 mod values;
+mod written;
 
 use std::ffi::OsString;
 use std::panic;

@@ -34,7 +34,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.check(frame.region, depth, arguments.force)?;
     fits(frame.region)?;
 
-    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let options = arguments.scene.options(&arguments.file, Some(frame));
     let mut road = Road::new(&files, options);
     watch.lap();
@@ -50,6 +50,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     messages.picture_on_stdout = output == Output::Stdout;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

@@ -22,7 +22,7 @@ pub fn show(
 ) -> Outcome {
     let frame = picture.frame(arguments)?;
     let bytes = read_main(path)?;
-    let files = DiskFiles::new(path, &arguments.include);
+    let files = DiskFiles::of(path, &arguments);
     let mut road = Road::new(&files, arguments.options(path, Some(frame)));
     let file = road.read(&name_of(path), bytes);
     let ast = road.parse(file);
@@ -50,6 +50,7 @@ pub fn show(
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

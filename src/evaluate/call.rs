@@ -94,8 +94,7 @@ impl Evaluator<'_> {
                 };
                 let symbol = here.symbol(name);
                 self.scopes.mark_used(symbol);
-                let known = self.scopes.read(symbol).is_some_and(|value| *value != Value::Broken);
-                return Ok(Value::truth(known));
+                return Ok(Value::truth(self.is_known(symbol)));
             }
             Word::FileExists => {
                 let [Argument::Expression(id)] = list else {

@@ -145,7 +145,7 @@ impl Evaluator<'_> {
     }
 }
 
-fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
+pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
     match error {
         FileError::NotFound { searched, similar } => {
             let mut diagnostic =

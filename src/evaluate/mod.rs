@@ -15,6 +15,7 @@ mod enclosure;
 mod endless;
 mod expand;
 mod expression;
+mod file;
 mod formula;
 mod function;
 mod include;
@@ -204,6 +205,8 @@ struct Evaluator<'a> {
     macros: Vec<Rc<Macro>>,
     functions: Vec<function::AuthorFunction>,
     streams: RandomStreams,
+    /// What `#fopen` has opened.
+    opened: Vec<file::Opened>,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
     /// How many of these blocks a loose `{` has opened.
@@ -319,6 +322,7 @@ impl<'a> Evaluator<'a> {
             macros: Vec::new(),
             functions: Vec::new(),
             streams: RandomStreams::default(),
+            opened: Vec::new(),
             frames: Vec::new(),
             enclosures: Vec::new(),
             loose_blocks: 0,

@@ -240,20 +240,26 @@ pub enum DirectiveKind {
     /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`.
     Fopen {
         name: NameId,
+        name_span: Span,
         file: ExpressionId,
         mode: Word,
     },
-    Fclose(NameId),
+    Fclose {
+        name: NameId,
+        name_span: Span,
+    },
     Read {
         name: NameId,
+        name_span: Span,
         targets: Vec<Target>,
     },
     Write {
         name: NameId,
+        name_span: Span,
         arguments: Arguments,
     },
-    /// `#render`, `#statistics`: old, and without effect.
-    Ignored(ExpressionId),
+    /// `#render`, `#statistics`: said as by `#debug`, since their own streams are gone.
+    OldStream(ExpressionId),
     /// Not understood; reported.
     Malformed,
 }
