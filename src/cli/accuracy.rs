@@ -12,11 +12,12 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
 use super::output::write_whole;
 use super::progress::Progress;
 use super::stats::{Stopwatch, cpu_seconds};
+use super::text::{name_of, read_main};
 
 impl Clock for Stopwatch {
     fn wall(&self) -> f64 {

@@ -1,6 +1,7 @@
 //! The command line as it is typed: every flag, and the values it may have.
 
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::accuracy::Metric;
@@ -343,6 +344,7 @@ impl SceneArguments {
         let dialect = dialect(&file.to_string_lossy());
         let mut options = Options::new(dialect);
         options.levels = self.levels(dialect);
+        options.evaluate.now = now();
         options.evaluate.declares = self.declares.clone();
         // `clock` is a word of the language, not a name.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {
@@ -372,6 +374,13 @@ impl SceneArguments {
         let pixels = self.limits.iter().rev().find(|(limit, _)| *limit == Limit::Pixels);
         pixels.map_or(MOST_PIXELS, |&(_, n)| n)
     }
+}
+
+/// Days since the beginning of the year 2000.
+fn now() -> f64 {
+    const SECONDS_TO_2000: f64 = 946_684_800.0;
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    (now.as_secs_f64() - SECONDS_TO_2000) / 86400.0
 }
 
 impl PictureArguments {

@@ -12,8 +12,9 @@ use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome, reason};
-use super::files::{DiskFiles, is_stdin, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages::{self, Messages};
+use super::text::{is_stdin, name_of, read_main};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 

@@ -16,6 +16,7 @@ mod promise;
 mod render;
 mod show;
 mod stats;
+mod text;
 mod values;
 mod written;
 
@@ -90,7 +91,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
         let misspelt = !first.contains('.')
             && closest(&first, names).is_some()
             && !Path::new(&first).exists()
-            && files::as_scene(Path::new(&first)).is_none();
+            && text::as_scene(Path::new(&first)).is_none();
         let ours = ["-h", "--help", "-V", "--version"].contains(&first.as_str());
         !ours && !is_command(&first) && !misspelt
     });

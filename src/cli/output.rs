@@ -14,7 +14,7 @@ use lucarne::plan::Region;
 use lucarne::source::Sources;
 
 use super::exit::{Failure, reason};
-use super::files::is_stdin;
+use super::text::is_stdin;
 use super::messages;
 
 /// A place for one picture.

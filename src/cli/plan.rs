@@ -8,8 +8,9 @@ use serde::Serialize;
 
 use super::arguments::PlanArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;

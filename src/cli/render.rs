@@ -11,12 +11,13 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
 use super::output::Output;
 use super::progress::Progress;
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
     let mut watch = Stopwatch::start();

@@ -6,8 +6,9 @@ use lucarne::{scene, syntax, world};
 
 use super::arguments::{PictureArguments, SceneArguments, ShowArguments, Stage};
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)

@@ -118,7 +118,9 @@ impl Written {
     pub fn settle(&self, whole: bool) -> Result<(), Failure> {
         let Ok(files) = self.files.lock() else { return Ok(()) };
         if !whole && !files.is_empty() {
-            messages::eprint("the scene has errors: the files that it writes were left as they are\n");
+            messages::eprint(
+                "the scene has errors: the files that it writes were left as they are\n",
+            );
             return Ok(());
         }
         for (path, bytes) in files.iter() {
@@ -151,7 +153,8 @@ mod tests {
         }
         let absolute = root.path().join("a.txt").display().to_string();
         assert_eq!(start(&absolute), Err(WriteError::Outside));
-        for name in ["", ".", "sub", "sub/", "none/a.txt", "old.txt/a", ".hidden", "sub/.git", "a\0b"]
+        for name in
+            ["", ".", "sub", "sub/", "none/a.txt", "old.txt/a", ".hidden", "sub/.git", "a\0b"]
         {
             assert!(matches!(start(name), Err(WriteError::Impossible(_))), "{name}");
         }

@@ -123,7 +123,11 @@ impl Evaluator<'_> {
             DirectiveKind::OldStream(text) => {
                 let word = self.sources.text(directive.head).to_owned();
                 let message = format!("`{word}` writes to a stream that is gone");
-                self.lint_legacy(here, directive.head, &message, "write `#debug`");
+                let diagnostic = Diagnostic::new(Code::LegacyForm, message)
+                    .at(directive.head, "an old form")
+                    .help("write `#debug`")
+                    .fix(directive.head, "#debug");
+                self.report(here, diagnostic);
                 self.say(here, Code::AuthorDebug, *text, directive.head)
             }
             DirectiveKind::Malformed => Err(Reported),

@@ -49,6 +49,10 @@ impl Evaluator<'_> {
             None => {
                 let found = match self.files.read(&name, &from) {
                     Ok(found) => found,
+                    Err(_) if self.unwritten.contains(&name) => {
+                        self.lacks_include = true;
+                        return Err(Reported);
+                    }
                     Err(error) => {
                         let slashed = name.replace('\\', "/");
                         let diagnostic = missing_file(&name, span, error);

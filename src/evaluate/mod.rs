@@ -32,7 +32,7 @@ mod undeclared;
 pub mod value;
 mod vector;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
@@ -63,6 +63,8 @@ pub struct EvaluateOptions {
     /// `-D name=value`, in order.
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
+    /// Days since the beginning of the year 2000, UTC: `now`.
+    pub now: f64,
     pub frame_number: f64,
     pub limits: Limits,
 }
@@ -75,6 +77,7 @@ impl Default for EvaluateOptions {
             height: 480,
             declares: Vec::new(),
             clock: 0.0,
+            now: 0.0,
             frame_number: 0.0,
             limits: Limits::default(),
         }
@@ -207,6 +210,8 @@ struct Evaluator<'a> {
     streams: RandomStreams,
     /// What `#fopen` has opened.
     opened: Vec<file::Opened>,
+    /// What it may not write: what reads it lacks it, and that says nothing more.
+    unwritten: BTreeSet<String>,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
     /// How many of these blocks a loose `{` has opened.
@@ -323,6 +328,7 @@ impl<'a> Evaluator<'a> {
             functions: Vec::new(),
             streams: RandomStreams::default(),
             opened: Vec::new(),
+            unwritten: BTreeSet::new(),
             frames: Vec::new(),
             enclosures: Vec::new(),
             loose_blocks: 0,

@@ -237,12 +237,12 @@ pub enum DirectiveKind {
     Debug(ExpressionId),
     Warning(ExpressionId),
     Error(ExpressionId),
-    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`.
+    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`, or missing, which was told.
     Fopen {
         name: NameId,
         name_span: Span,
         file: ExpressionId,
-        mode: Word,
+        mode: Option<Word>,
     },
     Fclose {
         name: NameId,

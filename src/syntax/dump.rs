@@ -267,7 +267,7 @@ impl<'a> Dump<'a> {
             DirectiveKind::Error(of) => say("#error ", value(*of)),
             DirectiveKind::Fopen { name, file, mode, .. } => {
                 say("#fopen ", vec![self.name(*name), text(" "), Task::Expression(*file)]);
-                say(" ", vec![text(mode.name())]);
+                say(" ", mode.iter().map(|mode| text(mode.name())).collect());
             }
             DirectiveKind::Fclose { name, .. } => say("#fclose ", vec![self.name(*name)]),
             DirectiveKind::Read { name, targets, .. } => {

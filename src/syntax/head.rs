@@ -206,13 +206,19 @@ impl<'a> Nest<'a> {
                 _,
                 Item { kind: ItemKind::Expression(file), .. },
                 Item { kind: ItemKind::Word(mode), .. },
-            ] => Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: *mode }),
+            ] => Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: Some(*mode) }),
+            [_, Item { kind: ItemKind::Expression(file), span }, ..] => {
+                let message = "`#fopen` takes a handle, a file name and a mode";
+                let label = "expected `read`, `write` or `append` after this";
+                self.expected_in_head(*span, message, label);
+                Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: None })
+            }
             _ => {
                 let message = "`#fopen` takes a handle, a file name and a mode";
                 self.expected_in_head(
                     open,
                     message,
-                    "expected `read`, `write` or `append` at its end",
+                    "expected such as `\"values.txt\" read` after the handle",
                 );
                 None
             }

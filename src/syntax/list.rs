@@ -134,7 +134,11 @@ impl<'a> Nest<'a> {
                     Some((name, name_span)) => {
                         let base = self.arguments.len();
                         self.arguments.extend_from_slice(&arguments[1..]);
-                        DirectiveKind::Write { name, name_span, arguments: self.take_arguments(base) }
+                        DirectiveKind::Write {
+                            name,
+                            name_span,
+                            arguments: self.take_arguments(base),
+                        }
                     }
                 };
                 self.add_directive(kind, at, close);

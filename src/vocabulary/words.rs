@@ -484,7 +484,7 @@ vocabulary! {
     StringFunction {
         Chr "chr" function1 built "`chr(n)`: the character with this code";
         Concat "concat" function built "`concat(a, b, …)`: strings joined";
-        Datetime "datetime" function later "`datetime(day [, format])`: a date as text";
+        Datetime "datetime" function built "`datetime(day [, format])`: a date as text";
         Str "str" function built "`str(a, length, digits)`: a number as text";
         Strlwr "strlwr" function1 built "`strlwr(string)`: in small letters";
         Strupr "strupr" function1 built "`strupr(string)`: in capitals";
@@ -496,7 +496,7 @@ vocabulary! {
         ClockOn "clock_on" value built "1 in an animation, else 0";
         False "false" value built "0";
         No "no" value built "0";
-        Now "now" value later "the present day, in days since 2000";
+        Now "now" value built "the present moment, in days since the beginning of 2000 (UTC)";
         Off "off" value built "0";
         On "on" value built "1";
         Pi "pi" value built "3.14159…";

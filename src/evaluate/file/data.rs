@@ -75,19 +75,17 @@ fn skip_blanks(text: &str, mut at: usize) -> Result<usize, Fault> {
         let blanks = rest.len() - rest.trim_start().len();
         let rest = &rest[blanks..];
         at += blanks;
-        if rest.starts_with("//") {
-            at += rest.find('\n').unwrap_or(rest.len());
-        } else if rest.starts_with("/*") {
-            match rest.find("*/") {
+        match rest.as_bytes() {
+            [b'/', b'/', ..] => at += rest.find('\n').unwrap_or(rest.len()),
+            [b'/', b'*', ..] => match rest.find("*/") {
                 Some(end) => at += end + 2,
                 None => {
                     let message = "this comment is never closed".to_owned();
                     let (code, at) = (Code::UnclosedComment, at..at + 2);
                     return Err(Fault { code, at, message, label: "opened here" });
                 }
-            }
-        } else {
-            return Ok(at);
+            },
+            _ => return Ok(at),
         }
     }
 }
@@ -95,9 +93,8 @@ fn skip_blanks(text: &str, mut at: usize) -> Result<usize, Fault> {
 /// A number with its sign and where it ends; `None` where none stands.
 fn number(text: &str, start: usize) -> Result<Option<(f64, usize)>, Fault> {
     let bytes = text.as_bytes();
-    let digits = |from: usize| {
-        from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count()
-    };
+    let digits =
+        |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let mut at = start;
     let mut negative = false;
     while let Some(sign @ (b'-' | b'+')) = bytes.get(at) {
