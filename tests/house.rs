@@ -18,6 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     // words
     ("source", &[]),
     ("vocabulary", &[]),
+    ("standard", &[]),
     ("diagnostic", &["source"]),
     // things
     ("function", &["math"]),
@@ -58,6 +59,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "pattern",
             "scene",
             "source",
+            "standard",
             "syntax",
             "vocabulary",
             "function",

@@ -115,6 +115,9 @@ pub struct CheckArguments {
     /// Apply the fixes that messages offer to these files, then check again
     #[arg(long)]
     pub fix: bool,
+    /// Say of each file that the scene reads which one answered: its path, or `embedded`
+    #[arg(long = "where")]
+    pub places: bool,
     /// The picture's width and height in pixels, for what depends on them
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,

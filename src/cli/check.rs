@@ -7,7 +7,8 @@ use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::road::Road;
-use lucarne::source::FileId;
+use lucarne::source::{FileId, Sources};
+use lucarne::standard;
 use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
@@ -40,6 +41,9 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
     let bytes = read_main(file)?;
     compiled(file, bytes, arguments, |road, files| {
         messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
+        if arguments.places {
+            messages::print(&places(&road.sources))?;
+        }
         files.settle(!road.diagnostics.has_errors())
     })
 }
@@ -60,6 +64,25 @@ fn compiled<T>(
         road.lower(scene);
     }
     then(&road, &files)
+}
+
+/// A line for each file that the main file reads, in the order of reading.
+fn places(sources: &Sources) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for (_, source) in sources.iter().skip(1) {
+        let path = source.name.as_str();
+        let line = match standard::embedded_name(path) {
+            Some(name) => format!("{name}: embedded\n"),
+            None => {
+                let name = Path::new(path).file_name().unwrap_or_default();
+                format!("{}: {path}\n", name.display())
+            }
+        };
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines.concat()
 }
 
 /// Applies the fixes that messages offer for this file, where that makes it better.

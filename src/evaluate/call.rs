@@ -6,6 +6,7 @@ use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::builtin::CallErrorKind;
+use super::include::embedded;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
@@ -102,7 +103,7 @@ impl Evaluator<'_> {
                 };
                 let name = self.string(here, *id)?;
                 let from = self.sources.get(word_span.file).name.clone();
-                return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
+                return Ok(Value::truth(self.files.read(&name, &from).or_else(embedded(&name)).is_ok()));
             }
             Word::Dimensions | Word::DimensionSize => {
                 return self.dimensions(here, word, word_span, list);

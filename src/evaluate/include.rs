@@ -6,7 +6,8 @@
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{ExpansionKind, FileError, Source, Span, decode};
+use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
+use crate::standard;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
 use crate::vocabulary::is_standard_include;
@@ -47,7 +48,7 @@ impl Evaluator<'_> {
         let (path, unit) = match known.and_then(|path| self.parsed.get_key_value(path)) {
             Some((path, unit)) => (path.clone(), unit.clone()),
             None => {
-                let found = match self.files.read(&name, &from) {
+                let found = match self.files.read(&name, &from).or_else(embedded(&name)) {
                     Ok(found) => found,
                     Err(_) if self.unwritten.contains(&name) => {
                         self.lacks_include = true;
@@ -146,6 +147,14 @@ impl Evaluator<'_> {
             .help("raise the limit with `--limit include-depth=N`")
         };
         self.halt(here.expansion, diagnostic)
+    }
+}
+
+/// The standard include of this name, where no file has it.
+pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, FileError> {
+    move |error| match (&error, standard::include(name)) {
+        (FileError::NotFound { .. }, Some((name, text))) => Ok(Found { name, bytes: text.into() }),
+        _ => Err(error),
     }
 }
 
