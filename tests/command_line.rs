@@ -915,16 +915,21 @@ sphere { 0, Size pigment { rgb 1 } }
 fn a_scene_writes_only_where_it_is_allowed_to() {
     let place = Place::new();
     place.write("w.scene", WRITER);
-    let refused = place.run("check w.scene").ends(1, &["forbidden-file", "`--allow-write` allows it"]);
+    let refused =
+        place.run("check w.scene").ends(1, &["forbidden-file", "`--allow-write` allows it"]);
     assert!(refused.stderr().contains("1 error\n"), "{}", refused.stderr());
     place.run("w.scene --size 16x12").ends(1, &["forbidden-file"]);
     assert_eq!(place.names(), ["a.scene", "broken.scene", "w.scene"]);
     place.run("check --allow-write w.scene").ends(0, &["list.inc: 22 bytes, by the scene\n"]);
     assert_eq!(place.read("list.inc"), b"#declare Size = 0.25;\n");
-    place.run("w.scene --allow-write --size 16x12").ends(0, &["list.inc: 22 bytes", "w.png: 16×12"]);
+    place
+        .run("w.scene --allow-write --size 16x12")
+        .ends(0, &["list.inc: 22 bytes", "w.png: 16×12"]);
     for name in ["../out.txt", "/tmp/out.txt", "none/../../out.txt"] {
         place.write("o.scene", &format!("#fopen F \"{name}\" write\n{SCENE}"));
-        place.run("check --allow-write o.scene").ends(1, &["forbidden-file", "the current folder only"]);
+        place
+            .run("check --allow-write o.scene")
+            .ends(1, &["forbidden-file", "the current folder only"]);
     }
 }
 
@@ -951,6 +956,19 @@ fn what_one_run_wrote_the_next_one_reads_where_it_is_run() {
         assert_eq!(place.read("count.txt"), run.as_bytes());
     }
     assert_eq!(place.names(), ["a.scene", "broken.scene", "count.txt", "scenes"]);
+}
+
+#[test]
+fn check_says_which_file_answered() {
+    let place = Place::new();
+    place.write("colors.inc", "#declare Red = rgb <1, 0, 0>;\n");
+    place.write("i.scene", &format!("#include \"colors.inc\"\n#include \"stdinc.inc\"\n{SCENE}"));
+    let said = place.run("check --where i.scene").ends(0, &[]).stdout();
+    assert!(said.starts_with("colors.inc: colors.inc\n"), "{said}");
+    // POV-Ray's where it is installed, else ours.
+    let (installed, embedded) = ("stdinc.inc: /", "stdinc.inc: embedded\n");
+    assert!(said.contains(installed) || said.contains(embedded), "{said}");
+    assert_eq!(place.run("check i.scene").ends(0, &[]).stdout(), "");
 }
 
 #[test]

@@ -22,6 +22,7 @@ texts![
     "math.inc",
     "rand.inc",
     "shapes.inc",
+    "stdinc.inc",
     "strings.inc",
     "transforms.inc",
 ];

@@ -284,7 +284,9 @@ impl Print<'_> {
             DirectiveKind::Fopen { name, file, mode, .. } => {
                 tasks.extend([Task::Text("#fopen "), self.name(*name)]);
                 tasks.extend(value(" ", *file));
-                tasks.extend(mode.iter().flat_map(|mode| [Task::Text(" "), Task::Text(mode.name())]));
+                tasks.extend(
+                    mode.iter().flat_map(|mode| [Task::Text(" "), Task::Text(mode.name())]),
+                );
             }
             DirectiveKind::Fclose { name, .. } => {
                 tasks.extend([Task::Text("#fclose "), self.name(*name)])

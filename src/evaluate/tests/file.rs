@@ -26,8 +26,8 @@ impl Memory {
 impl Files for Memory {
     fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
         let found = self.0.borrow().get(name).cloned();
-        let bytes = found
-            .ok_or(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })?;
+        let bytes =
+            found.ok_or(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })?;
         Ok(Found { name: name.to_owned(), bytes })
     }
 
@@ -112,7 +112,8 @@ fn a_name_takes_the_kind_that_is_read() {
 
 #[test]
 fn values_are_read_into_elements_parameters_and_locals() {
-    let elements = "#declare R = array[2] {1, 2} #read (F, R[0], R[1]) #debug str(R[0] + R[1], 0, 0)";
+    let elements =
+        "#declare R = array[2] {1, 2} #read (F, R[0], R[1]) #debug str(R[0] + R[1], 0, 0)";
     assert_eq!(read_from("7,8", elements), "15");
     let parameter = "#macro M(P) #read (F, P) #end #declare Q = 0; M(Q) #debug str(Q, 0, 0)";
     assert_eq!(read_from("7,8", parameter), "7");
@@ -133,9 +134,13 @@ fn what_is_not_open_may_be_closed_and_may_be_opened_again() {
 
 #[test]
 fn numbers_vectors_and_strings_are_written_as_pov_ray_writes_them() {
-    let plain = "#write (F, 1, \" \", 1/3, \" \", 123456789.123, \"\\n\", <1, 2>, x, 2*x + 1, true)";
+    let plain =
+        "#write (F, 1, \" \", 1/3, \" \", 123456789.123, \"\\n\", <1, 2>, x, 2*x + 1, true)";
     assert_eq!(written_by(plain), "1 0.333333 1.23457e+08\n<1,2> <1,0,0> <3,1,1> 1");
-    assert_eq!(written_by("#write (F, \"a\\tb\\\"c\\\\d\", concat(\"x\", \"y\"), str(1, 5, 2))"), "a\tb\"c\\dxy 1.00");
+    assert_eq!(
+        written_by("#write (F, \"a\\tb\\\"c\\\\d\", concat(\"x\", \"y\"), str(1, 5, 2))"),
+        "a\tb\"c\\dxy 1.00"
+    );
     assert_eq!(written_by("#write (F, \"a\" 5 \"b\" 6 7)"), "a5b67");
     let branches = "#write (F, #if (0) \"a\", #else \"b\", #end 5, \"\\n\")";
     assert_eq!(written_by(branches), "b5\n");
@@ -151,7 +156,8 @@ fn what_is_written_is_read_and_included_as_it_is_then() {
         #fopen F \"a.inc\" append #write (F, \"#debug \\\"three \\\"\") #fclose F #include \"a.inc\"
         #debug str(file_exists(\"a.inc\"), 0, 0) #debug str(file_exists(\"b.inc\"), 0, 0)";
     assert_eq!(told(&files, scene), "one two two two three 10");
-    let scene = "#fopen F \"n.txt\" write #write (F, 3) #fclose F #fopen F \"n.txt\" read #read (F, N)
+    let scene =
+        "#fopen F \"n.txt\" write #write (F, 3) #fclose F #fopen F \"n.txt\" read #read (F, N)
         #fopen F \"n.txt\" append #write (F, \",\", N + 1) #fclose F
         #fopen F \"n.txt\" read #read (F, N, N) #debug str(N, 0, 0)";
     assert_eq!(told(&files, scene), "4");
@@ -160,5 +166,8 @@ fn what_is_written_is_read_and_included_as_it_is_then() {
 #[test]
 fn a_scene_does_not_write_itself() {
     let files = Memory::with("a.pov", "");
-    assert_eq!(told(&files, "#fopen F \"a.pov\" write #write (F, 1)"), "`a.pov` is this scene itself");
+    assert_eq!(
+        told(&files, "#fopen F \"a.pov\" write #write (F, 1)"),
+        "`a.pov` is this scene itself"
+    );
 }
