@@ -1,10 +1,8 @@
 //! The command line as it is typed: every flag, and the values it may have.
 
 use std::path::PathBuf;
-use std::time::SystemTime;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lucarne::accuracy::Metric;
 use lucarne::diagnostic::{Level, Levels};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::{Options, dialect};
@@ -13,7 +11,8 @@ use lucarne::scene::Dialect;
 use super::exit::Failure;
 use super::messages::{self, Messages};
 use super::values::{
-    Limit, Warnings, antialias, declare, error, knob, limit, region, seconds, size, warning, weight,
+    Limit, MetricArgument, Warnings, antialias, declare, error, knob, limit, now, region, seconds,
+    size, warning, weight,
 };
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
@@ -194,28 +193,6 @@ pub struct AccuracyArguments {
     pub scene: SceneArguments,
 }
 
-/// What is called an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum MetricArgument {
-    /// Root of the mean square, over pixels and components
-    #[default]
-    Rmse,
-    /// What one pixel of a hundred exceeds
-    P99,
-    /// The share of pixels off by more than 2/255
-    Bad,
-}
-
-impl From<MetricArgument> for Metric {
-    fn from(metric: MetricArgument) -> Self {
-        match metric {
-            MetricArgument::Rmse => Self::Rmse,
-            MetricArgument::P99 => Self::P99,
-            MetricArgument::Bad => Self::Bad,
-        }
-    }
-}
-
 #[derive(Debug, Args)]
 pub struct ExplainArguments {
     /// The word in front of a message, such as `unknown-word`
@@ -377,13 +354,6 @@ impl SceneArguments {
         let pixels = self.limits.iter().rev().find(|(limit, _)| *limit == Limit::Pixels);
         pixels.map_or(MOST_PIXELS, |&(_, n)| n)
     }
-}
-
-/// Days since the beginning of the year 2000.
-fn now() -> f64 {
-    const SECONDS_TO_2000: f64 = 946_684_800.0;
-    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-    (now.as_secs_f64() - SECONDS_TO_2000) / 86400.0
 }
 
 impl PictureArguments {

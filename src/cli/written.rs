@@ -78,14 +78,12 @@ impl Written {
         if name.is_empty() || name.ends_with(['/', '\\']) || name.contains('\0') {
             return impossible("this is no name of a file");
         }
+        let stays = |part: Component| matches!(part, Component::CurDir | Component::Normal(_));
+        if !Path::new(name).components().all(stays) {
+            return Err(WriteError::Outside);
+        }
         while let Some(part) = parts.next() {
-            let part = match part {
-                Component::CurDir => continue,
-                Component::Normal(part) => part,
-                Component::ParentDir | Component::RootDir | Component::Prefix(_) => {
-                    return Err(WriteError::Outside);
-                }
-            };
+            let Component::Normal(part) = part else { continue };
             if part.to_string_lossy().starts_with('.') {
                 return impossible("a scene writes no hidden files");
             }
