@@ -124,7 +124,9 @@ impl Written {
         for (path, bytes) in files.iter() {
             write_whole(path, bytes)?;
             let name = path.strip_prefix(&self.root).unwrap_or(path).display();
-            messages::eprint(&format!("{name}: {} bytes, by the scene\n", bytes.len()));
+            let count = bytes.len();
+            let s = if count == 1 { "" } else { "s" };
+            messages::eprint(&format!("{name}: {count} byte{s}, by the scene\n"));
         }
         Ok(())
     }
