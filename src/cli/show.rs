@@ -23,7 +23,7 @@ pub fn show(
 ) -> Outcome {
     let frame = picture.frame(arguments)?;
     let bytes = read_main(path)?;
-    let files = DiskFiles::of(path, &arguments);
+    let files = DiskFiles::of(path, arguments);
     let mut road = Road::new(&files, arguments.options(path, Some(frame)));
     let file = road.read(&name_of(path), bytes);
     let ast = road.parse(file);

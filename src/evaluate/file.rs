@@ -80,7 +80,7 @@ impl Evaluator<'_> {
                 let open = self.opened.iter().filter(|opened| !opened.is_closed());
                 let open: Vec<&str> =
                     open.map(|opened| self.sources.text(opened.site.span)).collect();
-                if suggest::closest(self.scopes.name(symbol), open.into_iter()).is_some() {
+                if suggest::closest(self.scopes.name(symbol), open).is_some() {
                     self.undeclared(here, symbol, span);
                 }
             }

@@ -137,7 +137,7 @@ impl Date {
             'j' => write!(text, "{:03}", self.day_of_year + 1),
             'm' => write!(text, "{:02}", self.month),
             'M' => write!(text, "{minute:02}"),
-            'n' => write!(text, "\n"),
+            'n' => writeln!(text),
             'p' => write!(text, "{half}"),
             'R' => return self.write("%H:%M", text),
             'S' => write!(text, "{second:02}"),

@@ -1,7 +1,6 @@
 //! `#read`: values from an open file into names and elements of arrays.
 
-use crate::diagnostic::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{NameId, Target};
 
