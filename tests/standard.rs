@@ -152,6 +152,20 @@ fn every_colour_and_constant_is_that_of_the_installed_include() {
         eprintln!("skipped: POV-Ray's includes are not in {INSTALLED}");
         return;
     }
+    for (name, _) in TEXTS {
+        let text = fs::read(Path::new(INSTALLED).join(name)).expect("installed");
+        let text = String::from_utf8_lossy(&text).into_owned();
+        let known: Vec<&str> = standard_names(name).collect();
+        // Only what begins a line is sure to be declared by the include itself.
+        let declared = text.lines().filter_map(|line| line.strip_prefix("#declare "));
+        let declared = declared.filter_map(|rest| rest.split(['=', ' ', '[']).next());
+        let unknown: Vec<&str> = declared
+            .filter(|name| {
+                !known.contains(name) && !name.to_lowercase().contains("_inc_") && !name.is_empty()
+            })
+            .collect();
+        assert_eq!(unknown, [""; 0], "{name}: not in the list of its names");
+    }
     for (include, fewest) in [("colors.inc", 120), ("consts.inc", 60), ("glass.inc", 100)] {
         let ours = constants(&NoFiles, include);
         assert!(ours.lines().count() > fewest, "{ours}");
