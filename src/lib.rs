@@ -28,6 +28,7 @@ pub mod scene;
 pub mod shape;
 pub mod source;
 pub mod spline;
+pub mod standard;
 pub mod syntax;
 pub mod trace;
 pub mod vocabulary;

@@ -268,10 +268,36 @@ pub enum FileError {
     Unreadable(String),
 }
 
-/// The only way in for anything from outside.
+/// Why a scene may not write a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum WriteError {
+    /// Nobody has allowed this scene to write.
+    NotAllowed,
+    /// It lies outside of the current folder, or a link leads there.
+    Outside,
+    /// It cannot be made: the reason.
+    Impossible(String),
+}
+
+/// The only way in for anything from outside, and the only way out for what a scene writes.
 pub trait Files {
-    /// Looks for `name` in the folder of the file `from`, then in the include folders.
+    /// Looks for `name` in the folder of the file `from`, then in the include folders. What the scene
+    /// has written is found, too.
     fn read(&self, name: &str, from: &str) -> Result<Found, FileError>;
+
+    /// Starts the file `name` to be written, empty or (`append`) with what it holds; gives the name that it
+    /// is found under from now on.
+    ///
+    /// Nothing reaches a disk by this: whoever lends the files does so when the scene is whole.
+    ///
+    /// # Errors
+    /// As [`WriteError`] lists them; unless this is implemented, nothing may be written.
+    fn start(&self, _name: &str, _append: bool) -> Result<String, WriteError> {
+        Err(WriteError::NotAllowed)
+    }
+
+    /// Adds to a file that was started, by the name it is found under.
+    fn add(&self, _name: &str, _bytes: &[u8]) {}
 }
 
 /// No files at all: for texts that stand alone.

@@ -969,3 +969,83 @@ fn old_forms_are_listed_and_rewritten() {
     assert_eq!(String::from_utf8_lossy(&place.read("a.pov")), new);
     assert_eq!(place.run("check a.pov --legacy").ends(0, &[]).stderr(), "");
 }
+
+// ── files that a scene reads and writes ──
+
+const WRITER: &str = "\
+#fopen Out \"list.inc\" write
+#write (Out, \"#declare Size = \", 1/4, \";\\n\")
+#fclose Out
+#include \"list.inc\"
+camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+sphere { 0, Size pigment { rgb 1 } }
+";
+
+#[test]
+fn a_scene_writes_only_where_it_is_allowed_to() {
+    let place = Place::new();
+    place.write("w.scene", WRITER);
+    let refused =
+        place.run("check w.scene").ends(1, &["forbidden-file", "`--allow-write` allows it"]);
+    assert!(refused.stderr().contains("1 error\n"), "{}", refused.stderr());
+    place.run("w.scene --size 16x12").ends(1, &["forbidden-file"]);
+    assert_eq!(place.names(), ["a.scene", "broken.scene", "w.scene"]);
+    place.run("check --allow-write w.scene").ends(0, &["list.inc: 22 bytes, by the scene\n"]);
+    assert_eq!(place.read("list.inc"), b"#declare Size = 0.25;\n");
+    place
+        .run("w.scene --allow-write --size 16x12")
+        .ends(0, &["list.inc: 22 bytes", "w.png: 16×12"]);
+    for name in ["../out.txt", "/tmp/out.txt", "none/../../out.txt"] {
+        place.write("o.scene", &format!("#fopen F \"{name}\" write\n{SCENE}"));
+        place
+            .run("check --allow-write o.scene")
+            .ends(1, &["forbidden-file", "the current folder only"]);
+    }
+}
+
+#[test]
+fn a_scene_with_errors_writes_nothing() {
+    let place = Place::new();
+    place.write("list.inc", "old");
+    place.write("w.scene", &format!("{WRITER}sphere {{ 0, Nowhere }}\n"));
+    let words = ["undeclared-name", "the files that it writes were left as they are"];
+    place.run("check --allow-write w.scene").ends(1, &words);
+    place.run("w.scene --allow-write --size 16x12").ends(1, &words);
+    assert_eq!(place.read("list.inc"), b"old");
+}
+
+#[test]
+fn what_one_run_wrote_the_next_one_reads_where_it_is_run() {
+    let place = Place::new();
+    fs::create_dir(place.path("scenes")).expect("a folder");
+    let count = "#declare N = 0; #if (file_exists(\"count.txt\")) #fopen F \"count.txt\" read \
+                 #read (F, N) #fclose F #end #fopen F \"count.txt\" write #write (F, N + 1) #fclose F\n";
+    place.write("scenes/c.scene", &format!("{count}{SCENE}"));
+    for run in ["1", "2", "3"] {
+        place.run("check --allow-write scenes/c.scene").ends(0, &[]);
+        assert_eq!(place.read("count.txt"), run.as_bytes());
+    }
+    assert_eq!(place.names(), ["a.scene", "broken.scene", "count.txt", "scenes"]);
+}
+
+#[test]
+fn check_says_which_file_answered() {
+    let place = Place::new();
+    place.write("colors.inc", "#declare Red = rgb <1, 0, 0>;\n");
+    place.write("i.scene", &format!("#include \"colors.inc\"\n#include \"stdinc.inc\"\n{SCENE}"));
+    let said = place.run("check --where i.scene").ends(0, &[]).stdout();
+    assert!(said.starts_with("colors.inc: colors.inc\n"), "{said}");
+    // POV-Ray's where it is installed, else ours.
+    let (installed, embedded) = ("stdinc.inc: /", "stdinc.inc: embedded\n");
+    assert!(said.contains(installed) || said.contains(embedded), "{said}");
+    assert_eq!(place.run("check i.scene").ends(0, &[]).stdout(), "");
+}
+
+#[test]
+fn the_present_moment_is_known() {
+    let place = Place::new();
+    place.write("n.scene", &format!("#debug datetime(now, \"%Y\")\n{SCENE}"));
+    let year = place.run("check n.scene").ends(0, &[]).stderr();
+    assert!(year.trim().parse::<u32>().is_ok_and(|year| year >= 2025), "{year}");
+}

@@ -24,7 +24,7 @@ use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::diagnostic::{Code, Diagnostic, Levels, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
-use lucarne::source::{FileError, FileId, Files, Found, Sources, Span};
+use lucarne::source::{FileError, FileId, Files, Found, Sources, Span, WriteError};
 
 /// The files of one case.
 #[derive(Default)]
@@ -43,6 +43,15 @@ impl Files for Includes {
                 let similar = similar.map(str::to_owned).into_iter().collect();
                 Err(FileError::NotFound { searched: Vec::new(), similar })
             }
+        }
+    }
+
+    /// The files of a case may be written.
+    fn start(&self, name: &str, _: bool) -> Result<String, WriteError> {
+        match self.0.contains_key(name) {
+            true => Ok(name.to_owned()),
+            false if name.starts_with("../") => Err(WriteError::Outside),
+            false => Err(WriteError::NotAllowed),
         }
     }
 }

@@ -18,6 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     // words
     ("source", &[]),
     ("vocabulary", &[]),
+    ("standard", &[]),
     ("diagnostic", &["source"]),
     // things
     // Noise stands outside of tapes.
@@ -59,6 +60,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "pattern",
             "scene",
             "source",
+            "standard",
             "syntax",
             "vocabulary",
             "function",
@@ -393,8 +395,23 @@ fn every_diagnostic_code_has_a_page() {
 }
 
 /// Directives that make sense together only, and are shown together.
-const SHOWN_TOGETHER: &[&str] =
-    &["debug", "warning", "else", "elseif", "end", "break", "case", "range", "ifndef"];
+const SHOWN_TOGETHER: &[&str] = &[
+    "debug",
+    "warning",
+    "render",
+    "statistics",
+    "else",
+    "elseif",
+    "end",
+    "break",
+    "case",
+    "range",
+    "ifndef",
+    "read",
+    "write",
+    "append",
+    "fclose",
+];
 
 #[test]
 fn every_built_word_has_an_example_among_the_scenes() {

@@ -12,11 +12,12 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
 use super::output::write_whole;
 use super::progress::Progress;
 use super::stats::{Stopwatch, cpu_seconds};
+use super::text::{name_of, read_main};
 
 impl Clock for Stopwatch {
     fn wall(&self) -> f64 {
@@ -37,7 +38,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Err(Failure::usage(sentence));
     }
     let bytes = read_main(&arguments.file)?;
-    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
@@ -46,6 +47,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

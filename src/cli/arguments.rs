@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lucarne::accuracy::Metric;
 use lucarne::diagnostic::{Code, Level};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::Options;
@@ -11,7 +10,7 @@ use lucarne::road::Options;
 use super::exit::Failure;
 use super::messages;
 use super::scene::SceneArguments;
-use super::values::{antialias, error, knob, region, seconds, size, weight};
+use super::values::{MetricArgument, antialias, error, knob, region, seconds, size, weight};
 
 /// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
 ///
@@ -112,6 +111,9 @@ pub struct CheckArguments {
     /// Apply the fixes that messages offer to these files, then check again
     #[arg(long)]
     pub fix: bool,
+    /// Say of each file that the scene reads which one answered: its path, or `embedded`
+    #[arg(long = "where")]
+    pub places: bool,
     /// The picture's width and height in pixels, for what depends on them
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
@@ -202,28 +204,6 @@ pub struct AccuracyArguments {
     pub frame: FrameArguments,
     #[command(flatten)]
     pub scene: SceneArguments,
-}
-
-/// What is called an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum MetricArgument {
-    /// Root of the mean square, over pixels and components
-    #[default]
-    Rmse,
-    /// What one pixel of a hundred exceeds
-    P99,
-    /// The share of pixels off by more than 2/255
-    Bad,
-}
-
-impl From<MetricArgument> for Metric {
-    fn from(metric: MetricArgument) -> Self {
-        match metric {
-            MetricArgument::Rmse => Self::Rmse,
-            MetricArgument::P99 => Self::P99,
-            MetricArgument::Bad => Self::Bad,
-        }
-    }
 }
 
 #[derive(Debug, Args)]

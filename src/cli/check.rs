@@ -5,14 +5,16 @@ use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::road::Road;
-use lucarne::source::FileId;
+use lucarne::source::{FileId, Sources};
+use lucarne::standard;
 use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, is_stdin, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages::{self, Messages};
 use super::output::replace;
+use super::text::{is_stdin, name_of, read_main};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
@@ -36,8 +38,12 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
 
 fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Result<(), Failure> {
     let bytes = read_main(file)?;
-    compiled(file, bytes, arguments, |road| {
-        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)
+    compiled(file, bytes, arguments, |road, files| {
+        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
+        if arguments.places {
+            messages::print(&places(&road.sources))?;
+        }
+        files.settle(!road.diagnostics.has_errors())
     })
 }
 
@@ -46,9 +52,9 @@ fn compiled<T>(
     file: &Path,
     bytes: Vec<u8>,
     arguments: &CheckArguments,
-    then: impl FnOnce(&Road) -> T,
+    then: impl FnOnce(&Road, &DiskFiles) -> T,
 ) -> T {
-    let files = DiskFiles::new(file, &arguments.scene.include);
+    let files = DiskFiles::of(file, &arguments.scene);
     let mut road = Road::new(&files, arguments.options(file));
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
@@ -56,7 +62,26 @@ fn compiled<T>(
         let scene = road.evaluate(ast);
         road.lower(scene);
     }
-    then(&road)
+    then(&road, &files)
+}
+
+/// A line for each file that the main file reads, in the order of reading.
+fn places(sources: &Sources) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for (_, source) in sources.iter().skip(1) {
+        let path = source.name.as_str();
+        let line = match standard::embedded_name(path) {
+            Some(name) => format!("{name}: embedded\n"),
+            None => {
+                let name = Path::new(path).file_name().unwrap_or_default();
+                format!("{}: {path}\n", name.display())
+            }
+        };
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines.concat()
 }
 
 /// Applies the fixes that messages offer for this file, where that makes it better.
@@ -72,7 +97,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     };
     let messages = |text: &str| {
         let bytes = text.as_bytes().to_vec();
-        compiled(file, bytes, arguments, |road| road.diagnostics.iter().cloned().collect())
+        compiled(file, bytes, arguments, |road, _| road.diagnostics.iter().cloned().collect())
     };
     let mended = mend(text, messages);
     let fixed = mended.as_ref().map_or(0, |(_, fixed)| *fixed);
@@ -104,7 +129,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
 
 /// The included files that messages offer fixes for, but the standard ones, and how many.
 fn fixes_elsewhere(file: &Path, text: &str, arguments: &CheckArguments) -> Vec<(String, usize)> {
-    compiled(file, text.as_bytes().to_vec(), arguments, |road| {
+    compiled(file, text.as_bytes().to_vec(), arguments, |road, _| {
         let mut counts = BTreeMap::new();
         let fixed = road.diagnostics.iter().filter_map(|one| one.fixes.first());
         for place in fixed.map(|fix| fix.span.file).filter(|place| *place != FileId(0)) {

@@ -2,20 +2,22 @@
 //!
 //! **Invariant:** nothing outside of the scene's folder, the `-I` folders and POV-Ray's well-known include
 //! folders is read, whatever a name says and wherever a link leads; the same file always has the
-//! same name.
+//! same name. What the scene writes is read as it will be.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
 use lucarne::diagnostic::suggest::closest;
-use lucarne::source::{FileError, Files, Found};
+use lucarne::source::{FileError, Files, Found, WriteError};
 use lucarne::vocabulary::is_standard_include;
 
 use super::exit::{Failure, reason};
+use super::scene::SceneArguments;
+use super::text::{LARGEST, UTF_16, is_utf_16};
+use super::written::Written;
 
 /// Where POV-Ray's standard includes are installed; searched last.
 const WELL_KNOWN: &[&str] = &[
@@ -25,21 +27,20 @@ const WELL_KNOWN: &[&str] = &[
     "/opt/local/share/povray-3.7/include",
 ];
 
-/// The largest file that is read: positions in a text have 32 bits.
-const LARGEST: u64 = 1 << 30;
-
 /// The folders one scene may read.
 pub struct DiskFiles {
     /// In the order they are searched, after the including file's own: as named, and in truth.
     folders: Vec<(PathBuf, PathBuf)>,
     /// The name each file got when it was first found, by its true path.
     names: Mutex<BTreeMap<PathBuf, String>>,
+    /// What the scene writes, where it may.
+    written: Option<Written>,
 }
 
 impl DiskFiles {
     /// The folders of a main file: its own, then `include` in order, then the well-known ones.
     /// Folders that do not exist are left out.
-    pub fn new(main: &Path, include: &[PathBuf]) -> Self {
+    fn new(main: &Path, include: &[PathBuf]) -> Self {
         let own = match main.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
             _ => PathBuf::from("."),
@@ -52,11 +53,23 @@ impl DiskFiles {
             .filter(|(_, truth)| truth.is_dir())
             .collect();
         let names = fs::canonicalize(main).map(|truth| (truth, main.display().to_string()));
-        Self { folders, names: Mutex::new(names.into_iter().collect()) }
+        Self { folders, names: Mutex::new(names.into_iter().collect()), written: None }
+    }
+
+    /// The folders of a main file, as the command line has them, and the leave to write.
+    pub fn of(main: &Path, arguments: &SceneArguments) -> Self {
+        let written = arguments.allow_write.then(Written::here);
+        Self { written, ..Self::new(main, &arguments.include) }
+    }
+
+    /// Writes what the scene has written, if it is `whole`.
+    pub fn settle(&self, whole: bool) -> Result<(), Failure> {
+        self.written.as_ref().map_or(Ok(()), |written| written.settle(whole))
     }
 
     fn allowed(&self, truth: &Path) -> bool {
         self.folders.iter().any(|(_, folder)| truth.starts_with(folder))
+            || self.written.as_ref().is_some_and(|written| written.covers(truth))
     }
 
     /// The name of a file: the one it was first found by.
@@ -66,6 +79,15 @@ impl DiskFiles {
             Ok(mut names) => names.entry(truth).or_insert_with(plain).clone(),
             Err(_) => plain(),
         }
+    }
+
+    /// The file as the scene writes it, if it does.
+    fn own(&self, path: &Path) -> Option<Found> {
+        let written = self.written.as_ref()?;
+        let folder = fs::canonicalize(or_here(path.parent()?)).ok()?;
+        let truth = folder.join(path.file_name()?);
+        let bytes = written.bytes(&truth)?;
+        Some(Found { name: self.name(truth, path), bytes })
     }
 
     /// Names near a missing one, in the folders where it was looked for.
@@ -98,7 +120,10 @@ impl DiskFiles {
 impl Files for DiskFiles {
     fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
         let here = Path::new(from).parent().map(Path::to_owned).unwrap_or_default();
-        let folders = std::iter::once(here).chain(self.folders.iter().map(|(f, _)| f.clone()));
+        // What is written in the current folder is found there again, before all others.
+        let current = self.written.as_ref().map(|_| PathBuf::new());
+        let folders = self.folders.iter().map(|(folder, _)| folder.clone());
+        let folders = current.into_iter().chain([here]).chain(folders);
         let mut tried: Vec<PathBuf> = Vec::new();
         for folder in folders {
             let path = plain(&folder.join(name));
@@ -115,6 +140,9 @@ impl Files for DiskFiles {
                 continue;
             }
             inside = true;
+            if let Some(found) = self.own(path) {
+                return Ok(found);
+            }
             match fs::canonicalize(path) {
                 Ok(truth) if !self.allowed(&truth) => leads_out = true,
                 Ok(truth) => {
@@ -140,10 +168,26 @@ impl Files for DiskFiles {
         }
         Err(FileError::NotFound { searched, similar: self.similar(&tried) })
     }
+
+    fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
+        let written = self.written.as_ref().ok_or(WriteError::NotAllowed)?;
+        Ok(self.name(written.start(name, append)?, Path::new(name)))
+    }
+
+    fn add(&self, name: &str, bytes: &[u8]) {
+        let Some(written) = &self.written else { return };
+        let truth = self.names.lock().ok().and_then(|names| {
+            let mut found = names.iter().filter(|(_, other)| *other == name);
+            found.next().map(|(truth, _)| truth.clone())
+        });
+        if let Some(truth) = truth {
+            written.add(&truth, bytes);
+        }
+    }
 }
 
 /// The empty path is the current folder.
-fn or_here(folder: &Path) -> &Path {
+pub fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
@@ -183,16 +227,6 @@ fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// `-`: the scene comes from standard input.
-pub fn is_stdin(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
-/// How messages call the main file.
-pub fn name_of(path: &Path) -> Cow<'_, str> {
-    if is_stdin(path) { "standard input".into() } else { path.to_string_lossy() }
-}
-
 /// Fails when one of the folders that were named is none.
 pub fn exist(folders: &[PathBuf]) -> Result<(), Failure> {
     match folders.iter().find(|folder| !folder.is_dir()) {
@@ -202,80 +236,6 @@ pub fn exist(folders: &[PathBuf]) -> Result<(), Failure> {
             Err(Failure::usage(sentence))
         }
     }
-}
-
-/// The main file, or the sentence that says why it cannot be had. It may be a pipe.
-pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
-    let wrong = |why: &str| Failure::file(format!("cannot read `{}`: {why}", name_of(path)));
-    if is_stdin(path) {
-        return whole(std::io::stdin().lock(), wrong);
-    }
-    let file = fs::File::open(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => match near(path) {
-            Some(near) => wrong("there is no such file").help(format!("did you mean `{near}`?")),
-            None => wrong("there is no such file"),
-        },
-        _ => wrong(&reason(&error)),
-    })?;
-    if file.metadata().is_ok_and(|about| about.is_dir()) {
-        return Err(wrong("it is a folder"));
-    }
-    whole(file, wrong)
-}
-
-/// All of a scene, if it can be one.
-fn whole(from: impl Read, wrong: impl Fn(&str) -> Failure) -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
-    from.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(wrong("it is larger than 1 GiB"));
-    }
-    if is_utf_16(&bytes) {
-        return Err(wrong(UTF_16).help("save it as UTF-8"));
-    }
-    if is_binary(&bytes) {
-        return Err(wrong("it is not a text").help("a scene is a text file: `.scene`, or `.pov`"));
-    }
-    Ok(bytes)
-}
-
-/// Whether this is a picture, a program or the like: no text has several zero bytes near its start.
-fn is_binary(bytes: &[u8]) -> bool {
-    let start = &bytes[..bytes.len().min(4096)];
-    start.iter().filter(|byte| **byte == 0).count() > 2
-}
-
-const UTF_16: &str = "it is UTF-16";
-
-/// A byte order mark says so; without one, every other byte of such a text is zero, nearly.
-fn is_utf_16(bytes: &[u8]) -> bool {
-    let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
-    let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
-    let most = pairs.len() - pairs.len() / 8;
-    let [high, low] = [zeros(0), zeros(1)];
-    matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
-        || pairs.len() > 8 && (high >= most && low == 0 || low >= most && high == 0)
-}
-
-/// A name like this one in the same folder, or this one with the extension of a scene.
-fn near(path: &Path) -> Option<String> {
-    if let Some(scene) = as_scene(path) {
-        return Some(scene.display().to_string());
-    }
-    let folder = path.parent()?;
-    let names: Vec<String> = fs::read_dir(or_here(folder))
-        .ok()?
-        .flatten()
-        .filter_map(|entry| entry.file_name().into_string().ok())
-        .collect();
-    let near = closest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
-    Some(folder.join(near).display().to_string())
-}
-
-/// The scene of this name without its extension, if there is one.
-pub fn as_scene(path: &Path) -> Option<PathBuf> {
-    let with = |extension: &str| PathBuf::from(format!("{}.{extension}", path.display()));
-    ["scene", "pov"].map(with).into_iter().find(|path| path.is_file())
 }
 
 #[cfg(test)]
@@ -403,23 +363,10 @@ mod tests {
     }
 
     #[test]
-    fn utf_16_is_known_by_its_mark_or_its_zeros() {
-        let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
-        let text = "sphere { 0, 1 } // caf\u{e9} \u{2014}";
-        assert!(is_utf_16(&wide(&format!("\u{feff}{text}"))));
-        assert!(is_utf_16(&wide(text)));
-        let swapped: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
-        assert!(is_utf_16(&swapped));
-        assert!(!is_utf_16(text.as_bytes()) && !is_utf_16(&[0; 64]) && !is_utf_16(b""));
-    }
-
-    #[test]
     fn a_folder_is_no_file() {
         let place = Place::new(&["scene/parts/a.inc"]);
         let files = place.files(&[]);
         let wrong = place.read(&files, "parts");
         assert_eq!(wrong, Err(FileError::Unreadable("it is a folder".to_owned())));
-        let failure = read_main(&place.path("scene")).expect_err("a folder");
-        assert!(failure.sentence.ends_with("it is a folder"), "{}", failure.sentence);
     }
 }

@@ -10,9 +10,9 @@ use similar::TextDiff;
 
 use super::arguments::FmtArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{is_stdin, name_of, read_main};
 use super::messages::{self, Messages};
 use super::output::replace;
+use super::text::{is_stdin, name_of, read_main};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 

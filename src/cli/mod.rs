@@ -18,7 +18,9 @@ mod render;
 mod scene;
 mod show;
 mod stats;
+mod text;
 mod values;
+mod written;
 
 use std::ffi::OsString;
 use std::panic;
@@ -92,7 +94,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
         let misspelt = !first.contains('.')
             && closest(&first, names).is_some()
             && !Path::new(&first).exists()
-            && files::as_scene(Path::new(&first)).is_none();
+            && text::as_scene(Path::new(&first)).is_none();
         let ours = ["-h", "--help", "-V", "--version"].contains(&first.as_str());
         !ours && !is_command(&first) && !misspelt
     });

@@ -14,8 +14,8 @@ use lucarne::plan::Region;
 use lucarne::source::Sources;
 
 use super::exit::{Failure, reason};
-use super::files::is_stdin;
 use super::messages;
+use super::text::is_stdin;
 
 /// A place for one picture.
 #[derive(Debug, Clone, PartialEq)]

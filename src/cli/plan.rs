@@ -8,13 +8,14 @@ use serde::Serialize;
 
 use super::arguments::PlanArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_main(&arguments.file)?;
-    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let (world, origins) = road.compile(&name_of(&arguments.file), bytes);
     let mut plan = plan(&world, &origins, &arguments.picture.options(frame));
@@ -32,6 +33,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

@@ -11,12 +11,13 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
 use super::output::Output;
 use super::progress::Progress;
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
     let mut watch = Stopwatch::start();
@@ -34,7 +35,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.check(frame.region, depth, arguments.force)?;
     fits(frame.region)?;
 
-    let files = DiskFiles::new(&arguments.file, &arguments.scene.include);
+    let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let options = arguments.scene.options(&arguments.file, Some(frame));
     let mut road = Road::new(&files, options);
     watch.lap();
@@ -50,6 +51,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     messages.picture_on_stdout = output == Output::Stdout;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

@@ -9,7 +9,7 @@ use lucarne::road::{Options, dialect};
 use lucarne::scene::Dialect;
 
 use super::messages::{self, Messages};
-use super::values::{Limit, Warnings, declare, limit, warning};
+use super::values::{Limit, Warnings, declare, limit, now, warning};
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
 ///
@@ -29,6 +29,9 @@ pub struct SceneArguments {
     /// and string (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
+    /// Let the scene write files, below the current folder, once it has been read without errors
+    #[arg(long)]
+    pub allow_write: bool,
     /// Warn about what is probably a mistake, in `.pov` files too
     #[arg(long)]
     lint: bool,
@@ -75,6 +78,7 @@ impl SceneArguments {
         let dialect = dialect(&file.to_string_lossy());
         let mut options = Options::new(dialect);
         options.levels = self.levels(dialect);
+        options.evaluate.now = now();
         options.evaluate.declares = self.declares.clone();
         // `clock` is a word of the language, not a name.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {

@@ -6,9 +6,10 @@ use lucarne::{scene, syntax, world};
 
 use super::arguments::{PictureArguments, ShowArguments, Stage};
 use super::exit::{Exit, Failure, Outcome};
-use super::files::{DiskFiles, name_of, read_main};
+use super::files::DiskFiles;
 use super::messages;
 use super::scene::SceneArguments;
+use super::text::{name_of, read_main};
 
 pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)
@@ -23,7 +24,7 @@ pub fn show(
 ) -> Outcome {
     let frame = picture.frame(arguments)?;
     let bytes = read_main(path)?;
-    let files = DiskFiles::new(path, &arguments.include);
+    let files = DiskFiles::of(path, arguments);
     let mut road = Road::new(&files, arguments.options(path, Some(frame)));
     let file = road.read(&name_of(path), bytes);
     let ast = road.parse(file);
@@ -51,6 +52,7 @@ pub fn show(
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
+    files.settle(messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

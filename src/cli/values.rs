@@ -1,7 +1,9 @@
 //! The values that flags may have: text in, a value or a sentence on what was expected out.
 
+use std::time::SystemTime;
+
 use clap::ValueEnum;
-use lucarne::accuracy::KNOBS;
+use lucarne::accuracy::{KNOBS, Metric};
 use lucarne::diagnostic::Code;
 use lucarne::diagnostic::suggest::closest;
 use lucarne::plan::{Antialias, Region};
@@ -145,6 +147,35 @@ pub fn limit(text: &str) -> Result<(Limit, u64), String> {
     })?;
     let number = value.trim().parse().map_err(|_| format!("`{value}` is not a whole number"))?;
     Ok((limit, number))
+}
+
+/// What is called an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum MetricArgument {
+    /// Root of the mean square, over pixels and components
+    #[default]
+    Rmse,
+    /// What one pixel of a hundred exceeds
+    P99,
+    /// The share of pixels off by more than 2/255
+    Bad,
+}
+
+impl From<MetricArgument> for Metric {
+    fn from(metric: MetricArgument) -> Self {
+        match metric {
+            MetricArgument::Rmse => Self::Rmse,
+            MetricArgument::P99 => Self::P99,
+            MetricArgument::Bad => Self::Bad,
+        }
+    }
+}
+
+/// Days since the beginning of the year 2000.
+pub fn now() -> f64 {
+    const SECONDS_TO_2000: f64 = 946_684_800.0;
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    (now.as_secs_f64() - SECONDS_TO_2000) / 86400.0
 }
 
 #[cfg(test)]

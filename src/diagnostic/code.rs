@@ -122,8 +122,8 @@ codes! {
     // files
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";
-    ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read";
-    UnreadableFile "unreadable-file" error "a file is there and cannot be read";
+    ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
+    UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";

@@ -6,6 +6,7 @@ use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::builtin::CallErrorKind;
+use super::include::embedded;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
@@ -94,8 +95,7 @@ impl Evaluator<'_> {
                 };
                 let symbol = here.symbol(name);
                 self.scopes.mark_used(symbol);
-                let known = self.scopes.read(symbol).is_some_and(|value| *value != Value::Broken);
-                return Ok(Value::truth(known));
+                return Ok(Value::truth(self.is_known(symbol)));
             }
             Word::FileExists => {
                 let [Argument::Expression(id)] = list else {
@@ -103,7 +103,9 @@ impl Evaluator<'_> {
                 };
                 let name = self.string(here, *id)?;
                 let from = self.sources.get(word_span.file).name.clone();
-                return Ok(Value::truth(self.files.read(&name, &from).is_ok()));
+                return Ok(Value::truth(
+                    self.files.read(&name, &from).or_else(embedded(&name)).is_ok(),
+                ));
             }
             Word::Dimensions | Word::DimensionSize => {
                 return self.dimensions(here, word, word_span, list);

@@ -7,9 +7,9 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::{Family, Word};
 
-use super::scope::Owner;
+use super::scope::{Owner, Symbol};
 use super::stream::{Hold, Token, TokenKind};
-use super::value::{Poison, Value};
+use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported};
 
 impl Evaluator<'_> {
@@ -107,19 +107,29 @@ impl Evaluator<'_> {
                 self.halted = true;
                 said
             }
-            DirectiveKind::Fopen { .. } => Err(self.not_supported(
-                Poison { word: Word::Fopen, site: here.site(directive.head) },
-                None,
-            )),
-            DirectiveKind::Read { targets, .. } => {
-                // `#fopen` has said that files are not read yet; what they would set says nothing more.
-                for target in targets {
-                    self.scopes.assign(here.symbol(target.name), Value::Broken);
-                }
+            DirectiveKind::Fopen { name, name_span, file, mode } => {
+                self.open_file(here, (*name, *name_span), *file, *mode)
+            }
+            DirectiveKind::Read { name, name_span, targets } => {
+                self.read_values(here, (*name, *name_span), targets)
+            }
+            DirectiveKind::Write { name, name_span, arguments } => {
+                self.write_values(here, (*name, *name_span), *arguments)
+            }
+            DirectiveKind::Fclose { name, name_span } => {
+                self.close_file(here, (*name, *name_span));
                 Ok(())
             }
-            DirectiveKind::Fclose(_) | DirectiveKind::Write { .. } => Ok(()),
-            DirectiveKind::Ignored(text) => self.expression(here, *text).map(drop),
+            DirectiveKind::OldStream(text) => {
+                let word = self.sources.text(directive.head).to_owned();
+                let message = format!("`{word}` writes to a stream that is gone");
+                let diagnostic = Diagnostic::new(Code::LegacyForm, message)
+                    .at(directive.head, "an old form")
+                    .help("write `#debug`")
+                    .fix(directive.head, "#debug");
+                self.report(here, diagnostic);
+                self.say(here, Code::AuthorDebug, *text, directive.head)
+            }
             DirectiveKind::Malformed => Err(Reported),
         }
     }
@@ -164,8 +174,17 @@ impl Evaluator<'_> {
         if !target.indices.is_empty() {
             return self.is_element_set(here, target);
         }
+        self.is_known(symbol)
+    }
+
+    /// What `defined` and `#ifdef` ask. A file that is closed, or read to its end, is not.
+    pub(super) fn is_known(&mut self, symbol: Symbol) -> bool {
         match self.scopes.read(symbol) {
             Some(Value::Broken) | None => false,
+            Some(Value::File(handle)) => {
+                let handle = *handle;
+                self.is_open(handle)
+            }
             Some(_) => true,
         }
     }

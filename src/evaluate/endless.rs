@@ -122,10 +122,10 @@ pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
                     | DirectiveKind::Debug(_)
                     | DirectiveKind::Warning(_)
                     | DirectiveKind::Fopen { .. }
-                    | DirectiveKind::Fclose(_)
+                    | DirectiveKind::Fclose { .. }
                     | DirectiveKind::Read { .. }
                     | DirectiveKind::Write { .. }
-                    | DirectiveKind::Ignored(_) => {}
+                    | DirectiveKind::OldStream(_) => {}
                 },
                 ItemKind::Word(_)
                 | ItemKind::Open

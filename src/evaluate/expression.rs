@@ -223,6 +223,7 @@ impl Evaluator<'_> {
             Word::False | Word::Off | Word::No => number(0.0),
             Word::Clock => number(self.options.clock),
             Word::ClockOn => number(0.0),
+            Word::Now => number(self.options.now),
             Word::Version => number(self.version),
             _ => Ok(Value::Poison(Poison { word, site: here.site(span) })),
         }

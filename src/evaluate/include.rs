@@ -6,7 +6,8 @@
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{ExpansionKind, FileError, Source, Span, decode};
+use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
+use crate::standard;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
 use crate::vocabulary::is_standard_include;
@@ -47,8 +48,12 @@ impl Evaluator<'_> {
         let (path, unit) = match known.and_then(|path| self.parsed.get_key_value(path)) {
             Some((path, unit)) => (path.clone(), unit.clone()),
             None => {
-                let found = match self.files.read(&name, &from) {
+                let found = match self.files.read(&name, &from).or_else(embedded(&name)) {
                     Ok(found) => found,
+                    Err(_) if self.unwritten.contains(&name) => {
+                        self.lacks_include = true;
+                        return Err(Reported);
+                    }
                     Err(error) => {
                         let slashed = name.replace('\\', "/");
                         let diagnostic = missing_file(&name, span, error);
@@ -146,7 +151,15 @@ impl Evaluator<'_> {
     }
 }
 
-fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
+/// The standard include of this name, where no file has it.
+pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, FileError> {
+    move |error| match (&error, standard::include(name)) {
+        (FileError::NotFound { .. }, Some((name, text))) => Ok(Found { name, bytes: text.into() }),
+        _ => Err(error),
+    }
+}
+
+pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
     match error {
         FileError::NotFound { searched, similar } => {
             let mut diagnostic =

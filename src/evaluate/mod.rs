@@ -15,6 +15,7 @@ mod enclosure;
 mod endless;
 mod expand;
 mod expression;
+mod file;
 mod formula;
 mod function;
 mod include;
@@ -31,7 +32,7 @@ mod undeclared;
 pub mod value;
 mod vector;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
@@ -63,6 +64,8 @@ pub struct EvaluateOptions {
     /// `-D name=value`, in order.
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
+    /// Days since the beginning of the year 2000, UTC: `now`.
+    pub now: f64,
     pub frame_number: f64,
     pub limits: Limits,
 }
@@ -75,6 +78,7 @@ impl Default for EvaluateOptions {
             height: 480,
             declares: Vec::new(),
             clock: 0.0,
+            now: 0.0,
             frame_number: 0.0,
             limits: Limits::default(),
         }
@@ -211,6 +215,10 @@ struct Evaluator<'a> {
     /// What functions of noise are made of.
     noise: NoiseGenerator,
     streams: RandomStreams,
+    /// What `#fopen` has opened.
+    opened: Vec<file::Opened>,
+    /// What it may not write: what reads it lacks it, and that says nothing more.
+    unwritten: BTreeSet<String>,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
     /// How many of these blocks a loose `{` has opened.
@@ -329,6 +337,8 @@ impl<'a> Evaluator<'a> {
             internals: Vec::new(),
             noise: NoiseGenerator::default(),
             streams: RandomStreams::default(),
+            opened: Vec::new(),
+            unwritten: BTreeSet::new(),
             frames: Vec::new(),
             enclosures: Vec::new(),
             loose_blocks: 0,

@@ -311,7 +311,6 @@ fn what_is_not_built(word: Word) -> String {
         Word::Pigment => "patterns in a pattern are".to_owned(),
         Word::Object => "the pattern `object` is".to_owned(),
         Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
-        Word::Fopen => format!("`#{name}` is"),
         _ if word.family() == Family::Pattern && word.is_built() => {
             format!("a `{name}` of textures is")
         }

@@ -51,11 +51,15 @@ macro_rules! facts {
 }
 
 mod deep;
+mod file;
 mod internal;
 mod made;
 mod promotion;
 
 facts! {
+    an_element_of_an_array_is_an_operand_like_any_other:
+        "#declare R = array[2] {3, 4} P(1 + R[1]) P(R[0] * 2 + R[1]) P(R[0] * R[1] - -R[0])"
+        => "5.000 10.000 15.000";
     a_lone_name_is_passed_by_reference:
         "#macro Inc(A) #declare A = A + 1; #end #declare N = 1; Inc(N) P(N)" => "2.000";
     a_local_that_has_a_parameters_name_is_the_parameter:

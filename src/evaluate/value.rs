@@ -15,6 +15,7 @@ use crate::syntax::ast::{BinaryOperator, UnaryOperator};
 use crate::vocabulary::Word;
 
 use super::array::Array;
+use super::file::FileHandle;
 use super::function::FunctionId;
 use super::spline::SplineValue;
 
@@ -83,6 +84,8 @@ pub enum Value {
     Spline(Arc<SplineValue>),
     Function(FunctionId),
     SkySphere(Arc<crate::scene::SkySphere>),
+    /// What `#fopen` names.
+    File(FileHandle),
     Macro(super::scope::MacroId),
     /// Of a kind that this version does not build: fatal only where it reaches the scene.
     Poison(Poison),
@@ -148,6 +151,7 @@ impl Value {
             Self::Spline(_) => "a spline",
             Self::Function(_) => "a function",
             Self::SkySphere(_) => "a sky_sphere",
+            Self::File(_) => "a file",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",
             Self::Broken => "a faulty value",

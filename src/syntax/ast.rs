@@ -237,23 +237,29 @@ pub enum DirectiveKind {
     Debug(ExpressionId),
     Warning(ExpressionId),
     Error(ExpressionId),
-    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`.
+    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`, or missing, which was told.
     Fopen {
         name: NameId,
+        name_span: Span,
         file: ExpressionId,
-        mode: Word,
+        mode: Option<Word>,
     },
-    Fclose(NameId),
+    Fclose {
+        name: NameId,
+        name_span: Span,
+    },
     Read {
         name: NameId,
+        name_span: Span,
         targets: Vec<Target>,
     },
     Write {
         name: NameId,
+        name_span: Span,
         arguments: Arguments,
     },
-    /// `#render`, `#statistics`: old, and without effect.
-    Ignored(ExpressionId),
+    /// `#render`, `#statistics`: said as by `#debug`, since their own streams are gone.
+    OldStream(ExpressionId),
     /// Not understood; reported.
     Malformed,
 }

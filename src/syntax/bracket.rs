@@ -77,7 +77,10 @@ impl<'a> Nest<'a> {
             FrameKind::Index(of) => {
                 let index = self.one_expression(frame.items, span, "an index");
                 let whole = self.ast.expression(of).span.to(span);
-                self.operand(ExpressionKind::Index(of, index), whole, true);
+                // It takes the place of the operand before its `[`: an operator may wait for it.
+                let id = self.add(ExpressionKind::Index(of, index), whole);
+                self.stacks.operands.push(id);
+                self.top().state = State::Holding { indexable: true };
             }
             FrameKind::Call(callee) => {
                 self.end_last_argument(&frame, span);

@@ -265,22 +265,22 @@ impl<'a> Dump<'a> {
             DirectiveKind::Debug(of) => say("#debug ", value(*of)),
             DirectiveKind::Warning(of) => say("#warning ", value(*of)),
             DirectiveKind::Error(of) => say("#error ", value(*of)),
-            DirectiveKind::Fopen { name, file, mode } => {
+            DirectiveKind::Fopen { name, file, mode, .. } => {
                 say("#fopen ", vec![self.name(*name), text(" "), Task::Expression(*file)]);
-                say(" ", vec![text(mode.name())]);
+                say(" ", mode.iter().map(|mode| text(mode.name())).collect());
             }
-            DirectiveKind::Fclose(name) => say("#fclose ", vec![self.name(*name)]),
-            DirectiveKind::Read { name, targets } => {
+            DirectiveKind::Fclose { name, .. } => say("#fclose ", vec![self.name(*name)]),
+            DirectiveKind::Read { name, targets, .. } => {
                 say("#read ", vec![self.name(*name)]);
                 for target in targets {
                     say(", ", self.target(target));
                 }
             }
-            DirectiveKind::Write { name, arguments } => {
+            DirectiveKind::Write { name, arguments, .. } => {
                 say("#write ", vec![self.name(*name)]);
                 say(" ", self.list("(", *arguments, ")"));
             }
-            DirectiveKind::Ignored(of) => say("#ignored ", value(*of)),
+            DirectiveKind::OldStream(of) => say("#render ", value(*of)),
             DirectiveKind::Malformed => say("#malformed", Vec::new()),
         }
         let line = |tasks: &mut Vec<Task<'a>>| {

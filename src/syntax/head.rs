@@ -170,8 +170,10 @@ impl<'a> Nest<'a> {
             Head::Debug => Some(DirectiveKind::Debug(first)),
             Head::Warning => Some(DirectiveKind::Warning(first)),
             Head::Error => Some(DirectiveKind::Error(first)),
-            Head::Render | Head::Statistics => Some(DirectiveKind::Ignored(first)),
-            Head::Fclose => self.name_of(first).map(|(name, _)| DirectiveKind::Fclose(name)),
+            Head::Render | Head::Statistics => Some(DirectiveKind::OldStream(first)),
+            Head::Fclose => self
+                .name_of(first)
+                .map(|(name, name_span)| DirectiveKind::Fclose { name, name_span }),
             Head::Fopen => self.fopen(first, &parts, open),
             Head::Macro => return self.open_macro(first, open),
             Head::If | Head::Elseif | Head::While | Head::Switch | Head::Case => {
@@ -198,19 +200,25 @@ impl<'a> Nest<'a> {
         parts: &[Item],
         open: Span,
     ) -> Option<DirectiveKind> {
-        let (name, _) = self.name_of(first)?;
+        let (name, name_span) = self.name_of(first)?;
         match parts {
             [
                 _,
                 Item { kind: ItemKind::Expression(file), .. },
                 Item { kind: ItemKind::Word(mode), .. },
-            ] => Some(DirectiveKind::Fopen { name, file: *file, mode: *mode }),
+            ] => Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: Some(*mode) }),
+            [_, Item { kind: ItemKind::Expression(file), span }, ..] => {
+                let message = "`#fopen` takes a handle, a file name and a mode";
+                let label = "expected `read`, `write` or `append` after this";
+                self.expected_in_head(*span, message, label);
+                Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: None })
+            }
             _ => {
                 let message = "`#fopen` takes a handle, a file name and a mode";
                 self.expected_in_head(
                     open,
                     message,
-                    "expected `read`, `write` or `append` at its end",
+                    "expected such as `\"values.txt\" read` after the handle",
                 );
                 None
             }

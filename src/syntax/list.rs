@@ -124,17 +124,21 @@ impl<'a> Nest<'a> {
                 };
                 let kind = match handle {
                     None => DirectiveKind::Malformed,
-                    Some((name, _)) if head == Head::Read => {
+                    Some((name, name_span)) if head == Head::Read => {
                         let targets = arguments[1..].iter().filter_map(|argument| match argument {
                             Argument::Expression(id) => self.target(*id),
                             Argument::Items(items) => self.name_of_items(*items).map(named),
                         });
-                        DirectiveKind::Read { name, targets: targets.collect() }
+                        DirectiveKind::Read { name, name_span, targets: targets.collect() }
                     }
-                    Some((name, _)) => {
+                    Some((name, name_span)) => {
                         let base = self.arguments.len();
                         self.arguments.extend_from_slice(&arguments[1..]);
-                        DirectiveKind::Write { name, arguments: self.take_arguments(base) }
+                        DirectiveKind::Write {
+                            name,
+                            name_span,
+                            arguments: self.take_arguments(base),
+                        }
                     }
                 };
                 self.add_directive(kind, at, close);

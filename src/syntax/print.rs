@@ -281,13 +281,17 @@ impl Print<'_> {
             DirectiveKind::Debug(of) => tasks.extend(value("#debug ", *of)),
             DirectiveKind::Warning(of) => tasks.extend(value("#warning ", *of)),
             DirectiveKind::Error(of) => tasks.extend(value("#error ", *of)),
-            DirectiveKind::Fopen { name, file, mode } => {
+            DirectiveKind::Fopen { name, file, mode, .. } => {
                 tasks.extend([Task::Text("#fopen "), self.name(*name)]);
                 tasks.extend(value(" ", *file));
-                tasks.extend([Task::Text(" "), Task::Text(mode.name())]);
+                tasks.extend(
+                    mode.iter().flat_map(|mode| [Task::Text(" "), Task::Text(mode.name())]),
+                );
             }
-            DirectiveKind::Fclose(name) => tasks.extend([Task::Text("#fclose "), self.name(*name)]),
-            DirectiveKind::Read { name, targets } => {
+            DirectiveKind::Fclose { name, .. } => {
+                tasks.extend([Task::Text("#fclose "), self.name(*name)])
+            }
+            DirectiveKind::Read { name, targets, .. } => {
                 tasks.extend([Task::Text("#read ("), self.name(*name)]);
                 for target in targets {
                     tasks.push(Task::Text(", "));
@@ -295,11 +299,11 @@ impl Print<'_> {
                 }
                 tasks.push(Task::Text(")"));
             }
-            DirectiveKind::Write { name, arguments } => {
+            DirectiveKind::Write { name, arguments, .. } => {
                 tasks.extend([Task::Text("#write ("), self.name(*name)]);
                 tasks.extend(self.list(", ", *arguments, ")"));
             }
-            DirectiveKind::Ignored(of) => tasks.extend(value("#render ", *of)),
+            DirectiveKind::OldStream(of) => tasks.extend(value("#render ", *of)),
             DirectiveKind::Malformed => {}
         }
         self.push(tasks);

@@ -17,6 +17,12 @@ pub fn is_standard_include(file: &str) -> bool {
     file.strip_suffix(".inc").is_some_and(|name| rows().any(|(include, _)| include == name))
 }
 
+/// The names that an include declares.
+pub fn standard_names(file: &str) -> impl Iterator<Item = &'static str> {
+    let row = rows().find(|(include, _)| file.strip_suffix(".inc") == Some(*include));
+    row.map_or("", |(_, names)| names).split_whitespace()
+}
+
 /// The include, as `#include` names it, that declares `name`.
 pub fn standard_include_of(name: &str) -> Option<String> {
     let declares = |names: &str| names.split_whitespace().any(|other| other == name);

@@ -16,8 +16,8 @@ vocabulary! {
         Elseif "elseif" statement built "`#elseif (condition)` tries another condition";
         End "end" statement built "`#end` closes `#if`, `#while`, `#for`, `#switch`, `#macro`";
         Error "error" statement built "`#error string` stops with the author's own message";
-        Fclose "fclose" statement later "`#fclose Handle` closes a file";
-        Fopen "fopen" statement later "`#fopen Handle \"name\" read|write|append` opens a file";
+        Fclose "fclose" statement built "`#fclose Handle` closes a file";
+        Fopen "fopen" statement built "`#fopen Handle \"name\" read|write|append` opens a file";
         For "for" statement built "`#for (Name, from, to [, step])` repeats with a counter, its end included; step 1";
         If "if" statement built "`#if (condition)` evaluates its branch unless the number is 0";
         Ifdef "ifdef" statement built "`#ifdef (Name)` evaluates its branch if the name is declared";
@@ -26,15 +26,15 @@ vocabulary! {
         Local "local" statement built "`#local Name = value;` names a value inside this file or macro";
         Macro "macro" statement built "`#macro Name(a, b) … #end` names items to be evaluated at each call";
         Range "range" statement built "`#range (low, high)` starts a branch of `#switch`, its ends included";
-        Read "read" statement later "`#read (Handle, Name, …)` reads values from a file";
-        Render "render" statement later "`#render` is old and without effect";
-        Statistics "statistics" statement later "`#statistics` is old and without effect";
+        Read "read" statement built "`#read (Handle, Name, …)` reads values from a file";
+        Render "render" statement built "`#render string` is old: the same as `#debug`";
+        Statistics "statistics" statement built "`#statistics string` is old: the same as `#debug`";
         Switch "switch" statement built "`#switch (value)` evaluates the `#case` or `#range` that fits, else `#else`";
         Undef "undef" statement built "`#undef Name` forgets a declaration";
         Warning "warning" statement built "`#warning string` prints the author's own warning";
         While "while" statement built "`#while (condition)` repeats its body while the number is not 0";
-        Write "write" statement later "`#write (Handle, value, …)` writes values to a file";
-        Append "append" statement later "opens a file to write at its end";
+        Write "write" statement built "`#write (Handle, value, …)` writes values to a file";
+        Append "append" statement built "opens a file to write at its end";
     }
     Shape {
         BicubicPatch "bicubic_patch" statement later "a surface of 16 Bézier control points";
@@ -484,7 +484,7 @@ vocabulary! {
     StringFunction {
         Chr "chr" function1 built "`chr(n)`: the character with this code";
         Concat "concat" function built "`concat(a, b, …)`: strings joined";
-        Datetime "datetime" function later "`datetime(day [, format])`: a date as text";
+        Datetime "datetime" function built "`datetime(day [, format])`: a date as text";
         Str "str" function built "`str(a, length, digits)`: a number as text";
         Strlwr "strlwr" function1 built "`strlwr(string)`: in small letters";
         Strupr "strupr" function1 built "`strupr(string)`: in capitals";
@@ -496,7 +496,7 @@ vocabulary! {
         ClockOn "clock_on" value built "1 in an animation, else 0";
         False "false" value built "0";
         No "no" value built "0";
-        Now "now" value later "the present day, in days since 2000";
+        Now "now" value built "the present moment, in days since the beginning of 2000 (UTC)";
         Off "off" value built "0";
         On "on" value built "1";
         Pi "pi" value built "3.14159…";
@@ -529,17 +529,17 @@ vocabulary! {
         Png "png" statement later "a PNG picture";
         Pot "pot" statement later "a POT picture";
         Ppm "ppm" statement later "a PPM picture";
-        Sint16be "sint16be" statement later "whole numbers of 16 bits with sign, high byte first";
-        Sint16le "sint16le" statement later "whole numbers of 16 bits with sign, low byte first";
-        Sint32be "sint32be" statement later "whole numbers of 32 bits with sign, high byte first";
-        Sint32le "sint32le" statement later "whole numbers of 32 bits with sign, low byte first";
-        Sint8 "sint8" statement later "whole numbers of 8 bits with sign";
+        Sint16be "sint16be" statement built "whole numbers of 16 bits with sign, high byte first";
+        Sint16le "sint16le" statement built "whole numbers of 16 bits with sign, low byte first";
+        Sint32be "sint32be" statement built "whole numbers of 32 bits with sign, high byte first";
+        Sint32le "sint32le" statement built "whole numbers of 32 bits with sign, low byte first";
+        Sint8 "sint8" statement built "whole numbers of 8 bits with sign";
         Sys "sys" statement later "the picture format of the system";
         Tga "tga" statement later "a Targa picture";
         Tiff "tiff" statement later "a TIFF picture";
-        Uint16be "uint16be" statement later "whole numbers of 16 bits, high byte first";
-        Uint16le "uint16le" statement later "whole numbers of 16 bits, low byte first";
-        Uint8 "uint8" statement later "whole numbers of 8 bits";
+        Uint16be "uint16be" statement built "whole numbers of 16 bits, high byte first";
+        Uint16le "uint16le" statement built "whole numbers of 16 bits, low byte first";
+        Uint8 "uint8" statement built "whole numbers of 8 bits";
         Utf8 "utf8" statement later "text in UTF-8";
     }
 }

@@ -17,6 +17,7 @@ use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::vocabulary::Word;
 
+mod date;
 pub mod escape;
 mod float;
 #[cfg(test)]
@@ -124,6 +125,7 @@ fn function(word: Word) -> Option<Function> {
         .or_else(|| vector::function(word))
         .or_else(|| string::function(word))
         .or_else(|| random::function(word))
+        .or_else(|| date::function(word))
 }
 
 /// One row of a family's table.

@@ -140,10 +140,10 @@ impl<'a> Legacy<'a> {
             | DirectiveKind::Warning(_)
             | DirectiveKind::Error(_)
             | DirectiveKind::Fopen { .. }
-            | DirectiveKind::Fclose(_)
+            | DirectiveKind::Fclose { .. }
             | DirectiveKind::Read { .. }
             | DirectiveKind::Write { .. }
-            | DirectiveKind::Ignored(_)
+            | DirectiveKind::OldStream(_)
             | DirectiveKind::Malformed => {}
         }
     }

@@ -1,0 +1,120 @@
+//! The main file: what the command line names, be it a file or standard input, if it can be a scene.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use lucarne::diagnostic::suggest::closest;
+
+use super::exit::{Failure, reason};
+use super::files::or_here;
+
+/// The largest file that is read: positions in a text have 32 bits.
+pub const LARGEST: u64 = 1 << 30;
+
+/// `-`: the scene comes from standard input.
+pub fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// How messages call the main file.
+pub fn name_of(path: &Path) -> Cow<'_, str> {
+    if is_stdin(path) { "standard input".into() } else { path.to_string_lossy() }
+}
+
+/// The main file, or the sentence that says why it cannot be had. It may be a pipe.
+pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
+    let wrong = |why: &str| Failure::file(format!("cannot read `{}`: {why}", name_of(path)));
+    if is_stdin(path) {
+        return whole(std::io::stdin().lock(), wrong);
+    }
+    let file = fs::File::open(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => match near(path) {
+            Some(near) => wrong("there is no such file").help(format!("did you mean `{near}`?")),
+            None => wrong("there is no such file"),
+        },
+        _ => wrong(&reason(&error)),
+    })?;
+    if file.metadata().is_ok_and(|about| about.is_dir()) {
+        return Err(wrong("it is a folder"));
+    }
+    whole(file, wrong)
+}
+
+/// All of a scene, if it can be one.
+fn whole(from: impl Read, wrong: impl Fn(&str) -> Failure) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    from.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(wrong("it is larger than 1 GiB"));
+    }
+    if is_utf_16(&bytes) {
+        return Err(wrong(UTF_16).help("save it as UTF-8"));
+    }
+    if is_binary(&bytes) {
+        return Err(wrong("it is not a text").help("a scene is a text file: `.scene`, or `.pov`"));
+    }
+    Ok(bytes)
+}
+
+/// Whether this is a picture, a program or the like: no text has several zero bytes near its start.
+fn is_binary(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(4096)];
+    start.iter().filter(|byte| **byte == 0).count() > 2
+}
+
+pub const UTF_16: &str = "it is UTF-16";
+
+/// A byte order mark says so; without one, every other byte of such a text is zero, nearly.
+pub fn is_utf_16(bytes: &[u8]) -> bool {
+    let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
+    let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
+    let most = pairs.len() - pairs.len() / 8;
+    let [high, low] = [zeros(0), zeros(1)];
+    matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
+        || pairs.len() > 8 && (high >= most && low == 0 || low >= most && high == 0)
+}
+
+/// A name like this one in the same folder, or this one with the extension of a scene.
+fn near(path: &Path) -> Option<String> {
+    if let Some(scene) = as_scene(path) {
+        return Some(scene.display().to_string());
+    }
+    let folder = path.parent()?;
+    let names: Vec<String> = fs::read_dir(or_here(folder))
+        .ok()?
+        .flatten()
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .collect();
+    let near = closest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    Some(folder.join(near).display().to_string())
+}
+
+/// The scene of this name without its extension, if there is one.
+pub fn as_scene(path: &Path) -> Option<PathBuf> {
+    let with = |extension: &str| PathBuf::from(format!("{}.{extension}", path.display()));
+    ["scene", "pov"].map(with).into_iter().find(|path| path.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn utf_16_is_known_by_its_mark_or_its_zeros() {
+        let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+        let text = "sphere { 0, 1 } // caf\u{e9} \u{2014}";
+        assert!(is_utf_16(&wide(&format!("\u{feff}{text}"))));
+        assert!(is_utf_16(&wide(text)));
+        let swapped: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        assert!(is_utf_16(&swapped));
+        assert!(!is_utf_16(text.as_bytes()) && !is_utf_16(&[0; 64]) && !is_utf_16(b""));
+    }
+
+    #[test]
+    fn a_folder_is_no_scene() {
+        let failure = read_main(Path::new(".")).expect_err("a folder");
+        assert!(failure.sentence.ends_with("it is a folder"), "{}", failure.sentence);
+    }
+}

@@ -1,0 +1,205 @@
+//! What a scene writes, held until the scene is known to be whole.
+//!
+//! **Invariant:** nothing outside of the current folder is written, whatever a name says and wherever a
+//! link leads, and no hidden file. A scene with errors writes nothing; of one without, each file is
+//! written whole.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Mutex;
+
+use lucarne::source::WriteError;
+
+use super::exit::{Failure, reason};
+use super::messages;
+use super::output::write_whole;
+
+/// The files that one scene has begun to write.
+pub struct Written {
+    /// The current folder, in truth.
+    root: PathBuf,
+    /// By their true paths.
+    files: Mutex<BTreeMap<PathBuf, Vec<u8>>>,
+}
+
+impl Written {
+    /// Below the current folder. (Where that is gone, writing fails.)
+    pub fn here() -> Self {
+        Self::below(fs::canonicalize(".").unwrap_or(PathBuf::from(".")))
+    }
+
+    fn below(root: PathBuf) -> Self {
+        Self { root, files: Mutex::default() }
+    }
+
+    /// Whether a file that is read lies where this scene may write.
+    pub fn covers(&self, truth: &Path) -> bool {
+        truth.starts_with(&self.root)
+    }
+
+    /// What the file holds now, if the scene writes it.
+    pub fn bytes(&self, truth: &Path) -> Option<Vec<u8>> {
+        self.files.lock().ok()?.get(truth).cloned()
+    }
+
+    /// Starts a file and gives its true path.
+    pub fn start(&self, name: &str, append: bool) -> Result<PathBuf, WriteError> {
+        let truth = self.place(name)?;
+        let impossible = |error| WriteError::Impossible(reason(&error));
+        let before = match self.bytes(&truth) {
+            _ if !append => Vec::new(),
+            Some(bytes) => bytes,
+            None => match fs::read(&truth) {
+                Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+                read => read.map_err(impossible)?,
+            },
+        };
+        if let Ok(mut files) = self.files.lock() {
+            files.insert(truth.clone(), before);
+        }
+        Ok(truth)
+    }
+
+    pub fn add(&self, truth: &Path, bytes: &[u8]) {
+        if let Ok(mut files) = self.files.lock()
+            && let Some(file) = files.get_mut(truth)
+        {
+            file.extend(bytes);
+        }
+    }
+
+    /// Where a file of this name is written.
+    fn place(&self, name: &str) -> Result<PathBuf, WriteError> {
+        let impossible = |why: &str| Err(WriteError::Impossible(why.to_owned()));
+        let mut place = self.root.clone();
+        let mut parts = Path::new(name).components().peekable();
+        if name.is_empty() || name.ends_with(['/', '\\']) || name.contains('\0') {
+            return impossible("this is no name of a file");
+        }
+        let stays = |part: Component| matches!(part, Component::CurDir | Component::Normal(_));
+        if !Path::new(name).components().all(stays) {
+            return Err(WriteError::Outside);
+        }
+        while let Some(part) = parts.next() {
+            let Component::Normal(part) = part else { continue };
+            if part.to_string_lossy().starts_with('.') {
+                return impossible("a scene writes no hidden files");
+            }
+            place.push(part);
+            let about = match fs::symlink_metadata(&place) {
+                Ok(about) => Some(about),
+                Err(error) if error.kind() == ErrorKind::NotFound => None,
+                Err(error) => return impossible(&reason(&error)),
+            };
+            if about.as_ref().is_some_and(fs::Metadata::is_symlink) {
+                return Err(WriteError::Outside);
+            }
+            match (parts.peek(), about) {
+                (Some(_), Some(about)) if about.is_dir() => {}
+                (Some(_), _) => return impossible("there is no such folder"),
+                (None, Some(about)) if about.is_dir() => return impossible("it is a folder"),
+                (None, Some(about)) if !about.is_file() => {
+                    return impossible("it is not a regular file");
+                }
+                (None, _) => {}
+            }
+        }
+        match place == self.root {
+            true => impossible("this is no name of a file"),
+            false => Ok(place),
+        }
+    }
+
+    /// Writes all of them, if the scene has no errors, and says so.
+    pub fn settle(&self, whole: bool) -> Result<(), Failure> {
+        let Ok(files) = self.files.lock() else { return Ok(()) };
+        if !whole && !files.is_empty() {
+            messages::eprint(
+                "the scene has errors: the files that it writes were left as they are\n",
+            );
+            return Ok(());
+        }
+        for (path, bytes) in files.iter() {
+            write_whole(path, bytes)?;
+            let name = path.strip_prefix(&self.root).unwrap_or(path).display();
+            let count = bytes.len();
+            let s = if count == 1 { "" } else { "s" };
+            messages::eprint(&format!("{name}: {count} byte{s}, by the scene\n"));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place() -> (tempfile::TempDir, Written) {
+        let root = tempfile::tempdir().expect("a folder");
+        fs::create_dir(root.path().join("sub")).expect("a folder");
+        fs::write(root.path().join("old.txt"), "old").expect("written");
+        let written = Written::below(fs::canonicalize(root.path()).expect("a path"));
+        (root, written)
+    }
+
+    #[test]
+    fn names_that_lead_out_are_refused() {
+        let (root, written) = place();
+        let start = |name: &str| written.start(name, false).map(drop);
+        for name in ["../a.txt", "sub/../../a.txt", "sub/../a.txt", "/tmp/a.txt"] {
+            assert_eq!(start(name), Err(WriteError::Outside), "{name}");
+        }
+        let absolute = root.path().join("a.txt").display().to_string();
+        assert_eq!(start(&absolute), Err(WriteError::Outside));
+        for name in
+            ["", ".", "sub", "sub/", "none/a.txt", "old.txt/a", ".hidden", "sub/.git", "a\0b"]
+        {
+            assert!(matches!(start(name), Err(WriteError::Impossible(_))), "{name}");
+        }
+        assert_eq!(start("./sub/a.txt"), Ok(()));
+        assert_eq!(start("b.txt"), Ok(()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        let (root, written) = place();
+        let link = |to: &str, name: &str| {
+            std::os::unix::fs::symlink(to, root.path().join(name)).expect("a link");
+        };
+        link("/tmp", "folder");
+        link("old.txt", "near.txt");
+        link("/tmp/nowhere", "far.txt");
+        for name in ["folder/a.txt", "near.txt", "far.txt"] {
+            assert_eq!(written.start(name, false), Err(WriteError::Outside), "{name}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_on_disk_before_the_scene_is_whole() {
+        let (root, written) = place();
+        let read = |name: &str| fs::read_to_string(root.path().join(name)).ok();
+        let old = written.start("old.txt", true).expect("started");
+        let new = written.start("sub/new.txt", false).expect("started");
+        written.add(&old, b" and new");
+        written.add(&new, b"new");
+        assert_eq!(written.bytes(&old).as_deref(), Some(&b"old and new"[..]));
+        written.settle(false).expect("nothing to do");
+        assert_eq!((read("old.txt").as_deref(), read("sub/new.txt")), (Some("old"), None));
+        written.settle(true).expect("written");
+        assert_eq!(read("old.txt").as_deref(), Some("old and new"));
+        assert_eq!(read("sub/new.txt").as_deref(), Some("new"));
+    }
+
+    #[test]
+    fn a_file_that_is_started_anew_is_empty() {
+        let (_root, written) = place();
+        let path = written.start("old.txt", false).expect("started");
+        assert_eq!(written.bytes(&path).as_deref(), Some(&b""[..]));
+        written.add(&path, b"1");
+        written.start("old.txt", true).expect("started");
+        assert_eq!(written.bytes(&path).as_deref(), Some(&b"1"[..]));
+    }
+}

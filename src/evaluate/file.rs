@@ -1,0 +1,167 @@
+//! `#fopen`, `#read`, `#write` and `#fclose`: values out of other files, and into them.
+//!
+//! **Invariant:** nothing is read or written but through [`Files`](crate::source::Files). A file that
+//! is closed, by `#fclose`, at its end or by a fault in it, keeps its name for messages, and is not
+//! `defined`.
+//!
+//! **Source:** POV-Ray 3.7 manual, section 3.3.2.3 "File I/O Directives"; formats as the program writes
+//! them (measured).
+
+mod bytes;
+mod data;
+mod open;
+mod read;
+mod write;
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::{FileId, Site, Span};
+use crate::syntax::ast::NameId;
+
+use super::scope::Symbol;
+use super::value::Value;
+use super::{Evaluator, Here, Outcome, Reported};
+
+/// Names one file that was opened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FileHandle(u32);
+
+/// A file that was opened, and how far it is.
+#[derive(Debug)]
+pub(super) struct Opened {
+    site: Site,
+    state: State,
+}
+
+#[derive(Debug, Clone)]
+enum State {
+    /// From this byte of its text.
+    Reading {
+        file: FileId,
+        at: usize,
+    },
+    /// To the end of the file of this name.
+    Writing {
+        name: String,
+    },
+    Closed {
+        by: Closed,
+        site: Site,
+    },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Closed {
+    Fclose,
+    /// Its last value was read.
+    End,
+    /// It has a fault, which was told.
+    Fault,
+}
+
+impl Evaluator<'_> {
+    pub(super) fn is_open(&self, FileHandle(n): FileHandle) -> bool {
+        !self.opened[n as usize].is_closed()
+    }
+
+    /// `#fclose Name`. What is not open need not be closed, as in POV-Ray.
+    pub(super) fn close_file(&mut self, here: &Here, (name, span): (NameId, Span)) {
+        let symbol = here.symbol(name);
+        match self.scopes.read(symbol) {
+            Some(Value::File(handle)) => {
+                let handle = *handle;
+                self.end_file(handle, Closed::Fclose, here.site(span));
+            }
+            Some(Value::Broken | Value::Poison(_)) => {}
+            Some(other) => {
+                let other = other.clone();
+                self.no_file(here, symbol, span, &other);
+            }
+            None => {
+                let open = self.opened.iter().filter(|opened| !opened.is_closed());
+                let open: Vec<&str> =
+                    open.map(|opened| self.sources.text(opened.site.span)).collect();
+                if suggest::closest(self.scopes.name(symbol), open).is_some() {
+                    self.undeclared(here, symbol, span);
+                }
+            }
+        }
+    }
+
+    fn end_file(&mut self, FileHandle(n): FileHandle, by: Closed, site: Site) {
+        let opened = &mut self.opened[n as usize];
+        if !opened.is_closed() {
+            opened.state = State::Closed { by, site };
+        }
+    }
+
+    /// The open file that a name stands for.
+    fn opened(&mut self, here: &Here, (name, span): (NameId, Span)) -> Outcome<FileHandle> {
+        let symbol = here.symbol(name);
+        let handle = match self.scopes.read(symbol) {
+            None => return Err(self.undeclared(here, symbol, span)),
+            Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
+            Some(Value::File(handle)) => *handle,
+            Some(other) => {
+                let other = other.clone();
+                return Err(self.no_file(here, symbol, span, &other));
+            }
+        };
+        let State::Closed { by, site } = self.opened[handle.0 as usize].state else {
+            return Ok(handle);
+        };
+        let text = self.sources.text(span).to_owned();
+        let diagnostic = match by {
+            Closed::Fault => return Err(Reported),
+            Closed::Fclose => Diagnostic::new(Code::WrongType, format!("`{text}` is closed"))
+                .at(span, "expected an open file")
+                .also(site.span, "closed here"),
+            Closed::End => {
+                let message = format!("`{text}` has been read to its end, and is closed");
+                Diagnostic::new(Code::WrongType, message)
+                    .at(span, "there is no more to read")
+                    .also(site.span, "the last value was read here")
+                    .help(format!("`#while (defined({text}))` reads while there is more"))
+            }
+        };
+        Err(self.report(here, diagnostic))
+    }
+
+    fn no_file(&mut self, here: &Here, symbol: Symbol, span: Span, value: &Value) -> Reported {
+        let text = self.scopes.name(symbol);
+        let message = format!("`{text}` is {}, not an open file", value.kind());
+        let mut diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(span, "expected a name that `#fopen` has opened");
+        if let Some(declared) = self.scopes.declared(symbol) {
+            diagnostic = diagnostic.also(declared.site.span, "declared here");
+        }
+        self.report(here, diagnostic)
+    }
+
+    fn other_way(
+        &mut self,
+        here: &Here,
+        FileHandle(n): FileHandle,
+        span: Span,
+        is: &str,
+        wanted: &str,
+    ) -> Reported {
+        let text = self.sources.text(span);
+        let message = format!(
+            "`{text}` is open to {is}, and cannot be {}",
+            match wanted {
+                "read" => "read",
+                _ => "written to",
+            }
+        );
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(span, format!("expected a file that is open to {wanted}"))
+            .also(self.opened[n as usize].site.span, format!("opened here to {is}"));
+        self.report(here, diagnostic)
+    }
+}
+
+impl Opened {
+    fn is_closed(&self) -> bool {
+        matches!(self.state, State::Closed { .. })
+    }
+}

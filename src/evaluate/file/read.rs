@@ -1,0 +1,103 @@
+//! `#read`: values from an open file into names and elements of arrays.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{NameId, Target};
+
+use super::super::scope::Owner;
+use super::super::value::Value;
+use super::super::{Evaluator, Here, Outcome};
+use super::data::{Datum, Fault, datum};
+use super::{Closed, State};
+
+impl Evaluator<'_> {
+    /// `#read (Name, a, b[1], …)`. Past the end of the file nothing is set.
+    pub(in crate::evaluate) fn read_values(
+        &mut self,
+        here: &Here,
+        name: (NameId, Span),
+        targets: &[Target],
+    ) -> Outcome<()> {
+        let outcome = self.read_each(here, name, targets);
+        if outcome.is_err() {
+            for target in targets.iter().filter(|target| target.indices.is_empty()) {
+                let symbol = here.symbol(target.name);
+                if self.scopes.read(symbol).is_none() {
+                    self.scopes.assign(symbol, Value::Broken);
+                }
+            }
+        }
+        outcome
+    }
+
+    fn read_each(&mut self, here: &Here, name: (NameId, Span), targets: &[Target]) -> Outcome<()> {
+        let handle = self.opened(here, name)?;
+        for target in targets {
+            let (file, at) = match &self.opened[handle.0 as usize].state {
+                State::Reading { file, at } => (*file, *at),
+                State::Closed { .. } => return Ok(()),
+                State::Writing { .. } => {
+                    return Err(self.other_way(here, handle, name.1, "write", "read"));
+                }
+            };
+            let read = datum(&self.sources.get(file).text, at);
+            let Datum { value, next, ends } = match read {
+                Ok(Some(datum)) => datum,
+                Ok(None) => {
+                    self.end_file(handle, Closed::End, here.site(name.1));
+                    return Ok(());
+                }
+                Err(Fault { code, at, message, label }) => {
+                    self.end_file(handle, Closed::Fault, here.site(name.1));
+                    let diagnostic = Diagnostic::new(code, message)
+                        .at(Span::new(file, at.start, at.end), label)
+                        .also(target.span, "to be read into this");
+                    return Err(self.report(here, diagnostic));
+                }
+            };
+            self.opened[handle.0 as usize].state = State::Reading { file, at: next };
+            if ends {
+                self.end_file(handle, Closed::End, here.site(target.span));
+            }
+            self.set_target(here, target, value)?;
+        }
+        Ok(())
+    }
+
+    fn set_target(&mut self, here: &Here, target: &Target, value: Value) -> Outcome<()> {
+        if !target.indices.is_empty() {
+            let indices = self.target_indices(here, target);
+            return self.assign_element(here, target, indices, Ok(value));
+        }
+        let symbol = here.symbol(target.name);
+        match self.scopes.read(symbol) {
+            None
+            | Some(
+                Value::Number(_)
+                | Value::Vector(_)
+                | Value::Color(_)
+                | Value::String(_)
+                | Value::Poison(_)
+                | Value::Broken,
+            ) => {}
+            Some(other) => {
+                let message = format!(
+                    "`{}` is {}, and cannot be read into",
+                    self.sources.text(target.span),
+                    other.kind()
+                );
+                let label = "expected a new name, or that of a number, vector or string";
+                let mut diagnostic =
+                    Diagnostic::new(Code::WrongType, message).at(target.span, label);
+                if let Some(declared) = self.scopes.declared(symbol) {
+                    diagnostic = diagnostic.also(declared.site.span, "declared here");
+                }
+                return Err(self.report(here, diagnostic));
+            }
+        }
+        // What a file holds beside what a scene needs has to be read, too.
+        self.scopes.note_declaration(symbol, here.site(target.span), Owner::Other);
+        self.scopes.assign(symbol, value);
+        Ok(())
+    }
+}

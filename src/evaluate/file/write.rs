@@ -1,0 +1,98 @@
+//! `#write`: values into an open file.
+
+use crate::source::Span;
+use crate::syntax::ast::{Argument, Arguments, NameId};
+
+use super::super::stream::TokenKind;
+use super::super::value::Value;
+use super::super::{Evaluator, Here, Outcome};
+use super::State;
+use super::bytes::{WordType, append};
+
+impl Evaluator<'_> {
+    /// `#write (Name, value, …)`: all of its values, or nothing of them.
+    pub(in crate::evaluate) fn write_values(
+        &mut self,
+        here: &Here,
+        name: (NameId, Span),
+        arguments: Arguments,
+    ) -> Outcome<()> {
+        let handle = match self.opened(here, name) {
+            Ok(handle) => handle,
+            Err(reported) => {
+                self.run_arguments(here, arguments);
+                return Err(reported);
+            }
+        };
+        let file = match &self.opened[handle.0 as usize].state {
+            State::Writing { name } => name.clone(),
+            State::Reading { .. } | State::Closed { .. } => {
+                return Err(self.other_way(here, handle, name.1, "read", "write"));
+            }
+        };
+        let unit = here.unit.clone();
+        let (mut bytes, mut outcome) = (Vec::new(), Ok(()));
+        for argument in unit.ast.arguments(arguments) {
+            let done = match *argument {
+                Argument::Expression(id) => self.expression(here, id).and_then(|value| {
+                    self.write(here, unit.expression(id).span, &value, None, &mut bytes)
+                }),
+                Argument::Items(items) => {
+                    self.inside(here, items, |evaluator| evaluator.write_items(&mut bytes))
+                }
+            };
+            outcome = outcome.and(done);
+        }
+        outcome?;
+        self.stored += bytes.len() as u64;
+        self.files.add(&file, &bytes);
+        Ok(())
+    }
+
+    /// Values side by side, after the word for their form if there is one.
+    fn write_items(&mut self, bytes: &mut Vec<u8>) -> Outcome<()> {
+        let (mut form, mut outcome) = (None, Ok(()));
+        while let Some(token) = self.next() {
+            let done = match token.kind {
+                TokenKind::Comma => {
+                    form = None;
+                    Ok(())
+                }
+                TokenKind::Word(word) if WordType::of(word).is_some() => {
+                    form = WordType::of(word);
+                    Ok(())
+                }
+                _ => self
+                    .value_of(&token)
+                    .and_then(|value| self.write(&token.here, token.span, &value, form, bytes)),
+            };
+            outcome = outcome.and(done);
+        }
+        outcome
+    }
+
+    fn write(
+        &mut self,
+        here: &Here,
+        span: Span,
+        value: &Value,
+        form: Option<WordType>,
+        bytes: &mut Vec<u8>,
+    ) -> Outcome<()> {
+        if let Value::Poison(poison) = value {
+            return Err(self.not_supported(*poison, Some(span)));
+        }
+        if append(value, form, bytes) {
+            return Ok(());
+        }
+        let wanted = match form {
+            Some(_) => "a number or a vector, as whole numbers are written of",
+            None => "a number, a vector or a string",
+        };
+        let help = matches!(value, Value::Color(_)).then(|| {
+            let text = self.sources.text(span);
+            format!("write its parts: `<{text}.red, {text}.green, {text}.blue>`")
+        });
+        Err(self.wrong_type_with(here, span, wanted, value, help))
+    }
+}
