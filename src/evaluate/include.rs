@@ -1,7 +1,7 @@
 //! `#include`: another file's items, read where the directive stands.
 //!
 //! **Invariant:** a file is parsed once, however often it is included, and looked for once for each file that
-//! includes it: files do not change while a scene is read.
+//! includes it: files do not change while a scene is read, but for those that it writes.
 
 use std::rc::Rc;
 

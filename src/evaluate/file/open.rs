@@ -131,6 +131,7 @@ impl Evaluator<'_> {
         }
         // What was read under this name is not what it holds from now on.
         self.parsed.remove(&name);
+        self.found.retain(|(other, _), _| other != path);
         Ok(State::Writing { name })
     }
 }

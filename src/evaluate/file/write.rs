@@ -46,6 +46,7 @@ impl Evaluator<'_> {
         outcome?;
         self.stored += bytes.len() as u64;
         self.files.add(&file, &bytes);
+        self.parsed.remove(&file);
         Ok(())
     }
 

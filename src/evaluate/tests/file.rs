@@ -156,6 +156,9 @@ fn what_is_written_is_read_and_included_as_it_is_then() {
         #fopen F \"a.inc\" append #write (F, \"#debug \\\"three \\\"\") #fclose F #include \"a.inc\"
         #debug str(file_exists(\"a.inc\"), 0, 0) #debug str(file_exists(\"b.inc\"), 0, 0)";
     assert_eq!(told(&files, scene), "one two two two three 10");
+    let scene = "#fopen F \"c.inc\" write #write (F, \"#debug \\\"one \\\"\") #include \"c.inc\"
+        #write (F, \"#debug \\\"two \\\"\") #include \"c.inc\"";
+    assert_eq!(told(&files, scene), "one one two ");
     let scene =
         "#fopen F \"n.txt\" write #write (F, 3) #fclose F #fopen F \"n.txt\" read #read (F, N)
         #fopen F \"n.txt\" append #write (F, \",\", N + 1) #fclose F
