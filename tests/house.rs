@@ -21,8 +21,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("standard", &[]),
     ("diagnostic", &["source"]),
     // things
-    // Noise stands outside of tapes.
-    ("function", &["math", "pattern"]),
+    ("noise", &["math"]),
+    ("function", &["math", "noise"]),
     ("pattern", &["math"]),
     ("shape", &["math"]),
     ("spline", &[]),
@@ -57,6 +57,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "color",
             "diagnostic",
             "math",
+            "noise",
             "pattern",
             "scene",
             "source",
@@ -217,7 +218,10 @@ fn modules_for_tests(paths: &[PathBuf]) -> Vec<PathBuf> {
 ",
         ) {
             let declaration = text[at + mark.len()..].lines().next().unwrap_or("");
-            let name = declaration.trim_start_matches("pub(crate) ").strip_prefix("mod ");
+            let name = declaration
+                .trim_start_matches("pub(crate) ")
+                .trim_start_matches("pub(super) ")
+                .strip_prefix("mod ");
             if let Some(name) = name.and_then(|name| name.strip_suffix(';')) {
                 modules.push(folder.join(name));
             }

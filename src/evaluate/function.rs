@@ -140,10 +140,10 @@ impl Evaluator<'_> {
         let coordinate = |axis: usize| -> Result<Function, TooLong> {
             let mut builder = Builder::new(3)?;
             let mut sum = builder.constant(offset[axis])?;
-            for from in 0..3 {
+            for (from, factor) in rows[axis].to_array().into_iter().enumerate() {
                 let Some(parameter) = builder.parameter(from) else { continue };
-                if rows[axis][from] != 0.0 {
-                    let factor = builder.constant(rows[axis][from])?;
+                if factor != 0.0 {
+                    let factor = builder.constant(factor)?;
                     let part = builder.binary(Binary::Multiply, parameter, factor)?;
                     sum = builder.binary(Binary::Add, part, sum)?;
                 }

@@ -37,7 +37,7 @@ use std::rc::Rc;
 
 use crate::color::Color;
 use crate::diagnostic::{Diagnostics, suggest};
-use crate::pattern::noise::NoiseGenerator;
+use crate::noise::NoiseGenerator;
 use crate::scene::{
     ClassicFinish, Dialect, Finish, FinishId, Pigment, PigmentId, PigmentKind, Scene, Texture,
     TextureId,

@@ -13,7 +13,7 @@ use super::operation::{Binary, Unary};
 use crate::math::Vector;
 use crate::math::elementary::pow;
 use crate::math::interval::Interval;
-use crate::pattern::noise::{self, NoiseGenerator};
+use crate::noise::{self, NoiseGenerator};
 
 /// A function that stands outside of all tapes, since it is made of noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

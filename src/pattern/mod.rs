@@ -6,7 +6,6 @@
 
 pub mod checker;
 pub mod gradient;
-pub mod noise;
 
 use crate::math::Vector;
 

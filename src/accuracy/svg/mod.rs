@@ -304,7 +304,8 @@ impl<'a> Diagram<'a> {
             let at = self.place(row);
             let Some(place) = layout.place(&name, SMALL, at) else { continue };
             let end = place.nearest(at);
-            let away = ((end.0 - at.0).powi(2) + (end.1 - at.1).powi(2)).sqrt();
+            let (dx, dy) = (end.0 - at.0, end.1 - at.1);
+            let away = (dx * dx + dy * dy).sqrt();
             if away > 14.0 {
                 let part = reach(row) / away;
                 let start = (at.0 + part * (end.0 - at.0), at.1 + part * (end.1 - at.1));
@@ -364,4 +365,4 @@ fn escaped(text: &str) -> String {
 }
 
 #[cfg(test)]
-pub mod tests;
+pub(super) mod tests;

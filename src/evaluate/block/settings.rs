@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::pattern::noise::NoiseGenerator;
+use crate::noise::NoiseGenerator;
 use crate::scene::{Background, SkySphere};
 use crate::vocabulary::Word;
 

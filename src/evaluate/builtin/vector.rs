@@ -6,7 +6,7 @@
 use super::{Arguments, CallError, CallErrorKind, Function};
 use crate::math::elementary::sin_cos_degrees;
 use crate::math::{UnitVector, Vector};
-use crate::pattern::noise::Turbulence;
+use crate::noise::Turbulence;
 use crate::vocabulary::Word;
 
 /// The function that `word` names, if it is one of this family.

@@ -8,7 +8,7 @@ use crate::color::Color;
 use crate::function::{Function, NoiseFunction, Outside, OutsideId};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::pattern::noise::NoiseGenerator;
+use crate::noise::NoiseGenerator;
 use crate::syntax::ast::Component;
 use crate::vocabulary::Word;
 use crate::world::Pigment;
