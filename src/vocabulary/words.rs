@@ -184,7 +184,6 @@ vocabulary! {
         Mandel "mandel" statement later "the flat Mandelbrot fractal";
         Marble "marble" statement later "parallel bands, to be stirred by turbulence";
         Onion "onion" statement later "shells about the origin";
-        Pattern "pattern" statement built "`function { pattern { checker } }`: a pattern as a function";
         Pavement "pavement" statement later "a floor of stones in several forms";
         PigmentPattern "pigment_pattern" statement later "the grey of a pigment as a pattern";
         Planar "planar" statement later "falls from 1 on the plane y = 0 to 0 at distance 1";
@@ -516,6 +515,7 @@ vocabulary! {
         Composite "composite" statement later "the old word for a union";
         Deprecated "deprecated" statement later "marks a declaration as old";
         Function "function" statement built "`function (x, y) { … }`: a formula to be evaluated later";
+        Pattern "pattern" statement built "`function { pattern { checker } }`: a pattern as a function";
     }
     FileKind {
         Ascii "ascii" statement later "text of 7 bits";
