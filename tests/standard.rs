@@ -73,7 +73,7 @@ fn scenes() -> Vec<(String, String, String)> {
 #[test]
 fn every_include_answers_as_pov_rays_does() {
     let scenes = scenes();
-    assert!(scenes.len() >= 7);
+    assert!(scenes.len() >= 8);
     for (name, scene, answer) in scenes {
         let (said, faults) = told(&NoFiles, Dialect::Pov, &scene);
         assert_eq!(faults, [""; 0], "{name}");

@@ -26,3 +26,6 @@
 #declare SP=spline{natural_spline 0,<0,0,0> 1,<1,2,0> 2,<3,1,2> 3,<4,4,4>}
 #declare T1=Spline_Trans(SP,.5,y,.1,.5) T("sp",T1)
 #declare T1=Spline_Trans(SP,1.5,y,.2,1) T("sp",T1)
+#declare T1=transform { rotate <10,20,30> scale <1,2,3> translate <3,2,1> }
+ZV("to",vtransform(<1,2,3>,T1)) ZV("from",vinv_transform(<1,2,3>,T1))
+ZV("to",vtransform(<1,2,3>,transform { rotate 90*y }))
