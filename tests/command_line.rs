@@ -772,7 +772,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let table = run.stdout();
     assert!(table.starts_with("a.scene 24×18: 432 audited pixels (seed 1), "), "{table}");
     assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
-    assert!(table.contains("  rays/px  boxes/px  roots/px "), "{table}");
+    assert!(table.contains(" rays/px boxes/px roots/px "), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
     // Nothing reflects.
     assert!(!table.contains("depth"), "{table}");
