@@ -102,10 +102,23 @@ pub fn reference(
     }
     let in_time = Deadline { clock, until, watch: studio.watch };
     let studio = Studio { watch: &in_time, ..*studio };
-    let finer = Reference::first(&studio, &rough.plan, &list[..pixels], seed, step);
+    // Where the prediction was too careful, the time ends the list.
+    let first = |step| Reference::first(&studio, &rough.plan, list, seed, step);
+    let mut finer = first(step);
     // Nothing is lost where it was stopped: the pixels that were done are a list's first.
     if finer.pixels() < rough.reference.pixels() {
         return Some(rough);
+    }
+    while finer.pixels() == list.len()
+        && finer.step() < Reference::finest_within(samples as usize)
+        && clock.wall() < until
+    {
+        let better = first(finer.step() + 1);
+        let all = better.pixels() == list.len();
+        finer.first_from(better);
+        if !all {
+            break;
+        }
     }
     Some(Affordable { reference: finer, ..rough })
 }

@@ -220,6 +220,18 @@ impl Reference {
         metric.floor(&self.deviations(&self.halves[0]))
     }
 
+    /// Takes its first pixels, as many as `finer` has, from that, which has more samples of each.
+    pub fn first_from(&mut self, finer: Self) {
+        let done = finer.pixels();
+        for (half, better) in self.halves.iter_mut().zip(finer.halves) {
+            half.splice(..done, better);
+        }
+        if done == self.pixels() {
+            self.step = finer.step;
+        }
+        self.counters += finer.counters;
+    }
+
     /// Both, as one list after the other.
     pub fn and(mut self, other: Self) -> Self {
         let [a, b] = other.halves;
