@@ -103,7 +103,10 @@ impl DiskFiles {
                 .flatten()
                 .filter_map(|entry| entry.file_name().into_string().ok())
                 .collect();
-            let near = closest(&name.to_string_lossy(), names.iter().map(String::as_str));
+            let (name, names) = (name.to_string_lossy(), names.iter().map(String::as_str));
+            let whole = format!("{name}.inc");
+            let near =
+                names.clone().find(|other| *other == whole).or_else(|| closest(&name, names));
             similar.extend(near.map(str::to_owned));
         }
         let mut seen = Vec::new();

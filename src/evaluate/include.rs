@@ -5,12 +5,13 @@
 
 use std::rc::Rc;
 
+use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
 use crate::standard;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
-use crate::vocabulary::is_standard_include;
+use crate::vocabulary::{is_standard_include, standard_includes};
 
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
@@ -165,7 +166,12 @@ pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnost
             let mut diagnostic =
                 Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
                     .at(span, "no file of this name");
-            if let Some(similar) = similar.first() {
+            // One that is built in lies in no folder.
+            let stem = name.strip_suffix(".inc").unwrap_or(name);
+            let same = || standard_includes().find(|include| *include == stem);
+            let standard = || same().or_else(|| closest(stem, standard_includes()));
+            let standard = || standard().map(|near| format!("{near}.inc"));
+            if let Some(similar) = similar.into_iter().next().or_else(standard) {
                 let file = format!("\"{similar}\"");
                 diagnostic = diagnostic.help(format!("did you mean `{similar}`?")).fix(span, file);
             }

@@ -233,26 +233,29 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     assert!(kernel.is_compiled(), "built for measuring another kernel than {}", kernel.name());
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height);
-    let sampled = |walk: &mut Walk, x: u32, y: u32, grid: u32| {
-        sampled::<SHADOWS, SECONDARY>(tracer, &lens, walk, (x, y), grid)
-    };
+    // Inlined into each pass: as a closure of its own it would be called for each pixel.
+    let sampled = sampled::<SHADOWS, SECONDARY>;
     let region = plan.frame.region;
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
     match plan.antialias {
         Antialias::Off | Antialias::Grid(_) => {
             let grid = if let Antialias::Grid(n) = plan.antialias { n.max(1) } else { 1 };
-            crew.pass(empty(region), (0, 1), |walk, x, y| Some(sampled(walk, x, y, grid)))
+            crew.pass(empty(region), (0, 1), |walk, x, y| {
+                Some(sampled(tracer, &lens, walk, (x, y), grid))
+            })
         }
         Antialias::Adaptive { threshold, grid } => {
             let border = grown(region, width, height);
-            let first = crew.pass(empty(border), (0, 2), |walk, x, y| Some(sampled(walk, x, y, 1)));
+            let first = crew.pass(empty(border), (0, 2), |walk, x, y| {
+                Some(sampled(tracer, &lens, walk, (x, y), 1))
+            });
             let shown = first.complete.then(|| Shown::new(&first.film));
             let film = first.film.crop(region);
             let Some(shown) = shown else { return Traced { film, ..first } };
             let mut second = crew.pass(film, (1, 2), |walk, x, y| {
                 let edge = shown.is_edge(x, y, threshold);
-                edge.then(|| sampled(walk, x, y, grid.max(1)))
+                edge.then(|| sampled(tracer, &lens, walk, (x, y), grid.max(1)))
             });
             second.counters += first.counters;
             second

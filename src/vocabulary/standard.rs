@@ -17,6 +17,11 @@ pub fn is_standard_include(file: &str) -> bool {
     file.strip_suffix(".inc").is_some_and(|name| rows().any(|(include, _)| include == name))
 }
 
+/// The includes that come with POV-Ray, without their `.inc`.
+pub fn standard_includes() -> impl Iterator<Item = &'static str> {
+    rows().map(|(include, _)| include)
+}
+
 /// The names that an include declares.
 pub fn standard_names(file: &str) -> impl Iterator<Item = &'static str> {
     let row = rows().find(|(include, _)| file.strip_suffix(".inc") == Some(*include));
