@@ -12,6 +12,7 @@ use crate::scene::{Dialect, Scene};
 use crate::source::{FileId, Files, Source, Sources, Span, decode};
 use crate::syntax::ast::Ast;
 use crate::syntax::{ParseOptions, legacy, parse};
+use crate::vocabulary::is_standard_include;
 use crate::world::{Origins, World};
 
 /// What the caller may choose about a scene.
@@ -140,10 +141,11 @@ impl<'a> Road<'a> {
             told.into_iter().for_each(|told| self.diagnostics.push(told));
             self.heard += 1;
         }
-        if !self.allowances.is_empty() {
-            let silenced = |told: &Diagnostic| self.allowances.iter().any(|one| one.silences(told));
-            self.diagnostics.retain_after(len, |told| !silenced(told));
-        }
+        let (allowances, sources) = (&self.allowances, &self.sources);
+        self.diagnostics.retain_after(len, |told| {
+            !(is_of_a_standard_include(told, sources)
+                || allowances.iter().any(|one| one.silences(told)))
+        });
     }
 
     /// From the main file to its World.
@@ -153,6 +155,16 @@ impl<'a> Road<'a> {
         let scene = self.evaluate(ast);
         self.lower(scene)
     }
+}
+
+/// A lint about a file that comes with POV-Ray is no use to who includes it.
+fn is_of_a_standard_include(told: &Diagnostic, sources: &Sources) -> bool {
+    let file = told.primary().map_or(FileId(0), |label| label.span.file);
+    if !told.code.is_lint() || file == FileId(0) {
+        return false;
+    }
+    let name = &sources.get(file).name;
+    is_standard_include(name.rsplit(['/', '\\']).next().unwrap_or(name))
 }
 
 #[cfg(test)]

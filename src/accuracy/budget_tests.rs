@@ -47,7 +47,7 @@ fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_l
     let (world, origins) = compiled(GLASS, 5.0);
     for time in [3000.0, 20_000.0] {
         let clock = Ticking::new(1.0);
-        let spent = spend(&world, &origins, &asked(48, 36), time, &clock, &Unwatched);
+        let spent = spend(&world, &origins, &asked(48, 36), &|_| time, &clock, &Unwatched);
         let within = (0.95 * time..=1.05 * time).contains(&clock.wall());
         assert!(spent.traced.complete && within, "{}", clock.wall());
         let depth = spent.audit.expect("told").depth.expect("not all the way");
@@ -58,7 +58,7 @@ fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_l
     // Not even the first pass.
     let (world, origins) = compiled(GLASS, 200.0);
     let clock = Ticking::new(1.0);
-    let spent = spend(&world, &origins, &asked(48, 36), 2000.0, &clock, &Unwatched);
+    let spent = spend(&world, &origins, &asked(48, 36), &|_| 2000.0, &clock, &Unwatched);
     assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 2100.0);
 }
 

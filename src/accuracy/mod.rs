@@ -20,6 +20,7 @@ pub mod svg;
 pub mod table;
 mod trial;
 
+pub use afford::LEAST as LEAST_PIXELS;
 pub use front::{ENOUGH_RUNS, Order, Saving, Verdict};
 pub use knob::{KNOBS, Knob};
 pub use measure::{Clock, Span, Times};

@@ -11,6 +11,7 @@ use super::reference::{Geometries, Reference, Studio, clamped};
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet, called_for, dearest, own};
 use super::{audit, refine};
+use crate::film::Film;
 use crate::plan::{Antialias, PlanOptions, plan};
 use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
@@ -180,29 +181,35 @@ fn kept(
     let aim = AIM * promise * (promise / audit.error.high);
     let both: Vec<_> = sets[0].iter().chain(&sets[1]).copied().collect();
     let aims = [AIM * aim, 0.7 * aim, 0.5 * aim, 0.3 * aim];
-    let choice = choose(&both, &reference.and(fresh), &aims, Some(&choice))?;
+    let better = choose(&both, &reference.and(fresh), &aims, Some(&choice))?;
+    // There is nothing better: the same picture would prove no more.
+    if better.options == choice.options {
+        return Some(kept);
+    }
+    let choice = better;
     let mut fresh = truth(&sets[2])?;
     render(&choice, &sets[2], &mut fresh);
     kept.refined = true;
     Some(kept)
 }
 
-/// Renders as well as can be before the clock shows `until`, and audits in what is left of it.
+/// Renders as well as can be before the clock shows what `until` says, and audits in what is left of it.
+/// `until` is asked twice: before the first pass, and with the film of that.
 pub fn spend(
     world: &World,
     origins: &Origins,
     options: &Options,
-    until: f64,
+    until: &dyn Fn(Option<&Film>) -> f64,
     clock: &dyn Clock,
     watch: &dyn Watch,
 ) -> Spent {
-    let kept = KEPT_FOR_AUDIT * (until - clock.wall()).max(0.0);
+    let began = clock.wall();
     let easel = Easel::new(world, origins, options);
     let geometry = Geometries::default();
     // Many parts, none of which is the whole.
     let quiet = Quiet(watch);
     let late = |until| Deadline { clock, until, watch: &quiet };
-    let in_time = late(until);
+    let in_time = late(until(None));
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
     let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
     let timer = Timer::new(clock, &in_time);
@@ -218,6 +225,10 @@ pub fn spend(
     if !spent.traced.complete {
         return spent;
     }
+    let until = until(Some(&spent.traced.film));
+    let kept = KEPT_FOR_AUDIT * (until - began).max(0.0);
+    let in_time = late(until);
+    let studio = Studio { watch: &in_time, ..studio };
     let left = until - clock.wall();
     let render_until = until - (FOR_AUDIT * left).max(kept);
     let pixels = spent.traced.film.radiance.len() as f64;

@@ -99,6 +99,9 @@ pub struct Reference {
     pub counters: Counters,
 }
 
+/// What sums of samples are rounded by, of a colour's full scale.
+const ROUNDING: f64 = 4096.0 * f64::EPSILON;
+
 impl Reference {
     /// The step of a reference that says little of a pixel, and something of many: for want of time.
     pub const ROUGH: usize = 0;
@@ -215,9 +218,13 @@ impl Reference {
         colors.iter().zip(halves).map(of).collect()
     }
 
-    /// Its own error.
+    /// Its own error: by chance, and at least by rounding, which no number of samples makes less.
     pub fn floor(&self, metric: Metric) -> f64 {
-        metric.floor(&self.deviations(&self.halves[0]))
+        let rounding = match metric {
+            Metric::Rmse | Metric::P99 => ROUNDING,
+            Metric::Bad => 0.0,
+        };
+        metric.floor(&self.deviations(&self.halves[0])).max(rounding)
     }
 
     /// Takes its first pixels, as many as `finer` has, from that, which has more samples of each.

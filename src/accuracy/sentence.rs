@@ -22,6 +22,18 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         );
     }
     let best = best(order, settings);
+    let worse: Vec<&Setting> =
+        settings.iter().filter(|setting| order.gains(best.row, setting.row)).collect();
+    if let Some(worst) = worse.last().filter(|_| best.row == cheap.row) {
+        let names: Vec<&str> = worse.iter().map(|setting| setting.label.as_str()).collect();
+        return format!(
+            "{name}: {}, the cheapest, is best; {} only makes it worse: an error of {} instead of {}.",
+            best.label,
+            names.join(", "),
+            table::error(report, worst.row),
+            table::error(report, best.row),
+        );
+    }
     if !order.gains(best.row, cheap.row) {
         let change = |setting: &Setting| {
             let (a, b) = (&report.rows[setting.row].resamples, &report.rows[dear.row].resamples);

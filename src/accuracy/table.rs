@@ -162,7 +162,10 @@ fn heading(metric: Metric) -> &'static str {
 pub fn error(report: &Report, row: usize) -> String {
     match report.is_resolved(report.metric, row) {
         true => amount(report.metric, report.error(row).value),
-        false => format!("< {}", amount(report.metric, report.resolution(report.metric))),
+        false => {
+            let most = report.resolution(report.metric).max(report.error(row).high);
+            format!("< {}", amount(report.metric, most))
+        }
     }
 }
 

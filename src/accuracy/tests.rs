@@ -336,14 +336,15 @@ fn a_promised_error_is_sought_deeper_than_the_scene_says_where_it_must_be() {
 }
 
 #[test]
-fn a_promise_that_cannot_be_kept_is_missed_after_one_refinement() {
+fn a_promise_that_the_dearest_settings_miss_is_missed_in_one_picture() {
     let (world, origins) = compiled(BALLS, 0.2);
     // Two settings, and both are poor.
     let poor = Knob { settings: &[0.0, 5.0], ..KNOBS[0] };
     let options = Options { knobs: &[poor], ..asked(40, 30) };
     let kept = keep(&world, &origins, &options, 1e-3, &Unwatched, &|_| ());
     let kept = kept.expect("large enough").expect("not stopped");
-    assert!(kept.refined && !kept.audit.expect("done").proves(1e-3));
+    // Another would be the same.
+    assert!(!kept.refined && !kept.audit.expect("done").proves(1e-3));
     assert_eq!(kept.flags, "--antialias 2");
 }
 
@@ -357,7 +358,7 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
     for time in [1500.0, 6000.0, 40_000.0] {
         let clock = Ticking::new(1.0);
         let options = asked(160, 120);
-        let spent = spend(&world, &origins, &options, time, &clock, &Unwatched);
+        let spent = spend(&world, &origins, &options, &|_| time, &clock, &Unwatched);
         assert!(spent.traced.complete && clock.wall() <= 1.05 * time);
         assert!(spent.audit.is_some());
         let error = Metric::Rmse.of(&truth.deviations(&spent.traced));
@@ -365,7 +366,7 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
         last = error;
     }
     let clock = Ticking::new(1.0);
-    let spent = spend(&world, &origins, &asked(160, 120), 300.0, &clock, &Unwatched);
+    let spent = spend(&world, &origins, &asked(160, 120), &|_| 300.0, &clock, &Unwatched);
     assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 315.0);
     let done = spent.traced.film.samples.iter().filter(|&&samples| samples == 1).count();
     assert!(done > 0 && done < 160 * 120);
@@ -377,7 +378,7 @@ fn whenever_the_picture_is_whole_its_error_is_told() {
     let mut whole = 0;
     for time in (300..1500).step_by(60).map(f64::from) {
         let clock = Ticking::new(1.0);
-        let spent = spend(&world, &origins, &asked(160, 120), time, &clock, &Unwatched);
+        let spent = spend(&world, &origins, &asked(160, 120), &|_| time, &clock, &Unwatched);
         assert_eq!(spent.traced.complete, spent.audit.is_some(), "{time}");
         assert!(clock.wall() <= 1.05 * time, "{} {time}", clock.wall());
         whole += usize::from(spent.traced.complete);

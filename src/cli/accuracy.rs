@@ -6,7 +6,9 @@ use std::path::Path;
 use std::thread::available_parallelism;
 
 use lucarne::accuracy::json::{self, Host};
-use lucarne::accuracy::{Clock, KNOBS, Knob, Options, Unmeasured, accuracy, svg, table};
+use lucarne::accuracy::{
+    Clock, KNOBS, Knob, LEAST_PIXELS, Options, Unmeasured, accuracy, svg, table,
+};
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
 
@@ -65,6 +67,11 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         seed: arguments.seed,
         trace: TraceOptions::on_threads(threads),
     };
+    let pixels = u64::from(frame.region.width) * u64::from(frame.region.height);
+    if pixels < LEAST_PIXELS as u64 {
+        let sentence = format!("{pixels} pixels are too few to find an error by");
+        return Err(Failure::usage(sentence).help(format!("{LEAST_PIXELS} are the least")));
+    }
     let progress = Progress::start();
     let report = accuracy(&world, &origins, &options, &clock, &progress);
     progress.end();

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::io::IsTerminal;
 
 use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Spent, Step, TooSmall, table};
-use lucarne::plan::{Frame, PlanOptions, plan};
+use lucarne::film::{Depth, Film, develop};
+use lucarne::picture::{Format, encode};
+use lucarne::plan::{Frame, PlanOptions, Region, plan};
 use lucarne::trace::{TraceOptions, Traced, trace};
 use lucarne::world::{Origins, World};
 
@@ -16,8 +18,12 @@ use super::stats::Stopwatch;
 
 /// The pixels and samples of an audit are drawn from this.
 const SEED: u64 = 1;
-/// Seconds to encode and write a pixel in, with room to spare.
-const TO_WRITE: f64 = 5e-7;
+/// Seconds to encode and write a pixel of one colour in.
+const LEAST_TO_WRITE: f64 = 2e-8;
+/// Of a picture's rows, those that are written on trial; and how much longer the final picture, which is
+/// finer, may take.
+const ON_TRIAL: u32 = 8;
+const FINER: f64 = 1.2;
 /// Seconds to find an interval in.
 const TO_REPORT: f64 = 0.02;
 
@@ -94,13 +100,18 @@ fn keep(
         return Ok(Made { traced: kept.traced, said: String::new(), exit: Exit::Interrupted });
     };
     let proven = audit.proves(promise);
-    let sign = match (proven, audit.error.value <= promise) {
+    let may_be = audit.error.value <= promise || audit.error.value < audit.resolution;
+    let sign = match (proven, may_be) {
         (true, _) => "≤",
         (false, true) => "is not proven to be ≤",
         (false, false) => ">",
     };
     let amount = table::amount(audit.metric, promise);
-    let refined = if kept.refined { ", in the second picture" } else { "" };
+    let refined = match (kept.refined, proven) {
+        (true, _) => ", in the second picture",
+        (false, true) => "",
+        (false, false) => "; no settings are known to be better",
+    };
     let said = format!(
         "{} {sign} {amount}, on {} fresh pixels{refined}\nthe same picture: {}\n",
         error(&audit),
@@ -120,8 +131,12 @@ fn spend(
 ) -> Made {
     let region = options.frame.region;
     let pixels = f64::from(region.width) * f64::from(region.height);
-    let until = 0.99 * seconds - TO_WRITE * pixels - TO_REPORT;
-    let spent = accuracy::spend(world, origins, options, until, clock, progress);
+    // What it takes to write is known once there is something to write.
+    let until = |film: Option<&Film>| {
+        let to_end = film.map_or(LEAST_TO_WRITE * pixels, |film| to_write(film, clock) + TO_REPORT);
+        0.99 * seconds - to_end
+    };
+    let spent = accuracy::spend(world, origins, options, &until, clock, progress);
     let interrupted = progress.is_stopped();
     let said = match (&spent.audit, spent.traced.complete) {
         (_, false) if interrupted => String::new(),
@@ -151,6 +166,18 @@ fn spend(
         false => Exit::Limit,
     };
     Made { traced: spent.traced, said, exit }
+}
+
+/// About how many seconds it takes to write a picture: measured on the rows in its middle.
+fn to_write(film: &Film, clock: &Stopwatch) -> f64 {
+    let region = film.frame.region;
+    let height = region.height.div_ceil(ON_TRIAL);
+    let y = region.y + (region.height - height) / 2;
+    let began = clock.wall();
+    let rows = film.clone().crop(Region { y, height, ..region });
+    // What cannot be written is told when it is.
+    drop(encode(&develop(&rows, Depth::Eight), Format::Png));
+    FINER * (clock.wall() - began) * f64::from(region.height) / f64::from(height)
 }
 
 /// What was done: `one ray a pixel (--depth 5 …), then 4 samples in 20 % of the pixels, 16 in 7 %`.
@@ -185,13 +212,21 @@ fn share(part: usize, all: usize) -> String {
 /// `error 0.0088 [0.0081, 0.0096]`, and what the reference did not look at.
 fn error(audit: &Audit) -> String {
     let amount = |error: f64| table::amount(audit.metric, error);
-    let value = match audit.error.value < audit.resolution {
-        true => format!("< {}", amount(audit.resolution)),
-        false => amount(audit.error.value),
+    // Below what the reference resolves nothing is known but that it lies there.
+    let error = match audit.error.value < audit.resolution {
+        true => {
+            let most = amount(audit.resolution.max(audit.error.high));
+            format!("< {most} [0, {most}]")
+        }
+        false => {
+            let [value, low, high] =
+                [audit.error.value, audit.error.low, audit.error.high].map(amount);
+            format!("{value} [{low}, {high}]")
+        }
     };
     let depth = match audit.depth {
         Some(depth) => format!(" against a reference only {depth} surfaces deep"),
         None => String::new(),
     };
-    format!("error {value} [{}, {}]{depth}", amount(audit.error.low), amount(audit.error.high))
+    format!("error {error}{depth}")
 }

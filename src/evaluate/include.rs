@@ -160,6 +160,15 @@ pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, Fi
     }
 }
 
+/// Whether a file that is like `name` is meant for certain: `tree1` is not `tree2`, and short names are like
+/// too many.
+fn is_the_same_but_misspelt(name: &str, like: &str) -> bool {
+    let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let letters = stem.chars().filter(|c| c.is_alphabetic()).count();
+    like == format!("{name}.inc") || (digits(name) == digits(like) && letters >= 4)
+}
+
 pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
     match error {
         FileError::NotFound { searched, similar } => {
@@ -172,8 +181,10 @@ pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnost
             let standard = || same().or_else(|| closest(stem, standard_includes()));
             let standard = || standard().map(|near| format!("{near}.inc"));
             if let Some(similar) = similar.into_iter().next().or_else(standard) {
-                let file = format!("\"{similar}\"");
-                diagnostic = diagnostic.help(format!("did you mean `{similar}`?")).fix(span, file);
+                diagnostic = diagnostic.help(format!("did you mean `{similar}`?"));
+                if is_the_same_but_misspelt(name, &similar) {
+                    diagnostic = diagnostic.fix(span, format!("\"{similar}\""));
+                }
             }
             if !searched.is_empty() {
                 diagnostic = diagnostic.help(format!("searched in {}", searched.join(", ")));

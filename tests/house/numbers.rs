@@ -11,6 +11,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("accuracy/knob.rs", "1e-6", "a weight at which reflections are no longer followed"),
     ("accuracy/statistics.rs", "BAD", "of a colour's full scale"),
     ("accuracy/afford.rs", "MOST_RAYS", "rays of a sample"),
+    ("accuracy/reference.rs", "ROUNDING", "of a colour's full scale"),
     ("accuracy/refine.rs", "HIDDEN", "of a colour's full scale"),
     ("accuracy/svg/label.rs", "'@' => 1015.0", "the width of a letter"),
     ("accuracy/svg/label.rs", "_ => 1015.0", "the width of a letter"),
