@@ -17,6 +17,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("elsif", "elseif"),
     ("import", "include"),
     ("print", "debug"),
+    ("set", "declare"),
+    ("let", "declare"),
+    ("var", "declare"),
 ];
 
 /// Reports every unknown directive, and takes it for the one that was meant if that is likely.

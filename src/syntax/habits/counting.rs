@@ -138,6 +138,12 @@ impl Reader<'_> {
                 return Some(Count { name, first, last, last_text: String::new() });
             }
         } else {
+            // `0..5` is read as `0.` and `.5`: what is meant cannot be taken from these.
+            let dots =
+                |at: usize| self.slice(at).ends_with('.') && self.slice(at + 1).starts_with('.');
+            if (name + 1..to.saturating_sub(1)).any(dots) {
+                return Some(Count { name, first: vec![], last: vec![], last_text: String::new() });
+            }
             let mut pieces: Vec<Vec<usize>> = vec![Vec::new()];
             for at in name + 1..to {
                 let joint = match self.kind(at) {
