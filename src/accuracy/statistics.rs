@@ -128,7 +128,7 @@ impl Metric {
 
     /// The number with its interval: by bootstrap for RMSE, by Wilson's for shares, and for the
     /// 99th percentile by the ranks that Wilson's interval of 99 % spans. The pixels are as
-    /// [`super::audit::by_place`] has them: neighbours close together.
+    /// `audit::by_place` has them: neighbours close together.
     ///
     /// **Source:** R. Woodruff, "Confidence intervals for medians and other position measures", JASA 47,
     /// 1952, for the percentile.
