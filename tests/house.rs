@@ -366,6 +366,36 @@ fn elementary_functions_are_called_through_one_room_only() {
     assert_none(faults);
 }
 
+/// What stands at the top beside files whose names begin with a dot.
+const TOP: &[&str] = &[
+    "Cargo.lock",
+    "Cargo.toml",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "README.md",
+    "docs",
+    "grammar",
+    "scenes",
+    "src",
+    "target",
+    "tests",
+];
+
+#[test]
+fn the_top_level_holds_what_it_is_meant_to() {
+    let ignored = fs::read_to_string(root().join(".gitignore")).expect("readable");
+    let is_ignored = |name: &str| match name.rsplit_once('.') {
+        Some((_, "png")) => ignored.contains("/*.png\n"),
+        _ => ignored.contains(&format!("/{name}\n")),
+    };
+    let entries = fs::read_dir(root()).expect("readable");
+    let names = entries.map(|one| one.expect("readable").file_name().into_string().expect("UTF-8"));
+    let stray = |name: &String| {
+        !name.starts_with('.') && !TOP.contains(&name.as_str()) && !is_ignored(name)
+    };
+    assert_none(names.filter(stray).collect());
+}
+
 #[test]
 fn files_stay_short() {
     // Tables and tests are read by the row.

@@ -7,7 +7,7 @@ use super::afford::{self, Deadline, Depths, LEAST};
 use super::choose::{Choice, Tuning};
 use super::knob::{Knob, cost};
 use super::measure::{Clock, Timer};
-use super::reference::{Geometries, Reference, Studio, clamped};
+use super::reference::{Geometries, Reference, Studio, colors_of};
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet, called_for, dearest, own};
 use super::{audit, refine};
@@ -312,9 +312,7 @@ impl<'a> Easel<'a> {
 }
 
 fn audited(traced: &Traced, list: &[(u32, u32)], reference: &Reference, metric: Metric) -> Audit {
-    let film = &traced.film;
-    let color = |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
-    let colors: Vec<_> = list.iter().map(color).collect();
+    let colors = colors_of(&traced.film, list);
     Audit {
         metric,
         error: metric.estimate(&audit::by_place(list, reference.deviations(&colors))),

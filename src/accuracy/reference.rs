@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use super::statistics::{Deviation, Metric};
 use crate::color::{Gamma, Rgb};
+use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::plan::{Plan, Precision};
 use crate::trace::{
@@ -27,6 +28,12 @@ const LEAST_BLOCK: usize = 64;
 /// A colour as errors are measured: linear, clamped to 0 … 1.
 pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
     radiance.components().map(|c| assumed_gamma.linear(c).min(1.0))
+}
+
+/// The colours of some pixels of a film, as errors are measured.
+pub fn colors_of(film: &Film, list: &[(u32, u32)]) -> Vec<[f64; 3]> {
+    let radiance = |&(x, y): &(u32, u32)| film.radiance[film.index(x, y)];
+    list.iter().map(|place| clamped(radiance(place), film.assumed_gamma)).collect()
 }
 
 /// The same World in each arithmetic, each made when it is first asked for.

@@ -6,7 +6,7 @@
 
 use super::afford::{self, Affordable, Deadline, Depths};
 use super::measure::{Clock, Span, Timer, Times, round};
-use super::reference::{Reference, Studio, clamped};
+use super::reference::{Reference, Studio, colors_of};
 use super::statistics::{Deviation, Metric};
 use super::{Options, Unmeasured};
 use crate::plan::Plan;
@@ -84,14 +84,11 @@ impl Bench<'_> {
         let timer = Timer::new(self.clock, &in_time);
         let traced = self.studio.picture(&candidate.plan, &timer);
         let (cpu, wall) = timer.read();
-        let film = &traced.film;
-        let color =
-            |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
         traced.complete.then(|| Picture {
             candidate: number,
             times: Times { cpu: vec![cpu], wall: vec![wall] },
             counters: traced.counters,
-            colors: list.iter().map(color).collect(),
+            colors: colors_of(&traced.film, list),
         })
     }
 

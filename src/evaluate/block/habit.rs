@@ -48,11 +48,12 @@ impl Evaluator<'_> {
     /// `sphere { 0 0 0, 1 }`: as many bare numbers as make `points` points and `numbers` numbers. Tells the
     /// points as they are written.
     pub(super) fn bare_points(&mut self, points: usize, numbers: usize) -> Option<Reported> {
-        let first = self.peek()?.clone();
-        let text = &self.sources.get(first.span.file).text;
-        let mut found: Vec<Span> = Vec::new();
-        let mut at = first.span.start as usize;
-        loop {
+        let first = self.peek()?.span;
+        let text = &self.sources.get(first.file).text;
+        let (mut found, wanted): (Vec<Span>, _) = (Vec::new(), 3 * points + numbers);
+        let mut at = first.start as usize;
+        // One more would be too many.
+        while found.len() <= wanted {
             let rest = text.get(at..)?;
             let blank =
                 rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',').len();
@@ -61,10 +62,10 @@ impl Evaluator<'_> {
             if number.parse::<f64>().is_err() || !number.ends_with(|c: char| c.is_ascii_digit()) {
                 break;
             }
-            found.push(Span::new(first.span.file, at + blank, at + blank + number.len()));
+            found.push(Span::new(first.file, at + blank, at + blank + number.len()));
             at += blank + number.len();
         }
-        if found.len() != 3 * points + numbers {
+        if found.len() != wanted {
             return None;
         }
         let mut diagnostic =
@@ -78,7 +79,8 @@ impl Evaluator<'_> {
             };
             diagnostic = diagnostic.fix(span, meant);
         }
-        Some(self.report(&first.here, diagnostic))
+        let here = self.peek()?.here.clone();
+        Some(self.report(&here, diagnostic))
     }
 
     /// `transparency 0.5`, `opacity 0.5`: `transmit` belongs to a colour.

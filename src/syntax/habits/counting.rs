@@ -16,6 +16,13 @@ struct Count {
     last_text: String,
 }
 
+impl Count {
+    /// The head of a loop, and no more is known of it.
+    fn unclear(name: usize) -> Self {
+        Self { name, first: Vec::new(), last: Vec::new(), last_text: String::new() }
+    }
+}
+
 impl Reader<'_> {
     /// `for (i = 0; i < 3; i++)`, `for i in range(3):`, `#for (I = 0, 3)`, `#for I = 0 to 3`.
     pub(super) fn counting(&mut self, meant: &mut Vec<Token>) -> bool {
@@ -142,7 +149,7 @@ impl Reader<'_> {
             let dots =
                 |at: usize| self.slice(at).ends_with('.') && self.slice(at + 1).starts_with('.');
             if (name + 1..to.saturating_sub(1)).any(dots) {
-                return Some(Count { name, first: vec![], last: vec![], last_text: String::new() });
+                return Some(Count::unclear(name));
             }
             let mut pieces: Vec<Vec<usize>> = vec![Vec::new()];
             for at in name + 1..to {
@@ -181,14 +188,7 @@ impl Reader<'_> {
                 [last] if exclusive => (Vec::new(), last.clone()),
                 [first, last] => (first.clone(), last.clone()),
                 // A step may stand in the middle or at the end.
-                _ => {
-                    return Some(Count {
-                        name,
-                        first: vec![],
-                        last: vec![],
-                        last_text: String::new(),
-                    });
-                }
+                _ => return Some(Count::unclear(name)),
             };
         }
         if !self.is_simple(&last) || !(first.is_empty() || self.is_simple(&first)) {
