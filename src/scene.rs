@@ -5,6 +5,7 @@
 //! is an index, shared and never copied, and stands before its parents.
 
 pub mod print;
+pub mod solid;
 
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
@@ -14,6 +15,7 @@ use crate::pattern::Pattern;
 use crate::source::{Expansions, Site};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
+pub use solid::Solid;
 
 /// Declares an index into one of the Scene's arenas.
 macro_rules! ids {
@@ -80,19 +82,7 @@ pub struct Object {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum ObjectKind {
-    Sphere {
-        centre: Vector,
-        radius: f64,
-    },
-    /// The half space `normal · p ≤ distance · |normal|`; `distance` in POV-Ray's sense, along
-    /// the normalised normal.
-    Plane {
-        normal: Vector,
-        distance: f64,
-    },
-    Box {
-        corners: [Vector; 2],
-    },
+    Solid(Solid),
     Union(Vec<ObjectId>),
     /// A use of another object, with further modifiers: `object { Name … }`.
     Use(ObjectId),

@@ -11,7 +11,7 @@ use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
-use crate::shape::{Box_, Ellipsoid, Plane, Shape, Sphere};
+use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site};
 
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,6 +28,8 @@ pub struct World {
     pub planes: Vec<Plane>,
     pub boxes: Vec<Box_>,
     pub ellipsoids: Vec<Ellipsoid>,
+    /// Whatever else there is, each where it stands; bodies are shared.
+    pub placed: Vec<Placed>,
     pub materials: Vec<Material>,
     /// What solids are filled with; `Object::interior` points here. Empty when nothing bends light.
     pub interiors: Vec<Interior>,
@@ -45,6 +47,7 @@ impl World {
             Shape::Plane(i) => self.planes[i as usize].contains(point),
             Shape::Box(i) => self.boxes[i as usize].contains(point),
             Shape::Ellipsoid(i) => self.ellipsoids[i as usize].contains(point),
+            Shape::Placed(i) => self.placed[i as usize].contains(point),
         };
         inside != object.inverse
     }

@@ -223,10 +223,7 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
                 children.iter_mut().for_each(|child| *child = renamed[child]);
             }
             ObjectKind::Use(child) => *child = renamed[child],
-            ObjectKind::Sphere { .. }
-            | ObjectKind::Plane { .. }
-            | ObjectKind::Box { .. }
-            | ObjectKind::LightSource(_) => {}
+            ObjectKind::Solid(_) | ObjectKind::LightSource(_) => {}
         }
         small.objects.push(copy);
     }
@@ -256,9 +253,6 @@ fn children(kind: &ObjectKind) -> Vec<ObjectId> {
     match kind {
         ObjectKind::Union(children) => children.clone(),
         ObjectKind::Use(child) => vec![*child],
-        ObjectKind::Sphere { .. }
-        | ObjectKind::Plane { .. }
-        | ObjectKind::Box { .. }
-        | ObjectKind::LightSource(_) => Vec::new(),
+        ObjectKind::Solid(_) | ObjectKind::LightSource(_) => Vec::new(),
     }
 }

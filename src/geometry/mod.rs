@@ -19,8 +19,10 @@ pub use occluder::Occluder;
 pub use work::Work;
 
 use crate::math::Vector;
+use crate::shape::body::Met;
 use crate::shape::{
-    Bounds, Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Shape, Sphere, SurfacePoint, sphere,
+    Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Shape, Sphere, SurfacePoint,
+    sphere,
 };
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
@@ -44,6 +46,7 @@ pub struct Geometry {
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
+    placed: Vec<Placed>,
     manner: Manner,
     /// What the camera's rays meet, where that is not all.
     in_image: Option<Box<Geometry>>,
@@ -83,6 +86,7 @@ enum Solid {
     Plane(Plane),
     Box(u32),
     Ellipsoid(u32),
+    Placed(u32),
 }
 
 /// Which crossings of a solid are seen.
@@ -137,6 +141,7 @@ impl Geometry {
             balls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
+            placed: Vec::with_capacity(world.placed.len()),
             manner: Manner::Double,
             in_image: None,
             in_reflections: None,
@@ -185,7 +190,7 @@ impl Geometry {
     }
 
     fn append(&mut self, world: &World, number: u32) {
-        fn copy<T: Copy>(list: &mut Vec<T>, shape: T) -> u32 {
+        fn copy<T>(list: &mut Vec<T>, shape: T) -> u32 {
             list.push(shape);
             list.len() as u32 - 1
         }
@@ -199,6 +204,9 @@ impl Geometry {
             }
             Shape::Ellipsoid(i) => {
                 Solid::Ellipsoid(copy(&mut self.ellipsoids, world.ellipsoids[i as usize]))
+            }
+            Shape::Placed(i) => {
+                Solid::Placed(copy(&mut self.placed, world.placed[i as usize].clone()))
             }
         };
         let sides = if !world.materials[object.material as usize].finish.seed {
@@ -220,6 +228,12 @@ impl Geometry {
                 let (box_, reach_squared) = self.boxes[i as usize];
                 Ball::new(box_.centre, reach_squared)
             }
+            Solid::Placed(i) => match self.placed[i as usize].bounds() {
+                Some(Bounds { low, high }) => {
+                    Ball::new((low + high) * 0.5, (high - low).length_squared() * 0.25)
+                }
+                None => Ball::EVERYWHERE,
+            },
             Solid::Plane(_) | Solid::Ellipsoid(_) => Ball::EVERYWHERE,
         }
     }
@@ -270,9 +284,16 @@ impl Geometry {
                 box_.chord(ray)?
             }
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
+            Solid::Placed(i) => return self.first_met(*i, entry.sides, ray, limit),
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;
         (crossing.t <= limit).then_some((crossing, leaving))
+    }
+
+    #[inline(never)]
+    fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<(Crossing, bool)> {
+        let met = self.placed[i as usize].crossings(ray).into_iter().find(|met| sides.see(met))?;
+        (met.t <= limit).then_some((met.crossing(), met.leaving))
     }
 }
 
@@ -285,6 +306,11 @@ impl Sides {
             Self::Outside => !leaving,
             Self::Inside => leaving,
         }
+    }
+
+    /// Whether a crossing of a placed body is ahead, and seen.
+    fn see(self, met: &Met) -> bool {
+        met.is_seen() && self.shows(met.leaving) && met.crossing().is_ahead()
     }
 
     #[inline(always)]
@@ -310,6 +336,7 @@ pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
         Shape::Plane(_) => None,
         Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
         Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
+        Shape::Placed(i) => world.placed[i as usize].bounds(),
     }
 }
 
@@ -322,6 +349,7 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
         Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
+        Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
     }
 }
 
@@ -334,6 +362,10 @@ pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Ve
         Shape::Plane(i) => world.planes[i as usize].chord(ray),
         Shape::Box(i) => world.boxes[i as usize].chord(ray),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].chord(ray),
+        Shape::Placed(i) => {
+            let met = world.placed[i as usize].crossing_at(ray, hit.t, hit.leaving);
+            return met.map_or(Vector::ZERO, |met| surface.spread(ray, hit.t, &met.crossing()));
+        }
     };
     // In single precision a ray may meet what it truly misses.
     chord.map_or(Vector::ZERO, |Chord { enter, leave }| {

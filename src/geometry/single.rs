@@ -128,7 +128,7 @@ impl Geometry {
                 let slabs = box_::slabs(zero, normals, half_widths, &rounded.from(solid.centre))?;
                 Chord { enter: slabs.enter, leave: slabs.leave }
             }
-            Solid::Ellipsoid(_) => {
+            Solid::Ellipsoid(_) | Solid::Placed(_) => {
                 return self.first_crossing::<TIGHT>(entry, rounded.ray, limit);
             }
         };
@@ -208,7 +208,10 @@ mod tests {
                     // Along a plane the direction's own rounding is what is told.
                     let slope = match &entry.solid {
                         Solid::Plane(plane) => ray.direction.dot(plane.normal.get()).abs(),
-                        Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) => 1.0,
+                        Solid::Sphere(_)
+                        | Solid::Box(_)
+                        | Solid::Ellipsoid(_)
+                        | Solid::Placed(_) => 1.0,
                     };
                     let share = if slope < 1e-4 { 1e-6 / slope } else { 1e-2 };
                     assert!(rough.error < share * rough.t.max(1e-3), "{slope:e} {rough:?}");

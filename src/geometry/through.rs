@@ -4,10 +4,12 @@
 //! **In:** a ray. **Out:** crossings, in a list of the caller's. **Invariant:** no allocation per
 //! ray once the list has grown; what is reported does not depend on the order of the search.
 
+use smallvec::SmallVec;
+
 use super::search::Each;
 use super::work::{Tally, Uncounted};
 use super::{Entry, Geometry, Hit, Solid, Work};
-use crate::shape::{Chord, Crossing, Ray};
+use crate::shape::{Crossing, Ray};
 
 impl Geometry {
     /// Adds to `hits` every crossing with a clear surface that casts shadows and is certainly nearer
@@ -23,8 +25,10 @@ impl Geometry {
     fn filters_with<T: Tally>(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>, tally: T) {
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
-            let chord = if entry.filters { self.chord(entry, ray, tally) } else { None };
-            for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
+            if !entry.filters {
+                return distance;
+            }
+            for (crossing, leaving) in self.seen(entry, ray, tally) {
                 if crossing.is_ahead() && crossing.t + crossing.error < distance {
                     hits.push(entry.hit(crossing, leaving));
                 }
@@ -54,14 +58,19 @@ impl Geometry {
         let first = hits.len();
         let look = |place: usize, tally: &mut &mut Work| {
             let entry = &self.entries[place];
-            let other = entry.object != hit.object;
-            let chord = if other { self.chord(entry, ray, tally) } else { None };
-            for (crossing, leaving) in chord.iter().flat_map(|chord| entry.sides.seen(chord)) {
+            if entry.object == hit.object {
+                return limit;
+            }
+            let seen = self.seen(entry, ray, tally);
+            for (place, &(crossing, leaving)) in seen.iter().enumerate() {
                 // Its own bound may be wider than that of the surface that was hit.
                 if crossing.is_ahead() && crossing.t <= limit + 2.0 * crossing.error {
-                    let still_ahead = self.chord(entry, start, tally).is_some_and(|chord| {
-                        if leaving { chord.leave.is_ahead() } else { chord.enter.is_ahead() }
-                    });
+                    // So many crossings before the end of the line it is found again.
+                    let after = seen.len() - 1 - place;
+                    let from_start = self.seen(entry, start, tally);
+                    let again = from_start.len().checked_sub(1 + after).map(|i| from_start[i]);
+                    let still_ahead = again
+                        .is_some_and(|(crossing, same)| same == leaving && crossing.is_ahead());
                     if !still_ahead {
                         hits.push(entry.hit(crossing, leaving));
                     }
@@ -76,29 +85,31 @@ impl Geometry {
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
     }
 
-    fn chord(&self, entry: &Entry, ray: &Ray, tally: &mut impl Tally) -> Option<Chord> {
+    /// All crossings that are seen, in order, each with whether the ray leaves there.
+    fn seen(&self, entry: &Entry, ray: &Ray, tally: &mut impl Tally) -> Seen {
         tally.root_solve();
-        match &entry.solid {
+        let chord = match &entry.solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),
             Solid::Box(i) => self.boxes[*i as usize].0.chord(ray),
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
-        }
+            Solid::Placed(i) => {
+                let all = self.placed[*i as usize].crossings(ray).into_iter();
+                let seen = all.filter(|met| met.is_seen() && entry.sides.shows(met.leaving));
+                return seen.map(|met| (met.crossing(), met.leaving)).collect();
+            }
+        };
+        let ends = chord.map(|chord| [(chord.enter, false), (chord.leave, true)]);
+        ends.into_iter().flatten().filter(|(_, leaving)| entry.sides.shows(*leaving)).collect()
     }
 }
+
+/// Most solids are crossed twice.
+type Seen = SmallVec<[(Crossing, bool); 2]>;
 
 impl Entry {
     #[inline(always)]
     pub(super) fn hit(&self, Crossing { t, error }: Crossing, leaving: bool) -> Hit {
         Hit { object: self.object, t, error, leaving, contested: false }
-    }
-}
-
-impl super::Sides {
-    /// The crossings that are seen, each with whether the ray leaves there.
-    fn seen(self, chord: &Chord) -> impl Iterator<Item = (Crossing, bool)> {
-        let enter = (self != Self::Inside).then_some((chord.enter, false));
-        let leave = (self != Self::Outside).then_some((chord.leave, true));
-        enter.into_iter().chain(leave)
     }
 }

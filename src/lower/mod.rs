@@ -5,6 +5,7 @@
 //! of the World was computed in extended precision and rounded once. Specified in `docs/world.md`.
 
 pub mod alone;
+mod body;
 mod camera;
 mod finish;
 mod interior;

@@ -6,10 +6,10 @@
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
-use super::{Fault, Lowering, NO_SIZE, shape};
+use super::{Fault, Lowering, NO_SIZE, body, shape};
 use crate::diagnostic::Code;
-use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, TextureId};
-use crate::shape::Shape;
+use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, Solid, TextureId};
+use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
 
@@ -195,7 +195,7 @@ impl<'s> Lowering<'s, '_> {
                 let item = here.item.unwrap_or(object.site);
                 self.light(light, &world_from_here, object.site, item);
             }
-            solid => {
+            ObjectKind::Solid(solid) => {
                 let before = self.world.objects.len();
                 let spent = self.solid(solid, &here, object.site);
                 if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
@@ -204,6 +204,7 @@ impl<'s> Lowering<'s, '_> {
                 self.reporter.made(spent, object.site);
                 self.note_calls(modified.calls, before);
             }
+            ObjectKind::Use(_) => {}
         }
         None
     }
@@ -292,13 +293,13 @@ impl<'s> Lowering<'s, '_> {
         })
     }
 
-    fn solid(&mut self, kind: &ObjectKind, here: &Inherited, site: Site) -> Result<(), Fault> {
+    fn solid(&mut self, solid: &Solid, here: &Inherited, site: Site) -> Result<(), Fault> {
         let map = &here.world_from_here;
         if !map.is_finite() {
             return Err(Fault::not_finite("this solid's place"));
         }
-        match *kind {
-            ObjectKind::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {
+        match *solid {
+            Solid::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {
                 Round::Sphere(sphere) => {
                     let shape = Shape::Sphere(next(&mut self.world.spheres, sphere));
                     self.place(shape, here, here.flags.inverse, &[], site)
@@ -308,13 +309,13 @@ impl<'s> Lowering<'s, '_> {
                     self.place(shape, here, here.flags.inverse, &[], site)
                 }
             },
-            ObjectKind::Plane { normal, distance } => {
+            Solid::Plane { normal, distance } => {
                 let (plane, face) = shape::plane(normal, distance, here.flags.inverse, map)?;
                 let shape = Shape::Plane(next(&mut self.world.planes, plane));
                 // An inverse plane is the plane with the opposite normal.
                 self.place(shape, here, false, &[face], site)
             }
-            ObjectKind::Box { corners } => {
+            Solid::Box { corners } => {
                 let (solid, faces) = shape::box_(corners, map)?;
                 if solid.half_widths.contains(&0.0) {
                     let flat = Fault::new(Code::DegenerateShape, "this box is flat");
@@ -323,8 +324,22 @@ impl<'s> Lowering<'s, '_> {
                 let shape = Shape::Box(next(&mut self.world.boxes, solid));
                 self.place(shape, here, here.flags.inverse, &faces, site)
             }
-            ObjectKind::Union(_) | ObjectKind::Use(_) | ObjectKind::LightSource(_) => Ok(()),
+            Solid::Cylinder { ends, radius, open } => {
+                self.place_body(body::cylinder(ends, radius, open)?, here, site)
+            }
         }
+    }
+
+    /// A body and the map to it from its own space.
+    fn place_body(
+        &mut self,
+        (body, frame): (Body, Affine),
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        let placed = body::place(body, &here.world_from_here.after(&frame))?;
+        let shape = Shape::Placed(next(&mut self.world.placed, placed));
+        self.place(shape, here, here.flags.inverse, &[], site)
     }
 
     fn place(

@@ -163,8 +163,8 @@ fn in_canonical_order(mut sides: Vec<Side>, bound: f64) -> [Side; 3] {
     })
 }
 
-const FLAT: &str = "the transforms leave this solid no volume";
+pub const FLAT: &str = "the transforms leave this solid no volume";
 
-fn no_size(message: &str) -> Fault {
+pub fn no_size(message: &str) -> Fault {
     Fault::new(Code::ZeroSize, message).label("nothing of it can be seen")
 }

@@ -49,6 +49,13 @@ impl Affine {
         rounding: 0.0,
     };
 
+    /// The map that takes x, y and z to these, and the origin to `offset`.
+    pub fn from_columns([x, y, z]: [DoubleVector; 3], offset: DoubleVector) -> Self {
+        let [x, y, z] = [x, y, z].map(DoubleVector::components);
+        let row = |i: usize| DoubleVector::new(x[i], y[i], z[i]);
+        Self { rows: [row(0), row(1), row(2)], offset, rounding: Self::STEP_ROUNDING }
+    }
+
     /// 2⁻⁹⁶: a rotation is a dozen roundings of 2⁻¹⁰² each.
     pub const STEP_ROUNDING: f64 = 1.0 / (1u128 << 96) as f64;
 
@@ -85,10 +92,7 @@ impl Affine {
             }
             Step::Matrix([x, y, z, offset]) => {
                 let [x, y, z, offset] = [x, y, z, offset].map(|v| DoubleVector::from(*v));
-                let columns = [x, y, z].map(DoubleVector::components);
-                let row = |i: usize| DoubleVector::new(columns[0][i], columns[1][i], columns[2][i]);
-                let matrix =
-                    Self { rows: [row(0), row(1), row(2)], offset, rounding: Self::STEP_ROUNDING };
+                let matrix = Self::from_columns([x, y, z], offset);
                 self = if undone { matrix.checked()? } else { matrix }.after(&self);
             }
             Step::Transform(id) => self = part(*id, undone)?.after(&self),

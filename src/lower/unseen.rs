@@ -29,6 +29,7 @@ impl Lowering<'_, '_> {
             Shape::Plane(last) => world.planes.truncate(last as usize),
             Shape::Box(last) => world.boxes.truncate(last as usize),
             Shape::Ellipsoid(last) => world.ellipsoids.truncate(last as usize),
+            Shape::Placed(last) => world.placed.truncate(last as usize),
         }
         let why = "`no_image`, `no_reflection` and `no_shadow` hide it";
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
@@ -39,9 +40,7 @@ impl Lowering<'_, '_> {
     pub(super) fn word(&self, mut id: ObjectId) -> &'static str {
         loop {
             return match self.scene.objects[id.index()].kind {
-                ObjectKind::Sphere { .. } => "sphere",
-                ObjectKind::Plane { .. } => "plane",
-                ObjectKind::Box { .. } => "box",
+                ObjectKind::Solid(ref solid) => solid.word().name(),
                 ObjectKind::Union(_) => "union",
                 ObjectKind::LightSource(_) => "light_source",
                 ObjectKind::Use(used) => {

@@ -7,6 +7,7 @@
 use crate::math::Vector;
 use crate::math::singular::singular_values;
 use crate::shape::Shape;
+use crate::shape::body::Local;
 use crate::source::Site;
 use crate::world::{NearSingular, Origins, World};
 
@@ -75,6 +76,12 @@ fn extent(world: &World, shape: Shape) -> Option<(Vector, f64, f64)> {
             let sides = solid.half_widths.into_iter().filter(|&side| side > 0.0);
             let least = sides.clone().fold(f64::INFINITY, f64::min);
             Some((solid.centre, least, sides.fold(0.0, f64::max)))
+        }
+        Shape::Placed(at) => {
+            let placed = &world.placed[at as usize];
+            let [greatest, _, least] = singular_values(placed.placement.world_from_local);
+            let reach = placed.body.reach();
+            reach.is_finite().then_some((placed.placement.centre, least, greatest * reach))
         }
         Shape::Plane(_) => None,
     }

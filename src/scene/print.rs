@@ -115,15 +115,7 @@ impl Printer<'_> {
                     let place = self.sources.place(object.site.span);
                     stack.push(Task::Modifiers(id, depth + 1));
                     match &object.kind {
-                        ObjectKind::Sphere { centre, radius } => {
-                            write!(out, "sphere {} {radius}", vector(*centre))?;
-                        }
-                        ObjectKind::Plane { normal, distance } => {
-                            write!(out, "plane {} {distance}", vector(*normal))?;
-                        }
-                        ObjectKind::Box { corners: [a, b] } => {
-                            write!(out, "box {} {}", vector(*a), vector(*b))?;
-                        }
+                        ObjectKind::Solid(solid) => write!(out, "{solid}")?,
                         ObjectKind::Union(children) => {
                             write!(out, "union")?;
                             let children = children.iter().rev();

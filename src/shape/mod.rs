@@ -3,13 +3,19 @@
 //! **Invariant:** knows only `math`. Distances along a ray are in (0, ∞): there is no least and no
 //! greatest distance, each crossing carries its own error bound instead.
 
+pub mod body;
 pub mod box_;
+pub mod cylinder;
 pub mod ellipsoid;
+pub mod placed;
 pub mod plane;
 pub mod sphere;
 
+pub use body::Body;
 pub use box_::Box_;
+pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
+pub use placed::Placed;
 pub use plane::Plane;
 pub use sphere::Sphere;
 
@@ -22,6 +28,7 @@ pub enum Shape {
     Plane(u32),
     Box(u32),
     Ellipsoid(u32),
+    Placed(u32),
 }
 
 /// A half-line: `origin + t · direction`, t > 0.

@@ -42,7 +42,7 @@ vocabulary! {
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
         Cone "cone" statement later "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement later "a polynomial surface of degree 3; also a spline, a wave and a pattern";
-        Cylinder "cylinder" statement later "`cylinder { <base>, <cap>, radius }`";
+        Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
         Disc "disc" statement later "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring";
         HeightField "height_field" statement later "a landscape from a picture or a function";
         Isosurface "isosurface" statement later "where a function of space is zero";
@@ -93,7 +93,7 @@ vocabulary! {
         NaturalSpline "natural_spline" statement built "a spline with free ends";
         NormalIndices "normal_indices" statement later "the normals of each face of a mesh2";
         NormalVectors "normal_vectors" statement later "the normals of a mesh2";
-        Open "open" statement later "leaves out the end caps";
+        Open "open" statement built "leaves the ends out of sight";
         Orientation "orientation" statement later "how a shape is turned";
         Precision "precision" statement later "how exactly a julia_fractal is found";
         Precompute "precompute" statement later "tabulates a parametric surface";

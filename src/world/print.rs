@@ -9,10 +9,11 @@ use super::{
     Attenuation, Beam, CameraKind, Fade, Finish, LightKind, LobeKind, Object, Origins, Pigment,
     World,
 };
-use crate::math::placement::Map;
+use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
 use crate::pattern::Pattern;
+use crate::shape::body::Local;
 use crate::shape::{Box_, Shape};
 use crate::source::{Site, Sources};
 
@@ -132,10 +133,13 @@ impl Printer<'_> {
                 faces(&mut more, solid)?;
             }
             Shape::Ellipsoid(at) => {
-                let placement = &self.world.ellipsoids[at as usize].placement;
-                write!(out, "ellipsoid centre {}", vector(placement.centre))?;
-                writeln!(more, "      world_from_local {}", matrix(placement.world_from_local))?;
-                writeln!(more, "      local_from_world {}", matrix(placement.local_from_world))?;
+                write!(out, "ellipsoid")?;
+                placement(out, &mut more, &self.world.ellipsoids[at as usize].placement)?;
+            }
+            Shape::Placed(at) => {
+                let placed = &self.world.placed[at as usize];
+                write!(out, "{}{}", placed.body.word(), placed.body.numbers())?;
+                placement(out, &mut more, &placed.placement)?;
             }
         }
         write!(out, " material {}", object.material)?;
@@ -171,7 +175,7 @@ impl Printer<'_> {
         let count = match object.shape {
             Shape::Plane(_) => 1,
             Shape::Box(_) => 6,
-            Shape::Sphere(_) | Shape::Ellipsoid(_) => 0,
+            Shape::Sphere(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => 0,
         };
         for (face, constant) in self.world.faces.iter().skip(start as usize).take(count).enumerate()
         {
@@ -190,6 +194,13 @@ impl Printer<'_> {
     fn at(&self, site: Option<Site>) -> String {
         site.map_or(String::new(), |site| format!("  ({})", self.sources.place(site.span)))
     }
+}
+
+/// Where a solid with a space of its own stands: its centre here, its matrices in `more`.
+fn placement(out: &mut String, more: &mut String, placement: &Placement) -> fmt::Result {
+    write!(out, " centre {}", vector(placement.centre))?;
+    writeln!(more, "      world_from_local {}", matrix(placement.world_from_local))?;
+    writeln!(more, "      local_from_world {}", matrix(placement.local_from_world))
 }
 
 /// A box as the seed describes it: for each of three faces N, C_f, d_f, C_o, d_o and l.

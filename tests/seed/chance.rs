@@ -3,7 +3,7 @@
 use lucarne::color::Rgb;
 use lucarne::math::Vector;
 use lucarne::math::transform::Step;
-use lucarne::scene::{LightKind, ObjectKind, Scene};
+use lucarne::scene::{LightKind, ObjectKind, Scene, Solid};
 
 use crate::dice::Dice;
 use crate::sketch::{Sketch, seed};
@@ -37,15 +37,17 @@ impl Dice {
 
     pub fn solid(&mut self) -> ObjectKind {
         match self.below(5) {
-            0 => ObjectKind::Plane {
+            0 => ObjectKind::Solid(Solid::Plane {
                 normal: self.vector(-1.0, 1.0),
                 distance: -self.between(2.0, 5.0),
-            },
-            1 | 2 => ObjectKind::Box { corners: [self.vector(-1.4, -0.3), self.vector(0.3, 1.4)] },
-            _ => ObjectKind::Sphere {
+            }),
+            1 | 2 => ObjectKind::Solid(Solid::Box {
+                corners: [self.vector(-1.4, -0.3), self.vector(0.3, 1.4)],
+            }),
+            _ => ObjectKind::Solid(Solid::Sphere {
                 centre: self.vector(-1.0, 1.0),
                 radius: self.between(0.4, 1.3),
-            },
+            }),
         }
     }
 

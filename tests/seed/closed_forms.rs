@@ -3,7 +3,7 @@
 use lucarne::color::Rgb;
 use lucarne::math::Vector;
 use lucarne::math::transform::Step;
-use lucarne::scene::{LightKind, ObjectKind};
+use lucarne::scene::{LightKind, ObjectKind, Solid};
 
 use crate::forms::{Faces, Form, Pair, Plane, Ray, Sphere, rotate};
 use crate::page::Page;
@@ -169,7 +169,7 @@ fn the_screen_stands_where_the_page_puts_it() {
 fn ball(kd: f64, ks: f64, exponent: f64, to_light: Vector) -> Page {
     let mut sketch = Sketch::new();
     let texture = sketch.texture(Rgb::WHITE, seed(kd, ks, exponent));
-    let kind = ObjectKind::Sphere { centre: Vector::ZERO, radius: 1.0 };
+    let kind = ObjectKind::Solid(Solid::Sphere { centre: Vector::ZERO, radius: 1.0 });
     let ball = sketch.object(kind, Some(texture), &[]);
     sketch.place(ball);
     sketch.light(LightKind::Direction { to_light }, Rgb::gray(0.5));
@@ -203,7 +203,7 @@ fn corridor(ks: f64, bound: u32) -> f64 {
     let texture = sketch.texture(Rgb::WHITE, seed(0.5, ks, 1.0));
     for normal in [Vector::Z, -Vector::Z] {
         // Each looks at the other: its outer side is toward the origin.
-        let kind = ObjectKind::Plane { normal, distance: -1.0 };
+        let kind = ObjectKind::Solid(Solid::Plane { normal, distance: -1.0 });
         let wall = sketch.object(kind, Some(texture), &[]);
         sketch.place(wall);
     }
@@ -236,8 +236,8 @@ fn an_object_shadows_another_and_a_light_before_it_does_not() {
     let lit = |light: LightKind| {
         let mut sketch = Sketch::new();
         let texture = sketch.texture(Rgb::WHITE, seed(1.0, 0.0, 1.0));
-        let floor = ObjectKind::Plane { normal: Vector::Y, distance: 0.0 };
-        let ball = ObjectKind::Sphere { centre: v(0.0, 5.0, 0.0), radius: 1.0 };
+        let floor = ObjectKind::Solid(Solid::Plane { normal: Vector::Y, distance: 0.0 });
+        let ball = ObjectKind::Solid(Solid::Sphere { centre: v(0.0, 5.0, 0.0), radius: 1.0 });
         for kind in [floor, ball] {
             let object = sketch.object(kind, Some(texture), &[]);
             sketch.place(object);
@@ -257,7 +257,7 @@ fn an_object_shadows_another_and_a_light_before_it_does_not() {
 fn a_unions_transform_follows_its_childrens() {
     let mut sketch = Sketch::new();
     let texture = sketch.texture(Rgb::WHITE, seed(1.0, 0.0, 1.0));
-    let kind = ObjectKind::Sphere { centre: Vector::X, radius: 1.0 };
+    let kind = ObjectKind::Solid(Solid::Sphere { centre: Vector::X, radius: 1.0 });
     let child = sketch.object(kind, None, &[Step::Translate(Vector::Y)]);
     let union = sketch.object(
         ObjectKind::Union(vec![child, child]),

@@ -9,7 +9,7 @@ use lucarne::math::elementary::{pow, tan};
 use lucarne::math::transform::Step;
 use lucarne::scene::{
     Camera, CameraItemKind, Finish, LightKind, Modifier, ModifierKind, ObjectId, ObjectKind,
-    PigmentKind, Scene,
+    PigmentKind, Scene, Solid,
 };
 
 use super::forms::{Form, Hit, Ray, rotate};
@@ -103,9 +103,10 @@ impl Page {
         steps.extend_from_slice(outer);
         let written = modifiers().fold(inherited, |written, m| written.after(scene, m));
         let form = match &uses[uses.len() - 1].kind {
-            ObjectKind::Sphere { centre, radius } => Form::sphere(*centre, *radius),
-            ObjectKind::Plane { normal, distance } => Form::plane(*normal, *distance),
-            ObjectKind::Box { corners } => Form::cuboid(*corners),
+            ObjectKind::Solid(Solid::Sphere { centre, radius }) => Form::sphere(*centre, *radius),
+            ObjectKind::Solid(Solid::Plane { normal, distance }) => Form::plane(*normal, *distance),
+            ObjectKind::Solid(Solid::Box { corners }) => Form::cuboid(*corners),
+            ObjectKind::Solid(Solid::Cylinder { .. }) => unreachable!("not of the seed"),
             ObjectKind::Union(children) => {
                 for child in children {
                     self.place(scene, *child, &steps, written);

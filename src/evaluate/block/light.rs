@@ -71,10 +71,7 @@ impl Evaluator<'_> {
                         layers.into_iter().rev().flatten().cloned().collect(),
                     );
                 }
-                ObjectKind::Sphere { .. }
-                | ObjectKind::Plane { .. }
-                | ObjectKind::Box { .. }
-                | ObjectKind::Union(_) => {
+                ObjectKind::Solid(_) | ObjectKind::Union(_) => {
                     return (None, Vec::new());
                 }
             }

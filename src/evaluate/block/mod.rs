@@ -18,6 +18,7 @@ mod pigment;
 mod place;
 mod settings;
 mod skip;
+mod solid;
 mod texture;
 mod transform;
 mod unexpected;

@@ -1,7 +1,6 @@
 //! Shapes, unions and uses of objects, with their modifiers in written order.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::math::Vector;
 use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind};
 use crate::vocabulary::{Family, Word};
 
@@ -21,9 +20,7 @@ pub(in crate::evaluate) struct Made {
 
 fn own_word(kind: &ObjectKind) -> Word {
     match kind {
-        ObjectKind::Sphere { .. } => Word::Sphere,
-        ObjectKind::Plane { .. } => Word::Plane,
-        ObjectKind::Box { .. } => Word::Box,
+        ObjectKind::Solid(solid) => solid.word(),
         ObjectKind::Union(_) | ObjectKind::Use(_) => Word::Union,
         ObjectKind::LightSource(_) => Word::LightSource,
     }
@@ -34,18 +31,20 @@ impl Evaluator<'_> {
     pub(super) fn object(&mut self, token: &Token, word: Word) -> Outcome<Value> {
         let outer = self.poison.take();
         let built = match word {
-            Word::Sphere => self.shape(token, word, Self::sphere),
-            Word::Plane => self.shape(token, word, Self::plane),
-            Word::Box => self.shape(token, word, Self::box_),
             Word::Union => self.shape(token, word, Self::union),
             Word::Object => self.shape(token, word, Self::object_use),
             Word::LightSource => self.light_source(token),
-            _ if word.family() == Family::Csg => Err(self.union_not_built(token, word)),
-            _ => {
-                self.set_poison(Poison { word, site: token.here.site(token.span) });
-                self.skip_arguments(word);
-                Err(Reported)
-            }
+            _ => match Self::parts_of(word) {
+                Some(parts) => self.shape(token, word, |evaluator, token| {
+                    parts(evaluator, token).map(ObjectKind::Solid)
+                }),
+                None if word.family() == Family::Csg => Err(self.union_not_built(token, word)),
+                None => {
+                    self.set_poison(Poison { word, site: token.here.site(token.span) });
+                    self.skip_arguments(word);
+                    Err(Reported)
+                }
+            },
         };
         match (std::mem::replace(&mut self.poison, outer), built) {
             (Some(poison), _) => Ok(Value::Poison(poison)),
@@ -98,7 +97,7 @@ impl Evaluator<'_> {
         &mut self,
         token: &Token,
         word: Word,
-        parts: fn(&mut Self, &Token) -> Outcome<ObjectKind>,
+        parts: impl FnOnce(&mut Self, &Token) -> Outcome<ObjectKind>,
     ) -> Outcome<ObjectId> {
         let site = token.here.site(token.span);
         let (kind, modifiers, failed) = self.block(token, word, |evaluator| {
@@ -202,61 +201,6 @@ impl Evaluator<'_> {
             }
             _ => false,
         }
-    }
-
-    fn sphere(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
-        let (centre, radius) = self.vector_and_number(token, WANTED);
-        let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
-        let (centre, radius) = (centre?, radius?);
-        if radius.value == 0.0 {
-            self.scene.sizeless.push(("sphere", token.here.site(token.span)));
-            let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
-                .at(radius.span, "expected a number more than 0");
-            let diagnostic = match self.comma_after(radius.span) {
-                Some((span, number)) => diagnostic
-                    .help(format!("a fraction is written with a point: `{number}`"))
-                    .fix(span, number),
-                None => diagnostic,
-            };
-            return Err(self.report(&radius.here, diagnostic));
-        }
-        if radius.value < 0.0 {
-            self.lint_negative_radius(&radius.here, radius.span, radius.value);
-        }
-        Ok(ObjectKind::Sphere { centre: centre.value, radius: radius.value })
-    }
-
-    fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
-        let (normal, distance) = self.vector_and_number(token, WANTED);
-        let normal = normal
-            .and_then(|given| self.as_vector(given, WANTED.0))
-            .and_then(|given| self.as_direction(given, "the normal"));
-        let (normal, distance) = (normal?, distance?);
-        Ok(ObjectKind::Plane { normal: normal.value, distance: distance.value })
-    }
-
-    fn box_(&mut self, token: &Token) -> Outcome<ObjectKind> {
-        if let Some(reported) = self.bare_points(2, 0) {
-            return Err(reported);
-        }
-        let first = self.vector_after(token, "a vector for a corner");
-        let second = self.vector_after(token, "a vector for the opposite corner");
-        let (first, second) = (first?, second?);
-        let size: Vector = (second.value - first.value).abs();
-        let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
-        if flat >= 2 {
-            self.scene.sizeless.push(("box", token.here.site(token.span)));
-            let diagnostic = Diagnostic::new(
-                Code::ZeroSize,
-                "a box whose corners differ along less than two axes is nothing",
-            )
-            .at(second.span, "expected the opposite corner")
-            .also(first.span, "the first corner");
-            return Err(self.report(&second.here, diagnostic));
-        }
-        Ok(ObjectKind::Box { corners: [first.value, second.value] })
     }
 
     /// `object { Name … }` or `object { sphere { … } … }`.

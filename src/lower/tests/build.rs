@@ -125,13 +125,13 @@ pub fn rotate(x: f64, y: f64, z: f64) -> Step {
 }
 
 pub fn sphere(x: f64, y: f64, z: f64, radius: f64) -> ObjectKind {
-    ObjectKind::Sphere { centre: v(x, y, z), radius }
+    ObjectKind::Solid(Solid::Sphere { centre: v(x, y, z), radius })
 }
 
 pub fn plane(x: f64, y: f64, z: f64, distance: f64) -> ObjectKind {
-    ObjectKind::Plane { normal: v(x, y, z), distance }
+    ObjectKind::Solid(Solid::Plane { normal: v(x, y, z), distance })
 }
 
 pub fn box_(a: Vector, b: Vector) -> ObjectKind {
-    ObjectKind::Box { corners: [a, b] }
+    ObjectKind::Solid(Solid::Box { corners: [a, b] })
 }

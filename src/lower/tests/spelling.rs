@@ -2,7 +2,7 @@
 
 use super::build::*;
 use crate::math::transform::Step;
-use crate::scene::{ModifierKind, ObjectKind};
+use crate::scene::{ModifierKind, ObjectKind, Solid};
 use crate::world::World;
 
 /// Both spellings of one object, textured with a checker in the world.
@@ -123,7 +123,7 @@ fn unions_and_uses_leave_no_trace() {
         (v(1.0, 5.0, 0.0), 1.0, true),
     ] {
         let modifiers = if inverse { vec![ModifierKind::Inverse] } else { vec![] };
-        let ball = plain.object(ObjectKind::Sphere { centre, radius }, modifiers);
+        let ball = plain.object(ObjectKind::Solid(Solid::Sphere { centre, radius }), modifiers);
         plain.root(ball);
     }
     assert_eq!(build.world(), plain.world());

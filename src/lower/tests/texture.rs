@@ -224,7 +224,7 @@ fn a_face_knows_its_coordinate_also_when_the_pigment_itself_is_turned_with_it() 
     let (s, c) = crate::math::elementary::sin_cos_degrees(30.0);
     let mut tilted = |steps: Vec<Step>, normal: Vector| {
         let moved = ModifierKind::Transform(build.transform(steps));
-        let kind = ObjectKind::Plane { normal, distance: 0.0 };
+        let kind = ObjectKind::Solid(Solid::Plane { normal, distance: 0.0 });
         let object = build.object(kind, vec![moved, ModifierKind::Texture(texture)]);
         build.root(object);
     };

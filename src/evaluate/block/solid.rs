@@ -1,0 +1,105 @@
+//! What stands in each solid's block before its modifiers.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::scene::Solid;
+use crate::vocabulary::Word;
+
+use super::super::stream::Token;
+use super::super::{Evaluator, Outcome};
+
+impl Evaluator<'_> {
+    /// How to read the block of a solid; `None` for other words, and what is not built.
+    pub(super) fn parts_of(word: Word) -> Option<fn(&mut Self, &Token) -> Outcome<Solid>> {
+        Some(match word {
+            Word::Sphere => Self::sphere,
+            Word::Plane => Self::plane,
+            Word::Box => Self::box_,
+            Word::Cylinder => Self::cylinder,
+            _ => return None,
+        })
+    }
+
+    fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
+        const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
+        let (centre, radius) = self.vector_and_number(token, WANTED);
+        let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
+        let (centre, radius) = (centre?, radius?);
+        if radius.value == 0.0 {
+            self.scene.sizeless.push(("sphere", token.here.site(token.span)));
+            let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
+                .at(radius.span, "expected a number more than 0");
+            let diagnostic = match self.comma_after(radius.span) {
+                Some((span, number)) => diagnostic
+                    .help(format!("a fraction is written with a point: `{number}`"))
+                    .fix(span, number),
+                None => diagnostic,
+            };
+            return Err(self.report(&radius.here, diagnostic));
+        }
+        if radius.value < 0.0 {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
+        Ok(Solid::Sphere { centre: centre.value, radius: radius.value })
+    }
+
+    fn plane(&mut self, token: &Token) -> Outcome<Solid> {
+        const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
+        let (normal, distance) = self.vector_and_number(token, WANTED);
+        let normal = normal
+            .and_then(|given| self.as_vector(given, WANTED.0))
+            .and_then(|given| self.as_direction(given, "the normal"));
+        let (normal, distance) = (normal?, distance?);
+        Ok(Solid::Plane { normal: normal.value, distance: distance.value })
+    }
+
+    fn box_(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.bare_points(2, 0) {
+            return Err(reported);
+        }
+        let first = self.vector_after(token, "a vector for a corner");
+        let second = self.vector_after(token, "a vector for the opposite corner");
+        let (first, second) = (first?, second?);
+        let size: Vector = (second.value - first.value).abs();
+        let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
+        if flat >= 2 {
+            self.scene.sizeless.push(("box", token.here.site(token.span)));
+            let diagnostic = Diagnostic::new(
+                Code::ZeroSize,
+                "a box whose corners differ along less than two axes is nothing",
+            )
+            .at(second.span, "expected the opposite corner")
+            .also(first.span, "the first corner");
+            return Err(self.report(&second.here, diagnostic));
+        }
+        Ok(Solid::Box { corners: [first.value, second.value] })
+    }
+
+    fn cylinder(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.bare_points(2, 1) {
+            return Err(reported);
+        }
+        let base = self.vector_after(token, "a vector for the middle of the base");
+        let cap = self.vector_after(token, "a vector for the middle of the cap");
+        let radius = self.number_after(token, "a number for the radius");
+        let (base, cap, radius) = (base?, cap?, radius?);
+        if base.value == cap.value {
+            self.scene.sizeless.push(("cylinder", token.here.site(token.span)));
+            let diagnostic = Diagnostic::new(
+                Code::ZeroSize,
+                "a cylinder whose ends are in one place is nothing",
+            )
+            .at(cap.span, "expected another place")
+            .also(base.span, "the base");
+            return Err(self.report(&cap.here, diagnostic));
+        }
+        if radius.value == 0.0 {
+            self.scene.sizeless.push(("cylinder", token.here.site(token.span)));
+            let diagnostic = Diagnostic::new(Code::ZeroSize, "a cylinder of radius 0 is nothing")
+                .at(radius.span, "expected a number more than 0");
+            return Err(self.report(&radius.here, diagnostic));
+        }
+        let open = self.take_word(Word::Open).is_some();
+        Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
+    }
+}

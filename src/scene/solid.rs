@@ -1,0 +1,59 @@
+//! Solids as they were written: their own numbers, before any transform.
+
+use std::fmt;
+
+use crate::math::Vector;
+use crate::math::vector::written;
+use crate::vocabulary::Word;
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Solid {
+    Sphere {
+        centre: Vector,
+        radius: f64,
+    },
+    /// The half space `normal · p ≤ distance · |normal|`; `distance` in POV-Ray's sense, along
+    /// the normalised normal.
+    Plane {
+        normal: Vector,
+        distance: f64,
+    },
+    Box {
+        corners: [Vector; 2],
+    },
+    Cylinder {
+        /// The middles of its two ends.
+        ends: [Vector; 2],
+        radius: f64,
+        /// Its ends are not seen.
+        open: bool,
+    },
+}
+
+impl Solid {
+    /// The word that opens it.
+    pub fn word(&self) -> Word {
+        match self {
+            Self::Sphere { .. } => Word::Sphere,
+            Self::Plane { .. } => Word::Plane,
+            Self::Box { .. } => Word::Box,
+            Self::Cylinder { .. } => Word::Cylinder,
+        }
+    }
+}
+
+/// Its word and its numbers.
+impl fmt::Display for Solid {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.word().name())?;
+        let open = |open: bool| if open { " open" } else { "" };
+        match self {
+            Self::Sphere { centre, radius } => write!(f, " {} {radius}", written(*centre)),
+            Self::Plane { normal, distance } => write!(f, " {} {distance}", written(*normal)),
+            Self::Box { corners: [a, b] } => write!(f, " {} {}", written(*a), written(*b)),
+            Self::Cylinder { ends: [a, b], radius, open: is_open } => {
+                write!(f, " {} {} {radius}{}", written(*a), written(*b), open(*is_open))
+            }
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Body: a solid or a sheet in a space of its own, where its equation is simple.
+//!
+//! **In:** a [`LocalRay`], a local point. **Out:** all crossings of the whole line, in order; the
+//! height over a part of the surface. **Invariant:** closed bodies are entered and left in turn; what
+//! rounding cannot tell from a miss is missed on both sides.
+
+use smallvec::SmallVec;
+
+use super::cylinder::Cylinder;
+use super::{Crossing, Ray, U};
+use crate::math::Vector;
+use crate::math::placement::Placement;
+
+/// What every body answers, in its own space.
+pub trait Local {
+    /// Adds the crossings of the line with all of the surface, in order.
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings);
+
+    /// The height over one part of the surface, near it.
+    fn height(&self, part: u32, point: Vector) -> Height;
+
+    /// The least and the greatest `along`·P over the body; infinite where it has no end.
+    fn extent(&self, along: Vector) -> (f64, f64);
+
+    /// The radius of a ball around the local origin that holds the body; ∞ where none does.
+    fn reach(&self) -> f64;
+
+    /// Whether a point lies inside. A sheet has no inside.
+    fn contains(&self, point: Vector) -> bool;
+
+    /// What distinguishes it from others of its kind, for people to read; each after a blank.
+    fn numbers(&self) -> String;
+
+    /// It has no inside: a ray goes through and is neither in it before nor after.
+    fn is_sheet(&self) -> bool {
+        false
+    }
+}
+
+/// A local point's height over a part of a surface, which is where the height is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Height {
+    /// Negative inside.
+    pub value: f64,
+    /// The height's gradient: outward, of any length but 0.
+    pub gradient: Vector,
+    /// How far rounding may have moved `value`, if the point is exact.
+    pub error: f64,
+}
+
+/// A ray's line as a body sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalRay {
+    /// The point of the line that is nearest to the local origin; s is 0 here.
+    pub nearest: Vector,
+    /// Of length 1.
+    pub direction: Vector,
+    /// The line that was meant lies within `blur + turn · |s|` of this one at s.
+    pub blur: f64,
+    /// See `blur`.
+    pub turn: f64,
+}
+
+impl LocalRay {
+    pub fn at(&self, s: f64) -> Vector {
+        self.nearest + self.direction * s
+    }
+
+    /// How far the meant line may be from this one at s.
+    pub fn blur_at(&self, s: f64) -> f64 {
+        self.blur + self.turn * s.abs()
+    }
+}
+
+/// Where a line passes through a body's surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Met {
+    /// Distance along the line: s for a body, t for a ray in the world.
+    pub t: f64,
+    /// The true crossing lies within this distance of `t`.
+    pub error: f64,
+    /// The line leaves the body; for a sheet, it goes the way that the surface faces.
+    pub leaving: bool,
+    /// Which part of the surface: what [`Local::height`] is asked about.
+    pub part: u32,
+}
+
+impl Met {
+    /// The part of what is not there to be seen, such as the ends of an open cylinder: the solid ends
+    /// here, and a ray that meets nothing else goes on.
+    pub const UNSEEN: u32 = u32::MAX;
+
+    pub fn is_seen(&self) -> bool {
+        self.part != Self::UNSEEN
+    }
+
+    pub fn crossing(&self) -> Crossing {
+        Crossing { t: self.t, error: self.error }
+    }
+}
+
+/// Crossings in order. Most bodies have few, and need no allocation.
+pub type Crossings = SmallVec<[Met; 6]>;
+
+/// Declares the closed set of bodies, each in a file of its own.
+macro_rules! bodies {
+    ($($kind:ident $word:literal)*) => {
+        /// A kind of body, and its numbers.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum Body {
+            $($kind($kind),)*
+        }
+
+        impl Body {
+            /// The language's word for it.
+            pub fn word(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => $word,)*
+                }
+            }
+        }
+
+        impl Local for Body {
+            fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+                match self {
+                    $(Self::$kind(body) => body.crossings(ray, found),)*
+                }
+            }
+
+            fn height(&self, part: u32, point: Vector) -> Height {
+                match self {
+                    $(Self::$kind(body) => body.height(part, point),)*
+                }
+            }
+
+            fn extent(&self, along: Vector) -> (f64, f64) {
+                match self {
+                    $(Self::$kind(body) => body.extent(along),)*
+                }
+            }
+
+            fn reach(&self) -> f64 {
+                match self {
+                    $(Self::$kind(body) => body.reach(),)*
+                }
+            }
+
+            fn contains(&self, point: Vector) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.contains(point),)*
+                }
+            }
+
+            fn numbers(&self) -> String {
+                match self {
+                    $(Self::$kind(body) => body.numbers(),)*
+                }
+            }
+
+            fn is_sheet(&self) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.is_sheet(),)*
+                }
+            }
+        }
+    };
+}
+
+bodies! {
+    Cylinder "cylinder"
+}
+
+/// A ray as a placed body sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub line: LocalRay,
+    /// Where on the line the ray starts.
+    start: f64,
+    /// Local lengths over those of the ray.
+    speed: f64,
+    /// How far `start` may be off.
+    start_error: f64,
+}
+
+impl Seen {
+    /// The ray in local space, slid to its closest approach there. With |L| the matrix of absolute
+    /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
+    /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
+    /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.)
+    pub fn new(placement: &Placement, ray: &Ray) -> Self {
+        let matrix = placement.local_from_world;
+        let sizes = matrix.abs();
+        let from_centre = ray.origin - placement.centre;
+        let origin = matrix * from_centre;
+        let step = matrix * ray.direction;
+        let speed = step.length();
+        let direction = step / speed;
+        let start = origin.dot(direction);
+        let nearest = origin - direction * start;
+
+        let reach = (sizes * from_centre.abs()).length();
+        let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
+        let blur = U * 6.0 * reach + turn * start.abs();
+        let start_error = blur + turn * nearest.length();
+        Self { line: LocalRay { nearest, direction, blur, turn }, start, speed, start_error }
+    }
+
+    /// A crossing of the line, as one of the ray.
+    pub fn met(&self, local: Met) -> Met {
+        let t = (local.t - self.start) / self.speed;
+        let rounded = 2.0 * U * (local.t.abs() + self.start.abs());
+        let error = (local.error + self.start_error + rounded) / self.speed
+            + t.abs() * (self.line.turn + 4.0 * U);
+        Met { t, error, ..local }
+    }
+}

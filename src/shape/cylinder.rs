@@ -1,0 +1,120 @@
+//! Cylinder: x² + y² ≤ 1, |z| ≤ 1 in its own space. Outward is away from the axis; at the ends, along
+//! it.
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use crate::math::Vector;
+
+/// The parts of its surface.
+const SIDE: u32 = 0;
+/// At z = 1.
+const CAP: u32 = 1;
+/// At z = −1.
+const BASE: u32 = 2;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    /// Its ends are not seen, though it is as solid as ever.
+    pub open: bool,
+}
+
+impl Local for Cylinder {
+    /// The line's part inside the round, which is a circle's chord across the axis, cut by the two
+    /// ends.
+    ///
+    /// Across the axis, with q the nearest point and e the direction: m = |q × e| / |e| is the
+    /// distance to the axis, and the chord reaches h = √((1 − m)(1 + m)) to each side. **Error** of
+    /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·|q|, and
+    /// δ again, over |e|; of an end B + 2u·(1 + |z|) over |d.z|.
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some((mut enter, mut leave)) = round(ray) else { return };
+        let Some((first, last)) = ends(ray) else { return };
+        if first.t > enter.t {
+            enter = first;
+        }
+        if last.t < leave.t {
+            leave = last;
+        }
+        if enter.t < leave.t {
+            let seen = |met: Met| match met.part {
+                CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
+                _ => met,
+            };
+            found.extend([seen(enter), seen(leave)]);
+        }
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        match part {
+            CAP => Height { value: point.z - 1.0, gradient: Vector::Z, error: U },
+            BASE => Height { value: -point.z - 1.0, gradient: -Vector::Z, error: U },
+            _ => {
+                let across = Vector::new(point.x, point.y, 0.0);
+                let distance = across.length();
+                Height { value: distance - 1.0, gradient: across / distance, error: 4.0 * U }
+            }
+        }
+    }
+
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let half = Vector::new(along.x, along.y, 0.0).length() + along.z.abs();
+        (-half, half)
+    }
+
+    fn reach(&self) -> f64 {
+        std::f64::consts::SQRT_2
+    }
+
+    fn numbers(&self) -> String {
+        if self.open { " open".into() } else { String::new() }
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        point.x * point.x + point.y * point.y < 1.0 && point.z.abs() < 1.0
+    }
+}
+
+/// Where the line is nearer than 1 to the axis.
+fn round(ray: &LocalRay) -> Option<(Met, Met)> {
+    let across = |v: Vector| Vector::new(v.x, v.y, 0.0);
+    let (nearest, direction) = (across(ray.nearest), across(ray.direction));
+    let slope = direction.length();
+    if slope == 0.0 {
+        let met = |t, leaving| Met { t, error: 0.0, leaving, part: SIDE };
+        let inside = nearest.length_squared() < 1.0;
+        return inside.then_some((met(f64::NEG_INFINITY, false), met(f64::INFINITY, true)));
+    }
+    let direction = direction / slope;
+    let along = nearest.dot(direction);
+    let miss = (nearest.x * direction.y - nearest.y * direction.x).abs();
+    let half = ((1.0 - miss) * (1.0 + miss)).sqrt();
+    // Also so when `half` is no number: `miss` a little over 1.
+    if !half.gt(&0.0) {
+        return None;
+    }
+    let met = |way: f64, leaving| {
+        let t = way / slope;
+        let off = ray.blur_at(t) + 4.0 * U * (nearest.length() + way.abs());
+        let half_error = (off * miss / half).min((2.0 * off * miss + off * off).sqrt());
+        Met { t, error: (half_error + off + 4.0 * U * half) / slope, leaving, part: SIDE }
+    };
+    Some((met(-along - half, false), met(half - along, true)))
+}
+
+/// Where the line is between the ends.
+fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
+    let (place, speed) = (ray.nearest.z, ray.direction.z);
+    let met = |end: f64, leaving| {
+        let t = (end - place) / speed;
+        let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
+        let part = if end > 0.0 { CAP } else { BASE };
+        Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
+    };
+    if speed == 0.0 {
+        let endless = |t, leaving| Met { t, error: 0.0, leaving, part: CAP };
+        return (place.abs() < 1.0)
+            .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
+    }
+    let near = if speed > 0.0 { -1.0 } else { 1.0 };
+    Some((met(near, false), met(-near, true)))
+}

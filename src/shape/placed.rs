@@ -1,0 +1,105 @@
+//! Placed: a body where it stands in the world. Many may share one body.
+
+use std::sync::Arc;
+
+use super::body::{Body, Crossings, Height, Local, Met, Seen};
+use super::{Bounds, Ray, SurfacePoint, U};
+use crate::math::placement::Placement;
+use crate::math::{Matrix, Vector, Vector3};
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// Stored once, however often it is placed.
+    pub body: Arc<Body>,
+    pub placement: Placement,
+}
+
+impl Placed {
+    /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
+    #[inline(never)]
+    pub fn crossings(&self, ray: &Ray) -> Crossings {
+        let mut found = Crossings::new();
+        let seen = Seen::new(&self.placement, ray);
+        let miss = seen.line.nearest.length();
+        if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
+            return found;
+        }
+        self.body.crossings(&seen.line, &mut found);
+        for met in &mut found {
+            *met = seen.met(*met);
+        }
+        found
+    }
+
+    /// The crossing at `t`, or the nearest to it.
+    pub fn crossing_at(&self, ray: &Ray, t: f64, leaving: bool) -> Option<Met> {
+        let off = |met: &Met| (met.t - t).abs();
+        let same = |met: &Met| met.leaving == leaving;
+        let all = self.crossings(ray);
+        all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// The point of the surface where `ray` crosses it at `t`: the height of what is at t is taken off
+    /// along the normal, the shortest way in the world. The distance to the true surface is bounded
+    /// by the height that is left and the rounding of that very sum.
+    #[inline(never)]
+    pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
+        let part = self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
+        let Placement { centre, local_from_world, .. } = self.placement;
+        let out = local_from_world.transpose();
+        let height = |point: Vector| {
+            let local = self.body.height(part, local_from_world * (point - centre));
+            Height { gradient: out * local.gradient, ..local }
+        };
+        let mut point = ray.at(t);
+        for _ in 0..2 {
+            let Height { value, gradient, .. } = height(point);
+            let step = gradient * (value / gradient.length_squared());
+            if step.is_finite() {
+                point -= step;
+            }
+        }
+        let Height { value, gradient, error } = height(point);
+        let steepness = gradient.length();
+        let normal = (gradient / steepness).normalize_or(-ray.direction);
+        // What the map's rounding moves the height by.
+        let slopes = local_from_world.abs() * (point - centre).abs();
+        let local_steepness = self.steepness(gradient);
+        let error = (value.abs() + error + U * 24.0 * slopes.length() * local_steepness)
+            / steepness
+            + 2.0 * U * normal.abs_dot(point);
+        SurfacePoint { point, normal, error, face: part }
+    }
+
+    /// How long the local gradient is of which this is the world's.
+    fn steepness(&self, gradient: Vector) -> f64 {
+        (self.placement.world_from_local.transpose() * gradient).length()
+    }
+
+    /// `None` where it has no end. Along each axis the body's extent along that row of
+    /// `world_from_local`.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let Placement { centre, world_from_local, local_from_world } = self.placement;
+        let rows = world_from_local.transpose();
+        let extents = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| self.body.extent(row));
+        let low = Vector::from_array(extents.map(|(low, _)| low));
+        let high = Vector::from_array(extents.map(|(_, high)| high));
+        if !(low.is_finite() && high.is_finite()) {
+            return None;
+        }
+        // How far the two matrices may be from undoing each other.
+        let condition = norm(world_from_local) * norm(local_from_world);
+        let slack = (high.abs().max(low.abs())) * (32.0 * U * condition);
+        Some(Bounds::around(centre + (low + high) * 0.5, (high - low) * 0.5, slack))
+    }
+
+    pub fn contains(&self, point: Vector) -> bool {
+        self.body.contains(self.placement.local_point(point))
+    }
+}
+
+/// The Frobenius norm.
+fn norm(matrix: Matrix) -> f64 {
+    let Matrix { x_axis, y_axis, z_axis } = matrix;
+    (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
+}
