@@ -84,9 +84,35 @@ pub struct Object {
 pub enum ObjectKind {
     Solid(Solid),
     Union(Vec<ObjectId>),
+    Csg {
+        operation: Operation,
+        /// In written order.
+        children: Vec<ObjectId>,
+    },
     /// A use of another object, with further modifiers: `object { Name … }`.
     Use(ObjectId),
     LightSource(Box<LightSource>),
+}
+
+/// How several solids make one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operation {
+    /// All of them together, without walls inside.
+    Merge,
+    /// What all of them share.
+    Intersection,
+    /// The first without the others.
+    Difference,
+}
+
+impl Operation {
+    pub fn word(self) -> Word {
+        match self {
+            Self::Merge => Word::Merge,
+            Self::Intersection => Word::Intersection,
+            Self::Difference => Word::Difference,
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -116,6 +142,8 @@ pub enum ModifierKind {
     /// Likewise, it is lit on both sides by light on either.
     DoubleIlluminate(bool),
     Inverse,
+    /// Only what lies in this object is left of the surface.
+    ClippedBy(ObjectId),
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -11,6 +11,7 @@ use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
+use crate::shape::csg::{self, Node};
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site};
 
@@ -30,6 +31,8 @@ pub struct World {
     pub ellipsoids: Vec<Ellipsoid>,
     /// Whatever else there is, each where it stands; bodies are shared.
     pub placed: Vec<Placed>,
+    /// Solids made of others.
+    pub wholes: Vec<Whole>,
     pub materials: Vec<Material>,
     /// What solids are filled with; `Object::interior` points here. Empty when nothing bends light.
     pub interiors: Vec<Interior>,
@@ -50,6 +53,45 @@ impl World {
             Shape::Placed(i) => self.placed[i as usize].contains(point),
         };
         inside != object.inverse
+    }
+
+    /// Whether a point lies inside an object, or the whole that it is a part of.
+    pub fn whole_contains(&self, object: &Object, point: Vector) -> bool {
+        let Some(whole) = object.whole else { return self.contains(object, point) };
+        let whole = &self.wholes[whole as usize];
+        let leaf = |object: &Object| self.contains(object, point) != object.inverse;
+        csg::contains(&whole.nodes, &self.objects[whole.leaves()].iter().map(leaf).collect())
+    }
+
+    /// Those of the objects that are no parts, and of each whole the first part.
+    pub fn solids(&self) -> impl Iterator<Item = u32> {
+        (0..self.objects.len() as u32).filter(|&i| {
+            let whole = self.objects[i as usize].whole;
+            whole.is_none_or(|whole| self.wholes[whole as usize].first == i)
+        })
+    }
+
+    /// Whether both are parts of one whole, or the same.
+    pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
+        let whole = |object: u32| self.objects[object as usize].whole;
+        a == b || whole(a).is_some() && whole(a) == whole(b)
+    }
+}
+
+/// A solid made of others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whole {
+    /// In postfix order.
+    pub nodes: Vec<Node>,
+    /// Its leaves are the objects from here on, in the order of the nodes.
+    pub first: u32,
+    pub count: u32,
+}
+
+impl Whole {
+    /// The places of its leaves in `World::objects`.
+    pub fn leaves(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
     }
 }
 
@@ -144,6 +186,8 @@ pub struct Object {
     pub double_illuminate: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
+    /// Index into `World::wholes`: it is a part of that, and nothing by itself.
+    pub whole: Option<u32>,
 }
 
 impl Object {
@@ -160,6 +204,7 @@ impl Object {
             in_reflections: true,
             double_illuminate: false,
             inverse: false,
+            whole: None,
         }
     }
 }

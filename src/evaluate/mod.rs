@@ -39,8 +39,8 @@ use crate::color::Color;
 use crate::diagnostic::{Diagnostics, suggest};
 use crate::noise::NoiseGenerator;
 use crate::scene::{
-    ClassicFinish, Dialect, Finish, FinishId, Pigment, PigmentId, PigmentKind, Scene, Texture,
-    TextureId,
+    ClassicFinish, Dialect, Finish, FinishId, ObjectId, Pigment, PigmentId, PigmentKind, Scene,
+    Texture, TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
 use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, NameId};
@@ -254,6 +254,8 @@ struct Evaluator<'a> {
     lacks_include: bool,
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
+    /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
+    bounds: Vec<ObjectId>,
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
@@ -359,6 +361,7 @@ impl<'a> Evaluator<'a> {
             beside: BTreeMap::new(),
             lacks_include: false,
             missing_at: None,
+            bounds: Vec::new(),
             halted: false,
             macro_depth: 0,
             declaring: 0,

@@ -10,7 +10,9 @@ use crate::geometry::{self, Geometry};
 use crate::lower::{self, LowerOptions};
 use crate::math::transform::Step;
 use crate::math::{UnitVector, Vector};
-use crate::scene::{ModifierKind, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId};
+use crate::scene::{
+    ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId,
+};
 use crate::shape::Ray;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionKind};
@@ -141,7 +143,7 @@ impl Evaluator<'_> {
 impl Probe {
     fn extent(&self) -> (Vector, Vector) {
         let (mut low, mut high) = (Vector::INFINITY, Vector::NEG_INFINITY);
-        for object in 0..self.world.objects.len() as u32 {
+        for object in self.world.solids() {
             let (from, to) = geometry::bounds(&self.world, object)
                 .map_or((Vector::splat(-UNBOUNDED), Vector::splat(UNBOUNDED)), |b| (b.low, b.high));
             (low, high) = (low.min(from), high.max(to));
@@ -154,7 +156,9 @@ impl Probe {
     }
 
     fn contains(&self, point: Vector) -> bool {
-        self.world.objects.iter().any(|object| self.world.contains(object, point))
+        self.world
+            .solids()
+            .any(|i| self.world.whole_contains(&self.world.objects[i as usize], point))
     }
 
     /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward.
@@ -182,7 +186,12 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     let mut wanted = std::collections::BTreeSet::from([object]);
     let mut open = vec![object];
     while let Some(id) = open.pop() {
-        for child in children(&scene.objects[id.index()].kind) {
+        let Object { kind, modifiers, .. } = &scene.objects[id.index()];
+        let clips = modifiers.iter().filter_map(|modifier| match modifier.kind {
+            ModifierKind::ClippedBy(region) => Some(region),
+            _ => None,
+        });
+        for child in children(kind).into_iter().chain(clips) {
             if wanted.insert(child) {
                 open.push(child);
             }
@@ -211,15 +220,20 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     for id in wanted {
         let mut copy = scene.objects[id.index()].clone();
         copy.modifiers.retain(|modifier| {
-            matches!(modifier.kind, ModifierKind::Transform(_) | ModifierKind::Inverse)
+            matches!(
+                modifier.kind,
+                ModifierKind::Transform(_) | ModifierKind::Inverse | ModifierKind::ClippedBy(_)
+            )
         });
         for modifier in &mut copy.modifiers {
-            if let ModifierKind::Transform(id) = &mut modifier.kind {
-                *id = renamed_list[id];
+            match &mut modifier.kind {
+                ModifierKind::Transform(id) => *id = renamed_list[id],
+                ModifierKind::ClippedBy(region) => *region = renamed[region],
+                _ => {}
             }
         }
         match &mut copy.kind {
-            ObjectKind::Union(children) => {
+            ObjectKind::Union(children) | ObjectKind::Csg { children, .. } => {
                 children.iter_mut().for_each(|child| *child = renamed[child]);
             }
             ObjectKind::Use(child) => *child = renamed[child],
@@ -251,7 +265,7 @@ fn lists(
 
 fn children(kind: &ObjectKind) -> Vec<ObjectId> {
     match kind {
-        ObjectKind::Union(children) => children.clone(),
+        ObjectKind::Union(children) | ObjectKind::Csg { children, .. } => children.clone(),
         ObjectKind::Use(child) => vec![*child],
         ObjectKind::Solid(_) | ObjectKind::LightSource(_) => Vec::new(),
     }

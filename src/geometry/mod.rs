@@ -6,12 +6,14 @@
 
 mod balls;
 mod build;
+mod extent;
 mod nearest;
 mod occluder;
 mod search;
 mod single;
 mod through;
 mod tree;
+mod whole;
 mod work;
 
 pub use nearest::Hit;
@@ -26,7 +28,9 @@ use crate::shape::{
 };
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
+use extent::Extent;
 use tree::Tree;
+use whole::Whole;
 
 /// Fewer bounded objects than this need no tree, only [`Balls`]: faster, as measured by
 /// `cargo bench --bench intersect`.
@@ -47,6 +51,7 @@ pub struct Geometry {
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
     placed: Vec<Placed>,
+    wholes: Vec<Whole>,
     manner: Manner,
     /// What the camera's rays meet, where that is not all.
     in_image: Option<Box<Geometry>>,
@@ -87,6 +92,7 @@ enum Solid {
     Box(u32),
     Ellipsoid(u32),
     Placed(u32),
+    Whole(u32),
 }
 
 /// Which crossings of a solid are seen.
@@ -124,8 +130,10 @@ impl Geometry {
 
     /// Of those of the World's objects that it `holds`.
     fn of(world: &World, holds: fn(&Object) -> bool) -> Self {
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = (0..world.objects.len() as u32)
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = world
+            .solids()
             .filter(|&object| holds(&world.objects[object as usize]))
+            .filter(|&object| !Extent::of(world, object).is_empty())
             .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
             (None, bounded)
@@ -142,6 +150,7 @@ impl Geometry {
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             placed: Vec::with_capacity(world.placed.len()),
+            wholes: Vec::with_capacity(world.wholes.len()),
             manner: Manner::Double,
             in_image: None,
             in_reflections: None,
@@ -151,7 +160,7 @@ impl Geometry {
         }
         if geometry.tree.is_none() {
             let bounded = geometry.entries[geometry.unbounded..].iter();
-            let balls: Vec<Ball> = bounded.map(|entry| geometry.ball(&entry.solid)).collect();
+            let balls: Vec<Ball> = bounded.map(|entry| geometry.ball(world, entry)).collect();
             geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
         }
         geometry
@@ -189,7 +198,29 @@ impl Geometry {
         }
     }
 
+    /// Adds an object, or the whole that it is the first part of.
     fn append(&mut self, world: &World, number: u32) {
+        let Some(whole) = world.objects[number as usize].whole else {
+            let entry = self.entry(world, number);
+            self.entries.push(entry);
+            return;
+        };
+        let whole = &world.wholes[whole as usize];
+        let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
+        let whole = Whole { nodes: whole.nodes.clone(), leaves };
+        let entry = Entry {
+            solid: Solid::Whole(self.wholes.len() as u32),
+            object: number,
+            sides: Sides::Both,
+            blocks: whole.leaves.iter().any(|leaf| leaf.blocks),
+            filters: whole.leaves.iter().any(|leaf| leaf.filters),
+            clear: whole.leaves.iter().all(|leaf| leaf.clear),
+        };
+        self.wholes.push(whole);
+        self.entries.push(entry);
+    }
+
+    fn entry(&mut self, world: &World, number: u32) -> Entry {
         fn copy<T>(list: &mut Vec<T>, shape: T) -> u32 {
             list.push(shape);
             list.len() as u32 - 1
@@ -218,17 +249,17 @@ impl Geometry {
         };
         let clear = world.materials[object.material as usize].pigment.is_clear();
         let (blocks, filters) = (object.casts_shadow && !clear, object.casts_shadow && clear);
-        self.entries.push(Entry { solid, object: number, sides, blocks, filters, clear });
+        Entry { solid, object: number, sides, blocks, filters, clear }
     }
 
-    fn ball(&self, solid: &Solid) -> Ball {
-        match *solid {
+    fn ball(&self, world: &World, entry: &Entry) -> Ball {
+        match entry.solid {
             Solid::Sphere(Sphere { centre, radius }) => Ball::new(centre, radius * radius),
             Solid::Box(i) => {
                 let (box_, reach_squared) = self.boxes[i as usize];
                 Ball::new(box_.centre, reach_squared)
             }
-            Solid::Placed(i) => match self.placed[i as usize].bounds() {
+            Solid::Placed(_) | Solid::Whole(_) => match bounds(world, entry.object) {
                 Some(Bounds { low, high }) => {
                     Ball::new((low + high) * 0.5, (high - low).length_squared() * 0.25)
                 }
@@ -285,6 +316,7 @@ impl Geometry {
             }
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
             Solid::Placed(i) => return self.first_met(*i, entry.sides, ray, limit),
+            Solid::Whole(i) => return self.first_of_whole(*i, ray, limit, |_| true),
         };
         let (crossing, leaving) = entry.sides.first_seen(&chord)?;
         (crossing.t <= limit).then_some((crossing, leaving))
@@ -329,15 +361,9 @@ impl Sides {
 const EASY: bool = false;
 const TIGHT: bool = true;
 
-/// A box around an object; `None` when it is unbounded.
+/// A box around an object, or the whole that it is a part of; `None` when it is unbounded.
 pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
-    match world.objects[object as usize].shape {
-        Shape::Sphere(i) => Some(world.spheres[i as usize].bounds()),
-        Shape::Plane(_) => None,
-        Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
-        Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
-        Shape::Placed(i) => world.placed[i as usize].bounds(),
-    }
+    Extent::of(world, object).bounds()
 }
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.

@@ -88,7 +88,7 @@ impl Geometry {
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve();
                 let hit = |(crossing, leaving)| {
-                    (rank, Hit { contested: true, ..entry.hit(crossing, leaving) })
+                    (rank, Hit { contested: true, ..self.hit(entry, ray, crossing, leaving) })
                 };
                 first = met(entry).map(hit).or(first);
             }
@@ -146,7 +146,7 @@ impl<'a, T: Tally> Race<'a, T> {
     fn winner(&self) -> Option<Hit> {
         let entry = self.geometry.entries.get(self.place)?;
         let error = (self.limit - self.t) / 2.0;
-        Some(entry.hit(Crossing { t: self.t, error }, self.leaving))
+        Some(self.geometry.hit(entry, self.ray, Crossing { t: self.t, error }, self.leaving))
     }
 }
 

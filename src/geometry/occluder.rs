@@ -2,7 +2,7 @@
 
 use super::search::Seeker;
 use super::work::{Tally, Uncounted};
-use super::{EASY, Entry, Geometry, Manner, TIGHT, Work};
+use super::{EASY, Entry, Geometry, Manner, Solid, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// What shadows a ray: an entry of a [`Geometry`].
@@ -84,6 +84,9 @@ impl<T: Tally> Shade<'_, T> {
         }
         self.tally.root_solve();
         let Self { geometry, ray, distance, .. } = *self;
+        if let Solid::Whole(whole) = entry.solid {
+            return geometry.whole_shadows(whole, ray, distance);
+        }
         let crossing = geometry.first_crossing::<EASY>(entry, ray, distance);
         crossing.is_some_and(|(Crossing { t, error }, _)| {
             t + error < distance || geometry.barely_shadows(entry, ray, distance)
@@ -92,6 +95,12 @@ impl<T: Tally> Shade<'_, T> {
 }
 
 impl Geometry {
+    /// Whether one of its opaque leaves' surfaces does.
+    pub(super) fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
+        let crossing = self.first_of_whole(whole, ray, distance, |leaf| leaf.blocks);
+        crossing.is_some_and(|(Crossing { t, error }, _)| t + error < distance)
+    }
+
     #[cold]
     #[inline(never)]
     fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {

@@ -94,7 +94,11 @@ impl Entry {
     fn is_ahead(&self, ray: &Ray) -> bool {
         match &self.solid {
             Solid::Plane(plane) => plane.is_ahead(ray),
-            Solid::Sphere(_) | Solid::Box(_) | Solid::Ellipsoid(_) | Solid::Placed(_) => true,
+            Solid::Sphere(_)
+            | Solid::Box(_)
+            | Solid::Ellipsoid(_)
+            | Solid::Placed(_)
+            | Solid::Whole(_) => true,
         }
     }
 }

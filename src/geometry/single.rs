@@ -52,7 +52,7 @@ impl Geometry {
                 if t < best_t {
                     rival_t = best_t;
                     best_t = t;
-                    best = Some(entry.hit(unbounded(t), leaving));
+                    best = Some((place, t, leaving));
                 } else {
                     rival_t = rival_t.min(t);
                 }
@@ -61,7 +61,9 @@ impl Geometry {
         };
         self.search(ray, f64::INFINITY, &mut Each(&mut tally, look));
         if rival_t > limit {
-            return best;
+            let (place, t, leaving) = best?;
+            let hit = self.hit(&self.entries[place], ray, Crossing { t, error: 0.0 }, leaving);
+            return Some(Hit { error: f64::INFINITY, ..hit });
         }
         self.first_declared(ray, limit, tally, |entry| {
             let (Crossing { t, .. }, leaving) = self.met(entry, &rounded, limit)?;
@@ -85,6 +87,9 @@ impl Geometry {
                 return false;
             }
             tally.root_solve();
+            if let Solid::Whole(whole) = entry.solid {
+                return self.whole_shadows(whole, ray, distance);
+            }
             self.met(entry, &rounded, distance)
                 .is_some_and(|(Crossing { t, error }, _)| t + error < distance)
         };
@@ -128,7 +133,7 @@ impl Geometry {
                 let slabs = box_::slabs(zero, normals, half_widths, &rounded.from(solid.centre))?;
                 Chord { enter: slabs.enter, leave: slabs.leave }
             }
-            Solid::Ellipsoid(_) | Solid::Placed(_) => {
+            Solid::Ellipsoid(_) | Solid::Placed(_) | Solid::Whole(_) => {
                 return self.first_crossing::<TIGHT>(entry, rounded.ray, limit);
             }
         };
@@ -211,7 +216,8 @@ mod tests {
                         Solid::Sphere(_)
                         | Solid::Box(_)
                         | Solid::Ellipsoid(_)
-                        | Solid::Placed(_) => 1.0,
+                        | Solid::Placed(_)
+                        | Solid::Whole(_) => 1.0,
                     };
                     let share = if slope < 1e-4 { 1e-6 / slope } else { 1e-2 };
                     assert!(rough.error < share * rough.t.max(1e-3), "{slope:e} {rough:?}");

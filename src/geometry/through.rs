@@ -28,11 +28,9 @@ impl Geometry {
             if !entry.filters {
                 return distance;
             }
-            for (crossing, leaving) in self.seen(entry, ray, tally) {
-                if crossing.is_ahead() && crossing.t + crossing.error < distance {
-                    hits.push(entry.hit(crossing, leaving));
-                }
-            }
+            let clear = |leaf: &Entry| leaf.filters;
+            let ahead = |hit: &Hit| hit.is_ahead() && hit.t + hit.error < distance;
+            hits.extend(self.seen(entry, ray, clear, tally).into_iter().filter(ahead));
             distance
         };
         self.search(ray, distance, &mut Each(tally, look));
@@ -58,21 +56,21 @@ impl Geometry {
         let first = hits.len();
         let look = |place: usize, tally: &mut &mut Work| {
             let entry = &self.entries[place];
-            if entry.object == hit.object {
+            if self.holds(entry, hit.object) {
                 return limit;
             }
-            let seen = self.seen(entry, ray, tally);
-            for (place, &(crossing, leaving)) in seen.iter().enumerate() {
+            let seen = self.seen(entry, ray, |_| true, tally);
+            for (place, hit) in seen.iter().enumerate() {
                 // Its own bound may be wider than that of the surface that was hit.
-                if crossing.is_ahead() && crossing.t <= limit + 2.0 * crossing.error {
+                if hit.is_ahead() && hit.t <= limit + 2.0 * hit.error {
                     // So many crossings before the end of the line it is found again.
-                    let after = seen.len() - 1 - place;
-                    let from_start = self.seen(entry, start, tally);
-                    let again = from_start.len().checked_sub(1 + after).map(|i| from_start[i]);
-                    let still_ahead = again
-                        .is_some_and(|(crossing, same)| same == leaving && crossing.is_ahead());
+                    let after = seen.len() - place;
+                    let from_start = self.seen(entry, start, |_| true, tally);
+                    let again = from_start.len().checked_sub(after).map(|i| from_start[i]);
+                    let still_ahead =
+                        again.is_some_and(|again| again.leaving == hit.leaving && again.is_ahead());
                     if !still_ahead {
-                        hits.push(entry.hit(crossing, leaving));
+                        hits.push(*hit);
                     }
                 }
             }
@@ -85,8 +83,14 @@ impl Geometry {
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
     }
 
-    /// All crossings that are seen, in order, each with whether the ray leaves there.
-    fn seen(&self, entry: &Entry, ray: &Ray, tally: &mut impl Tally) -> Seen {
+    /// All crossings that are seen, in order; of a whole, those with leaves that count.
+    fn seen(
+        &self,
+        entry: &Entry,
+        ray: &Ray,
+        counts: fn(&Entry) -> bool,
+        tally: &mut impl Tally,
+    ) -> Seen {
         tally.root_solve();
         let chord = match &entry.solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
@@ -96,16 +100,39 @@ impl Geometry {
             Solid::Placed(i) => {
                 let all = self.placed[*i as usize].crossings(ray).into_iter();
                 let seen = all.filter(|met| met.is_seen() && entry.sides.shows(met.leaving));
-                return seen.map(|met| (met.crossing(), met.leaving)).collect();
+                return seen.map(|met| entry.hit(met.crossing(), met.leaving)).collect();
             }
+            Solid::Whole(i) => return self.seen_of_whole(*i, ray, counts).collect(),
         };
         let ends = chord.map(|chord| [(chord.enter, false), (chord.leave, true)]);
-        ends.into_iter().flatten().filter(|(_, leaving)| entry.sides.shows(*leaving)).collect()
+        let seen =
+            |(crossing, leaving)| entry.sides.shows(leaving).then(|| entry.hit(crossing, leaving));
+        ends.into_iter().flatten().filter_map(seen).collect()
+    }
+
+    /// Whether an object is the entry's, or a part of it.
+    fn holds(&self, entry: &Entry, object: u32) -> bool {
+        match entry.solid {
+            Solid::Whole(i) => {
+                self.wholes[i as usize].leaves.iter().any(|leaf| leaf.object == object)
+            }
+            Solid::Sphere(_)
+            | Solid::Plane(_)
+            | Solid::Box(_)
+            | Solid::Ellipsoid(_)
+            | Solid::Placed(_) => entry.object == object,
+        }
     }
 }
 
 /// Most solids are crossed twice.
-type Seen = SmallVec<[(Crossing, bool); 2]>;
+type Seen = SmallVec<[Hit; 2]>;
+
+impl Hit {
+    fn is_ahead(&self) -> bool {
+        Crossing { t: self.t, error: self.error }.is_ahead()
+    }
+}
 
 impl Entry {
     #[inline(always)]

@@ -7,6 +7,7 @@
 pub mod alone;
 mod body;
 mod camera;
+mod csg;
 mod finish;
 mod interior;
 mod light;
@@ -56,6 +57,7 @@ pub fn lower(
         dropped: HashSet::new(),
         noted_interiors: HashSet::new(),
         unpainted: BTreeMap::new(),
+        building: None,
         scene: &scene,
         options: *options,
     };
@@ -87,6 +89,8 @@ struct Lowering<'s, 'd> {
     noted_interiors: HashSet<(usize, Span)>,
     /// Where solids stand that have no pigment and do not mirror.
     unpainted: BTreeMap<Span, Site>,
+    /// The solid made of others that is under way.
+    building: Option<csg::Building>,
 }
 
 impl Lowering<'_, '_> {

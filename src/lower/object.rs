@@ -3,12 +3,15 @@
 //! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
 //! A transform moves what precedes it: the solid, and whichever texture it already has.
 
+use super::csg::{Making, Open};
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, NO_SIZE, body, shape};
 use crate::diagnostic::Code;
-use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, Solid, TextureId};
+use crate::scene::{
+    InteriorId, ModifierKind, ObjectId, ObjectKind, Operation, Root, Solid, TextureId,
+};
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
@@ -42,6 +45,8 @@ struct Modified {
     hidden_by: Option<ObjectId>,
     strained: bool,
     calls: Calls,
+    /// What clips it, and the map to the parent's space.
+    clips: Vec<(ObjectId, Affine)>,
 }
 
 /// What an object is that most are not.
@@ -80,13 +85,26 @@ struct Calls {
     double_illuminate: Vec<Site>,
 }
 
+/// Objects that are still to be gone through.
 struct Frame<'s> {
+    /// The operation that makes one solid of them.
+    open: Option<Open>,
+    /// The others are taken from the first.
+    difference: bool,
+    is_first: bool,
     /// Of the union that is gone through, and how many solids there were before it.
     calls: Calls,
     before: usize,
-    children: std::slice::Iter<'s, ObjectId>,
+    children: Children<'s>,
     inherited: Inherited,
     default_texture: TextureId,
+}
+
+/// What a frame goes through.
+enum Children<'s> {
+    Listed(std::slice::Iter<'s, ObjectId>),
+    /// What clips an object, and the map to the object's parent.
+    Clips(std::vec::IntoIter<(ObjectId, Affine)>),
 }
 
 impl<'s> Lowering<'s, '_> {
@@ -116,13 +134,20 @@ impl<'s> Lowering<'s, '_> {
                 item: None,
                 strained: false,
             };
-            let children = std::slice::from_ref(object).iter();
-            let (calls, before) = (Calls::default(), self.world.objects.len());
-            let default_texture = *default_texture;
-            stack.push(Frame { calls, before, children, inherited, default_texture });
+            stack.push(Frame {
+                open: None,
+                difference: false,
+                is_first: true,
+                calls: Calls::default(),
+                before: self.world.objects.len(),
+                children: Children::Listed(std::slice::from_ref(object).iter()),
+                inherited,
+                default_texture: *default_texture,
+            });
             while let Some(frame) = stack.last_mut() {
-                let Some(&id) = frame.children.next() else {
-                    if let Some(Frame { calls, before, .. }) = stack.pop() {
+                let Some((id, inherited)) = frame.next() else {
+                    if let Some(Frame { open, calls, before, .. }) = stack.pop() {
+                        open.into_iter().for_each(|open| self.close(open));
                         self.note_calls(calls, before);
                     }
                     continue;
@@ -139,24 +164,19 @@ impl<'s> Lowering<'s, '_> {
                     return;
                 }
                 let default_texture = frame.default_texture;
-                let before = self.world.objects.len();
-                if let Some((children, inherited, calls)) =
-                    self.visit(id, &frame.inherited, default_texture)
-                {
-                    let children = children.iter();
-                    stack.push(Frame { calls, before, children, inherited, default_texture });
-                }
+                self.visit(id, &inherited, default_texture, &mut stack);
             }
         }
     }
 
-    /// Spends a leaf, or returns a union's children and what they inherit.
+    /// Spends a leaf, or puts what an object holds on the stack.
     fn visit(
         &mut self,
         id: ObjectId,
         inherited: &Inherited,
         default_texture: TextureId,
-    ) -> Option<(&'s [ObjectId], Inherited, Calls)> {
+        stack: &mut Vec<Frame<'s>>,
+    ) {
         let scene = self.scene;
         // A use goes on where the object it names left off: its texture replaces that one's.
         let mut uses = vec![id];
@@ -167,7 +187,7 @@ impl<'s> Lowering<'s, '_> {
         }
         let object = &scene.objects[target.index()];
         let own = uses.iter().rev().find_map(|id| scene.objects[id.index()].item);
-        let modified = self.modify(&uses, default_texture)?;
+        let Some(modified) = self.modify(&uses, default_texture) else { return };
         let world_from_here = inherited.world_from_here.after(&modified.map);
         let surface = match modified.surface {
             Some(own) => own.within(&inherited.world_from_here),
@@ -184,19 +204,52 @@ impl<'s> Lowering<'s, '_> {
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
         };
+        let before = self.world.objects.len();
+        let inverse = flags.inverse;
+        let frame = |open, difference, children, inherited, calls| Frame {
+            open,
+            difference,
+            is_first: true,
+            calls,
+            before,
+            children,
+            inherited,
+            default_texture,
+        };
+        if !modified.clips.is_empty() {
+            let open = self.open(Making::Clip, inverse);
+            let region = Inherited {
+                // Of its surface nothing is seen.
+                hidden_by: Some(id),
+                flags: Flags::default(),
+                ..*inherited
+            };
+            let clips = Children::Clips(modified.clips.into_iter());
+            stack.push(frame(open, false, clips, region, Calls::default()));
+        }
         match &object.kind {
             ObjectKind::Union(children) => {
                 if children.is_empty() {
                     self.drop_part(object.site, "union", "it is empty");
                 }
-                return Some((children, here, modified.calls));
+                let open = self.open(Making::Union, inverse);
+                let children = Children::Listed(children.iter());
+                stack.push(frame(open, false, children, here, modified.calls));
+            }
+            ObjectKind::Csg { operation, children } => {
+                if children.is_empty() {
+                    self.drop_part(object.site, operation.word().name(), "it is empty");
+                }
+                let open = self.open(Making::Operation(*operation), inverse);
+                let difference = *operation == Operation::Difference;
+                let children = Children::Listed(children.iter());
+                stack.push(frame(open, difference, children, here, modified.calls));
             }
             ObjectKind::LightSource(light) => {
                 let item = here.item.unwrap_or(object.site);
                 self.light(light, &world_from_here, object.site, item);
             }
             ObjectKind::Solid(solid) => {
-                let before = self.world.objects.len();
                 let spent = self.solid(solid, &here, object.site);
                 if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
                     self.drop_part(object.site, self.word(target), NO_SIZE);
@@ -206,7 +259,6 @@ impl<'s> Lowering<'s, '_> {
             }
             ObjectKind::Use(_) => {}
         }
-        None
     }
 
     /// The modifiers of an object and of its uses, innermost first. `None`, and a message, where a
@@ -221,6 +273,7 @@ impl<'s> Lowering<'s, '_> {
             hidden_by: None,
             strained: false,
             calls: Calls::default(),
+            clips: Vec::new(),
         };
         let modifiers = |&id: &ObjectId| {
             scene.objects[id.index()].modifiers.iter().map(move |modifier| (id, modifier))
@@ -235,6 +288,9 @@ impl<'s> Lowering<'s, '_> {
                     modified.strained |= self.transforms.near_singular(id).is_some();
                     modified.map = step.after(&map);
                     modified.surface = modified.surface.map(|surface| surface.within(&step));
+                    for (_, parent_from_region) in &mut modified.clips {
+                        *parent_from_region = step.after(parent_from_region);
+                    }
                 }
                 ModifierKind::Texture(id) => {
                     let set = Surface::set(scene, &mut self.transforms, id, map);
@@ -265,6 +321,7 @@ impl<'s> Lowering<'s, '_> {
                     calls.double_illuminate.extend(on.then_some(modifier.site));
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
+                ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),
             }
             let hiding = flags.hide();
             modified.hidden_by = modified.hidden_by.or(Some(id)).filter(|_| hiding);
@@ -360,6 +417,7 @@ impl<'s> Lowering<'s, '_> {
             ..Object::plain(shape)
         };
         if let Some(by) = here.hidden_by
+            && self.building.is_none()
             && self.drop_unseen(&object, by)
         {
             return Ok(());
@@ -376,9 +434,29 @@ impl<'s> Lowering<'s, '_> {
         };
         self.note_near_singular(here, site);
         let interior = self.interior(here.interior, surface.finish, site);
-        self.world.objects.push(Object { material, texture_from_world, faces, interior, ..object });
+        let whole = self.leaf(inverse);
+        let object = Object { material, texture_from_world, faces, interior, whole, ..object };
+        self.world.objects.push(object);
         self.origins.objects.push(site);
         Ok(())
+    }
+}
+
+impl Frame<'_> {
+    /// The next object, and what it takes from above.
+    fn next(&mut self) -> Option<(ObjectId, Inherited)> {
+        let mut inherited = self.inherited;
+        let id = match &mut self.children {
+            Children::Listed(children) => *children.next()?,
+            Children::Clips(clips) => {
+                let (id, parent_from_region) = clips.next()?;
+                inherited.world_from_here = inherited.world_from_here.after(&parent_from_region);
+                id
+            }
+        };
+        let is_first = std::mem::replace(&mut self.is_first, false);
+        inherited.flags.inverse ^= self.difference && !is_first;
+        Some((id, inherited))
     }
 }
 

@@ -42,6 +42,7 @@ impl Lowering<'_, '_> {
             return match self.scene.objects[id.index()].kind {
                 ObjectKind::Solid(ref solid) => solid.word().name(),
                 ObjectKind::Union(_) => "union",
+                ObjectKind::Csg { operation, .. } => operation.word().name(),
                 ObjectKind::LightSource(_) => "light_source",
                 ObjectKind::Use(used) => {
                     id = used;

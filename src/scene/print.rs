@@ -121,6 +121,11 @@ impl Printer<'_> {
                             let children = children.iter().rev();
                             stack.extend(children.map(|&child| Task::Open(child, depth + 1)));
                         }
+                        ObjectKind::Csg { operation, children } => {
+                            write!(out, "{}", operation.word().name())?;
+                            let children = children.iter().rev();
+                            stack.extend(children.map(|&child| Task::Open(child, depth + 1)));
+                        }
                         ObjectKind::Use(child) => {
                             write!(out, "object")?;
                             stack.push(Task::Open(*child, depth + 1));
@@ -159,6 +164,7 @@ impl Printer<'_> {
                 writeln!(out, "{indent}double_illuminate{}", off(on))
             }
             ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
+            ModifierKind::ClippedBy(id) => writeln!(out, "{indent}clipped_by {}", id.0),
         }
     }
 

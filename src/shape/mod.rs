@@ -5,6 +5,7 @@
 
 pub mod body;
 pub mod box_;
+pub mod csg;
 pub mod cylinder;
 pub mod ellipsoid;
 pub mod placed;

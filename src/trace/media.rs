@@ -58,10 +58,9 @@ impl Media {
         let start = self.start;
         if self.last_start != Some(start) {
             self.last_start = Some(start);
-            let objects = 0..world.objects.len() as u32;
+            let contains = |&i: &u32| world.whole_contains(&world.objects[i as usize], start);
             self.at_last_start.clear();
-            self.at_last_start
-                .extend(objects.filter(|&i| world.contains(&world.objects[i as usize], start)));
+            self.at_last_start.extend(world.solids().filter(contains));
         }
         self.inside.clone_from(&self.at_last_start);
     }
@@ -73,7 +72,8 @@ impl Media {
         self.behind.extend_from_slice(&self.inside);
         let mut from = self.inside.last().map_or(AIR, |&object| ior(world, object));
         for crossed in others.iter().chain([hit]) {
-            let known = self.behind.iter().position(|&object| object == crossed.object);
+            let known =
+                self.behind.iter().position(|&object| world.is_same_solid(object, crossed.object));
             if let Some(place) = known {
                 self.behind.remove(place);
             }

@@ -117,14 +117,14 @@ vocabulary! {
         WaterLevel "water_level" statement later "cuts off the low part of a height_field";
     }
     Csg {
-        Difference "difference" statement later "the first object without the others";
-        Intersection "intersection" statement later "what all its objects share";
-        Merge "merge" statement later "objects as one, without inner faces";
+        Difference "difference" statement built "the first object without the others";
+        Intersection "intersection" statement built "what all its objects share";
+        Merge "merge" statement built "objects as one, without inner faces";
         Union "union" statement built "`union { object … }`: objects treated as one";
     }
     Modifier {
         BoundedBy "bounded_by" statement inert "`bounded_by { shape … }` or `{ clipped_by }`: what holds the object, to find it faster; a tree finds it";
-        ClippedBy "clipped_by" statement later "a shape outside which the object is cut away";
+        ClippedBy "clipped_by" statement built "a shape outside which the object is cut away";
         CutawayTextures "cutaway_textures" statement later "cut faces keep the textures of what they cut";
         DoubleIlluminate "double_illuminate" statement built "light that shines on one side of the surface lights the other, too";
         Hollow "hollow" statement built "the atmosphere fills the object, too; without fog and media it changes nothing";

@@ -6,6 +6,7 @@
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Place, is_object_word};
 
@@ -58,6 +59,7 @@ impl Evaluator<'_> {
 
     /// `bounded_by { shape … }` or `bounded_by { clipped_by }`.
     fn bounds(&mut self, token: &Token) -> Outcome<()> {
+        self.bounds.clear();
         self.block(token, Word::BoundedBy, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -70,7 +72,10 @@ impl Evaluator<'_> {
                     _ if matches!(word.family(), Family::Shape | Family::Csg)
                         || is_object_word(word) =>
                     {
-                        failed |= evaluator.object(&token, word).is_err();
+                        match evaluator.object(&token, word) {
+                            Ok(Value::Object(object)) => evaluator.bounds.push(object),
+                            other => failed |= other.is_err(),
+                        }
                     }
                     _ => evaluator.unexpected(&token, Place::BOUNDED_BY),
                 }

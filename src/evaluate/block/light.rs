@@ -71,7 +71,7 @@ impl Evaluator<'_> {
                         layers.into_iter().rev().flatten().cloned().collect(),
                     );
                 }
-                ObjectKind::Solid(_) | ObjectKind::Union(_) => {
+                ObjectKind::Solid(_) | ObjectKind::Union(_) | ObjectKind::Csg { .. } => {
                     return (None, Vec::new());
                 }
             }

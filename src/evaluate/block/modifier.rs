@@ -140,8 +140,35 @@ impl Evaluator<'_> {
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
             }
+            Word::ClippedBy => self.clips(token).map(|clips| {
+                modifiers.extend(
+                    clips
+                        .into_iter()
+                        .map(|clip| Modifier { kind: ModifierKind::ClippedBy(clip), site }),
+                );
+                None
+            }),
             _ => return None,
         };
         Some(kind)
+    }
+
+    /// `clipped_by { shape … }`, or `clipped_by { bounded_by }`: what bounds the object clips it.
+    fn clips(&mut self, token: &Token) -> Outcome<Vec<ObjectId>> {
+        self.block(token, Word::ClippedBy, |evaluator| {
+            let clips = match evaluator.take_word(Word::BoundedBy) {
+                Some(_) => evaluator.bounds.clone(),
+                None => evaluator.children(),
+            };
+            if clips.is_empty() && evaluator.poison.is_none() {
+                let found = evaluator.next();
+                return Err(evaluator.expected(
+                    "a solid",
+                    found.as_ref(),
+                    (&token.here, token.span),
+                ));
+            }
+            Ok(clips)
+        })
     }
 }

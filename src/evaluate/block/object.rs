@@ -1,7 +1,7 @@
 //! Shapes, unions and uses of objects, with their modifiers in written order.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind};
+use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, Operation};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -22,6 +22,7 @@ fn own_word(kind: &ObjectKind) -> Word {
     match kind {
         ObjectKind::Solid(solid) => solid.word(),
         ObjectKind::Union(_) | ObjectKind::Use(_) => Word::Union,
+        ObjectKind::Csg { operation, .. } => operation.word(),
         ObjectKind::LightSource(_) => Word::LightSource,
     }
 }
@@ -32,13 +33,15 @@ impl Evaluator<'_> {
         let outer = self.poison.take();
         let built = match word {
             Word::Union => self.shape(token, word, Self::union),
+            Word::Merge => self.csg(token, word, Operation::Merge),
+            Word::Intersection => self.csg(token, word, Operation::Intersection),
+            Word::Difference => self.csg(token, word, Operation::Difference),
             Word::Object => self.shape(token, word, Self::object_use),
             Word::LightSource => self.light_source(token),
             _ => match Self::parts_of(word) {
                 Some(parts) => self.shape(token, word, |evaluator, token| {
                     parts(evaluator, token).map(ObjectKind::Solid)
                 }),
-                None if word.family() == Family::Csg => Err(self.union_not_built(token, word)),
                 None => {
                     self.set_poison(Poison { word, site: token.here.site(token.span) });
                     self.skip_arguments(word);
@@ -50,20 +53,6 @@ impl Evaluator<'_> {
             (Some(poison), _) => Ok(Value::Poison(poison)),
             (None, built) => built.map(Value::Object),
         }
-    }
-
-    /// `difference { … }` and its kin: read like a union, for the mistakes in it.
-    fn union_not_built(&mut self, token: &Token, word: Word) -> Reported {
-        let _: Outcome<()> = self.block(token, word, |evaluator| {
-            let _: Outcome<ObjectKind> = evaluator.union(token);
-            evaluator.modifiers(word, None, &mut Vec::new())
-        });
-        let inside = self.poison.take();
-        self.set_poison(Poison { word, site: token.here.site(token.span) });
-        if let Some(inside) = inside {
-            self.set_poison(inside);
-        }
-        Reported
     }
 
     pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {
@@ -134,13 +123,13 @@ impl Evaluator<'_> {
                     return Some(Err(reported));
                 }
                 if let Some(next) = self.peek().cloned()
-                    && word == Word::Union
+                    && word.family() == Family::Csg
                     && matches!(next.kind, TokenKind::Word(w) if matches!(w.family(), Family::Shape | Family::Csg))
                 {
                     let text = self.sources.text(token.span).to_owned();
                     let diagnostic = Diagnostic::new(
                         Code::WrongType,
-                        format!("`{text}` stands in a `union` without `object`"),
+                        format!("`{text}` stands in a `{}` without `object`", word.name()),
                     )
                     .at(token.span, "a declared object")
                     .help(format!("write `object {{ {text} }}`"))
@@ -237,7 +226,18 @@ impl Evaluator<'_> {
         }
     }
 
+    fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {
+        self.shape(token, word, |evaluator, _| {
+            Ok(ObjectKind::Csg { operation, children: evaluator.children() })
+        })
+    }
+
     fn union(&mut self, _: &Token) -> Outcome<ObjectKind> {
+        Ok(ObjectKind::Union(self.children()))
+    }
+
+    /// The objects that a block holds before its modifiers.
+    pub(super) fn children(&mut self) -> Vec<ObjectId> {
         let mut children = Vec::new();
         loop {
             self.skip_commas();
@@ -257,6 +257,6 @@ impl Evaluator<'_> {
                 Ok(_) | Err(Reported) => {}
             }
         }
-        Ok(ObjectKind::Union(children))
+        children
     }
 }

@@ -1,0 +1,96 @@
+//! How far a solid extends: nowhere, in a box, or without end.
+
+use smallvec::SmallVec;
+
+use crate::math::Vector;
+use crate::shape::csg::Node;
+use crate::shape::{Bounds, Shape};
+use crate::world::World;
+
+/// A box that holds a solid: one of its sides is negative where the solid is empty, and ∞ where it has no
+/// end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent(Bounds);
+
+impl Extent {
+    const NOWHERE: Self = Self(Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY });
+    const EVERYWHERE: Self = Self(Bounds { low: Vector::NEG_INFINITY, high: Vector::INFINITY });
+
+    /// Of an object, or the whole that it is a part of.
+    pub fn of(world: &World, object: u32) -> Self {
+        let Some(whole) = world.objects[object as usize].whole else {
+            return Self::of_shape(world, object);
+        };
+        let whole = &world.wholes[whole as usize];
+        let mut leaves = whole.leaves();
+        let mut stack: SmallVec<[Self; 16]> = SmallVec::new();
+        for node in &whole.nodes {
+            match *node {
+                Node::Leaf { inverse } => {
+                    let leaf = leaves.next().unwrap_or_default() as u32;
+                    stack.push(if inverse {
+                        Self::EVERYWHERE
+                    } else {
+                        Self::of_shape(world, leaf)
+                    });
+                }
+                Node::Union(count) | Node::Merge(count) => {
+                    combine(&mut stack, count, Self::NOWHERE, Self::or)
+                }
+                Node::Intersection(count) => {
+                    combine(&mut stack, count, Self::EVERYWHERE, Self::and)
+                }
+                Node::Clip { inverse: false } => {
+                    combine(&mut stack, 2, Self::EVERYWHERE, Self::and)
+                }
+                // Its surface has an end, but what is outside of it has none.
+                Node::Clip { inverse: true } => {
+                    combine(&mut stack, 2, Self::EVERYWHERE, |_, _| Self::EVERYWHERE)
+                }
+            }
+        }
+        stack.pop().unwrap_or(Self::NOWHERE)
+    }
+
+    fn of_shape(world: &World, object: u32) -> Self {
+        let bounds = match world.objects[object as usize].shape {
+            Shape::Sphere(i) => Some(world.spheres[i as usize].bounds()),
+            Shape::Plane(_) => None,
+            Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
+            Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
+            Shape::Placed(i) => world.placed[i as usize].bounds(),
+        };
+        bounds.map_or(Self::EVERYWHERE, Self)
+    }
+
+    fn or(self, other: Self) -> Self {
+        Self(self.0.union(&other.0))
+    }
+
+    fn and(self, Self(other): Self) -> Self {
+        let Self(Bounds { low, high }) = self;
+        Self(Bounds { low: low.max(other.low), high: high.min(other.high) })
+    }
+
+    /// The box; `None` where the solid has no end.
+    pub fn bounds(self) -> Option<Bounds> {
+        let Self(Bounds { low, high }) = self;
+        (low.is_finite() && high.is_finite()).then_some(self.0)
+    }
+
+    pub fn is_empty(self) -> bool {
+        self.0.low.cmpgt(self.0.high).any()
+    }
+}
+
+/// The last `count` of the stack become one.
+fn combine(
+    stack: &mut SmallVec<[Extent; 16]>,
+    count: u32,
+    start: Extent,
+    operation: fn(Extent, Extent) -> Extent,
+) {
+    let first = stack.len().saturating_sub(count as usize);
+    let all = stack.drain(first..).fold(start, operation);
+    stack.push(all);
+}
