@@ -12,6 +12,7 @@ mod finish;
 mod interior;
 mod light;
 mod lint;
+mod modifier;
 mod object;
 mod shape;
 mod texture;

@@ -1,17 +1,15 @@
-//! The walk down the objects: modifiers become maps, unions flatten, leaves are spent.
+//! The walk down the objects: unions flatten, operations become wholes, leaves are spent.
 //!
 //! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
-//! A transform moves what precedes it: the solid, and whichever texture it already has.
 
 use super::csg::{Making, Open};
+use super::modifier::{Calls, Flags};
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, NO_SIZE, body, shape};
 use crate::diagnostic::Code;
-use crate::scene::{
-    InteriorId, ModifierKind, ObjectId, ObjectKind, Operation, Root, Solid, TextureId,
-};
+use crate::scene::{InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
@@ -31,58 +29,6 @@ struct Inherited {
     item: Option<Site>,
     /// One of the transforms is near-singular by itself.
     strained: bool,
-}
-
-/// An object's modifiers come to this.
-struct Modified {
-    /// From the space the object was written in to that of its parent.
-    map: Affine,
-    /// Its place is in the parent's space.
-    surface: Option<Surface>,
-    interior: Option<InteriorId>,
-    flags: Flags,
-    /// The use whose flags, with those of what it uses, hide it from everything.
-    hidden_by: Option<ObjectId>,
-    strained: bool,
-    calls: Calls,
-    /// What clips it, and the map to the parent's space.
-    clips: Vec<(ObjectId, Affine)>,
-}
-
-/// What an object is that most are not.
-#[derive(Debug, Clone, Copy, Default)]
-struct Flags {
-    no_shadow: bool,
-    no_image: bool,
-    no_reflection: bool,
-    double_illuminate: bool,
-    inverse: bool,
-}
-
-impl Flags {
-    /// Those of an object inside another.
-    fn under(self, above: Self) -> Self {
-        Self {
-            no_shadow: self.no_shadow || above.no_shadow,
-            no_image: self.no_image || above.no_image,
-            no_reflection: self.no_reflection || above.no_reflection,
-            double_illuminate: self.double_illuminate || above.double_illuminate,
-            inverse: self.inverse != above.inverse,
-        }
-    }
-
-    /// No ray meets the object.
-    fn hide(self) -> bool {
-        self.no_shadow && self.no_image && self.no_reflection
-    }
-}
-
-/// Which modifiers call for an effect, if there is a solid that they hold for: without all of them it has
-/// none.
-#[derive(Debug, Clone, Default)]
-struct Calls {
-    hidden: Vec<Site>,
-    double_illuminate: Vec<Site>,
 }
 
 /// Objects that are still to be gone through.
@@ -259,95 +205,6 @@ impl<'s> Lowering<'s, '_> {
             }
             ObjectKind::Use(_) => {}
         }
-    }
-
-    /// The modifiers of an object and of its uses, innermost first. `None`, and a message, where a
-    /// transform cannot be spent.
-    fn modify(&mut self, uses: &[ObjectId], default_texture: TextureId) -> Option<Modified> {
-        let scene = self.scene;
-        let mut modified = Modified {
-            map: Affine::IDENTITY,
-            surface: None,
-            interior: None,
-            flags: Flags::default(),
-            hidden_by: None,
-            strained: false,
-            calls: Calls::default(),
-            clips: Vec::new(),
-        };
-        let modifiers = |&id: &ObjectId| {
-            scene.objects[id.index()].modifiers.iter().map(move |modifier| (id, modifier))
-        };
-        for (id, modifier) in uses.iter().rev().flat_map(modifiers) {
-            let map = modified.map;
-            let (flags, calls) = (&mut modified.flags, &mut modified.calls);
-            match modifier.kind {
-                ModifierKind::Transform(id) => {
-                    let step = self.transforms.get(id);
-                    let step = self.reporter.made(step, modifier.site)?;
-                    modified.strained |= self.transforms.near_singular(id).is_some();
-                    modified.map = step.after(&map);
-                    modified.surface = modified.surface.map(|surface| surface.within(&step));
-                    for (_, parent_from_region) in &mut modified.clips {
-                        *parent_from_region = step.after(parent_from_region);
-                    }
-                }
-                ModifierKind::Texture(id) => {
-                    let set = Surface::set(scene, &mut self.transforms, id, map);
-                    modified.surface = Some(self.reporter.made_there(set)?);
-                }
-                ModifierKind::Pigment(id) => {
-                    let mut surface = self.textured(modified.surface, default_texture, map)?;
-                    let painted = surface.repaint(scene, &mut self.transforms, id, map);
-                    self.reporter.made_there(painted)?;
-                    modified.surface = Some(surface);
-                }
-                ModifierKind::Finish(id) => {
-                    let surface = self.textured(modified.surface, default_texture, map)?;
-                    modified.surface = Some(surface.polished(id));
-                }
-                ModifierKind::Interior(id) => modified.interior = Some(id),
-                ModifierKind::NoShadow => flags.no_shadow = true,
-                ModifierKind::NoImage(on) => {
-                    flags.no_image = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
-                }
-                ModifierKind::NoReflection(on) => {
-                    flags.no_reflection = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
-                }
-                ModifierKind::DoubleIlluminate(on) => {
-                    flags.double_illuminate = on;
-                    calls.double_illuminate.extend(on.then_some(modifier.site));
-                }
-                ModifierKind::Inverse => flags.inverse = !flags.inverse,
-                ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),
-            }
-            let hiding = flags.hide();
-            modified.hidden_by = modified.hidden_by.or(Some(id)).filter(|_| hiding);
-        }
-        // What was undone calls for nothing.
-        let (flags, calls) = (modified.flags, &mut modified.calls);
-        if !(flags.no_image || flags.no_reflection) {
-            calls.hidden.clear();
-        }
-        if !flags.double_illuminate {
-            calls.double_illuminate.clear();
-        }
-        Some(modified)
-    }
-
-    /// The object's own surface; the default texture where it has none yet.
-    fn textured(
-        &mut self,
-        own: Option<Surface>,
-        default: TextureId,
-        map: Affine,
-    ) -> Option<Surface> {
-        own.or_else(|| {
-            let set = Surface::set(self.scene, &mut self.transforms, default, map);
-            self.reporter.made_there(set)
-        })
     }
 
     fn solid(&mut self, solid: &Solid, here: &Inherited, site: Site) -> Result<(), Fault> {

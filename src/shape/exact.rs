@@ -176,7 +176,7 @@ pub(super) fn above_face(box_: &Box_, face: u32, point: Vector) -> f64 {
     (place - Double::of(box_.half_widths[axis])).0
 }
 
-fn local(matrix: &Matrix, v: Triple) -> Triple {
+pub(super) fn local(matrix: &Matrix, v: Triple) -> Triple {
     let rows = matrix.transpose();
     [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| dot(triple(row), v))
 }

@@ -2,7 +2,8 @@
 
 use super::build::*;
 use crate::math::transform::Step;
-use crate::scene::{ModifierKind, ObjectKind, Solid};
+use crate::scene::{ModifierKind, ObjectId, ObjectKind, Operation, Solid};
+use crate::shape::csg::Node;
 use crate::world::World;
 
 /// Both spellings of one object, textured with a checker in the world.
@@ -112,21 +113,75 @@ fn unions_and_uses_leave_no_trace() {
     let mut build = Build::new();
     let ball = build.moved(sphere(0.0, 0.0, 0.0, 1.0), vec![translate(1.0, 0.0, 0.0)]);
     let used = build.moved(ObjectKind::Use(ball), vec![scale(2.0, 2.0, 2.0)]);
-    let inner = build.object(ObjectKind::Union(vec![used, ball]), vec![ModifierKind::Inverse]);
+    let turned = build.object(ObjectKind::Use(ball), vec![ModifierKind::Inverse]);
+    let inner = build.object(ObjectKind::Union(vec![used, turned]), vec![]);
     let outer = build.moved(ObjectKind::Union(vec![inner, ball]), vec![translate(0.0, 5.0, 0.0)]);
-    let inverse = build.object(ObjectKind::Use(outer), vec![ModifierKind::Inverse]);
-    build.root(inverse);
+    let again = build.object(ObjectKind::Use(outer), vec![]);
+    build.root(again);
     let mut plain = Build::new();
     for (centre, radius, inverse) in [
         (v(2.0, 5.0, 0.0), 2.0, false),
-        (v(1.0, 5.0, 0.0), 1.0, false),
         (v(1.0, 5.0, 0.0), 1.0, true),
+        (v(1.0, 5.0, 0.0), 1.0, false),
     ] {
         let modifiers = if inverse { vec![ModifierKind::Inverse] } else { vec![] };
         let ball = plain.object(ObjectKind::Solid(Solid::Sphere { centre, radius }), modifiers);
         plain.root(ball);
     }
     assert_eq!(build.world(), plain.world());
+}
+
+/// De Morgan: what is outside of all is what the outsides share.
+#[test]
+fn an_inverse_goes_down_to_the_leaves() {
+    let spell = |kind: &dyn Fn(Vec<ObjectId>) -> ObjectKind, inner: bool| {
+        let mut build = Build::new();
+        let inverse = |on: bool| if on { vec![ModifierKind::Inverse] } else { vec![] };
+        let ball = build.object(sphere(0.0, 0.0, 0.0, 1.0), inverse(inner));
+        let block = build.object(box_(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0)), inverse(inner));
+        let whole = build.object(kind(vec![ball, block]), inverse(!inner));
+        build.root(whole);
+        build.world()
+    };
+    let csg = |operation, children| ObjectKind::Csg { operation, children };
+    let union = spell(&ObjectKind::Union, false);
+    assert_eq!(union, spell(&|all| csg(Operation::Intersection, all), true));
+    assert_eq!(union.wholes.len(), 1);
+    let shared = spell(&|all| csg(Operation::Intersection, all), false);
+    assert_eq!(shared, spell(&|all| csg(Operation::Merge, all), true));
+}
+
+#[test]
+fn a_difference_is_what_the_first_and_the_outsides_of_the_others_share() {
+    let spell = |operation, inverse: Vec<ModifierKind>| {
+        let mut build = Build::new();
+        let ball = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
+        let block = build.object(box_(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0)), inverse);
+        build.root(ball);
+        let children = vec![ball, block];
+        let whole = build.object(ObjectKind::Csg { operation, children }, vec![]);
+        build.root(whole);
+        build.world()
+    };
+    let world = spell(Operation::Difference, vec![]);
+    assert_eq!(world, spell(Operation::Intersection, vec![ModifierKind::Inverse]));
+    let nodes = &world.wholes[0].nodes;
+    let [solid, hole] = [false, true].map(|inverse| Node::Leaf { inverse });
+    assert_eq!(nodes.as_slice(), [solid, hole, Node::Intersection(2)]);
+}
+
+/// An operation on one part is that part.
+#[test]
+fn a_whole_of_one_leaf_is_no_whole() {
+    let mut build = Build::new();
+    let ball = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
+    let children = vec![ball];
+    let inner = ObjectKind::Csg { operation: Operation::Intersection, children };
+    let inner = build.object(inner, vec![]);
+    let outer = ObjectKind::Csg { operation: Operation::Difference, children: vec![inner] };
+    let outer = build.moved(outer, vec![translate(1.0, 0.0, 0.0)]);
+    build.root(outer);
+    assert_eq!(build.world(), spend(sphere(1.0, 0.0, 0.0, 1.0), vec![]));
 }
 
 #[test]

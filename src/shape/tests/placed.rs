@@ -1,0 +1,188 @@
+//! Placed bodies against twice the digits: where the line is inside, and where it says it crosses.
+
+use super::*;
+use crate::shape::body::{Local, Met};
+use crate::shape::exact::Triple;
+
+/// Negative inside of a body, positive outside, and about the distance near the surface; of a local point.
+pub(super) type Inside = fn(&Body, Triple) -> Double;
+
+/// The body, stretched, turned and moved.
+pub(super) fn placed(random: &mut Random, body: Body) -> Placed {
+    let size = random.size(-9.0, 9.0);
+    let stretch = |random: &mut Random| match random.below(3) {
+        0 => 1.0,
+        1 => random.number(0.5, 2.0),
+        _ => random.size(-3.0, 0.0),
+    };
+    let world_from_local = loop {
+        let columns = match random.below(3) {
+            0 => [Vector::X, Vector::Y, Vector::Z],
+            1 => [Vector::Y, -Vector::Z, Vector::X],
+            _ => [random.direction().get(), random.direction().get(), random.direction().get()],
+        };
+        let [x, y, z] = columns.map(|column| column * (size * stretch(random)));
+        let matrix = Matrix::from_cols(x, y, z);
+        if matrix.determinant().abs() > 1e-12 * size.powi(3) {
+            break matrix;
+        }
+    };
+    let local_from_world = world_from_local.inverse();
+    let far = [0.0, size, size * random.size(0.0, 6.0)][random.below(3)];
+    let centre = random.direction().get() * far;
+    let placement = Placement { centre, world_from_local, local_from_world };
+    Placed { body: std::sync::Arc::new(body), placement }
+}
+
+/// A ray at a placed body: from near or far, onto it, past it, along its own axes.
+pub(super) fn ray_at_placed(random: &mut Random, placed: &Placed) -> Ray {
+    let reach = placed.body.reach().min(4.0);
+    let world = |local: Vector| placed.placement.world_point(local);
+    let target = world(random.point(1.0) * reach);
+    let far = [0.5, 3.0, random.size(0.0, 6.0)][random.below(3)];
+    let origin = match random.below(4) {
+        0 => {
+            let axis = [Vector::X, Vector::Y, Vector::Z][random.below(3)];
+            target + placed.placement.world_from_local * axis * far
+        }
+        _ => world(random.direction().get() * (reach * far)),
+    };
+    let direction = UnitVector::from_direction(target - origin).unwrap_or(UnitVector::Z).get();
+    Ray { origin, direction }
+}
+
+/// The local point at t + `more`, exactly.
+fn local_at(placed: &Placed, ray: &Ray, t: f64, more: f64) -> Triple {
+    let Placement { centre, local_from_world, .. } = placed.placement;
+    let along = Double::of(t) + Double::of(more);
+    let (origin, direction) = (exact::triple(ray.origin), exact::triple(ray.direction));
+    let point = [0, 1, 2].map(|axis| origin[axis] + direction[axis] * along);
+    exact::local(&local_from_world, exact::minus(point, exact::triple(centre)))
+}
+
+/// How far rounding may move the ray in local space.
+fn blur(placed: &Placed, ray: &Ray) -> f64 {
+    let start = placed.placement.local_point(ray.origin);
+    64.0 * EPS
+        * (placed.placement.local_from_world.abs() * (ray.origin - placed.placement.centre).abs())
+            .length()
+            .max(start.length() + 1.0)
+}
+
+/// Each crossing has the inside on one hand and the outside on the other, within its bound; and wherever
+/// one looks along the line, the crossings before say whether it is inside.
+pub(super) fn assert_crossed_where_it_is(
+    random: &mut Random,
+    placed: &Placed,
+    ray: &Ray,
+    inside: Inside,
+) -> usize {
+    let all = placed.crossings(ray);
+    let height = |t, more| inside(&placed.body, local_at(placed, ray, t, more));
+    for (i, met) in all.iter().enumerate() {
+        let Met { t, error, leaving, .. } = *met;
+        assert!(error >= 0.0 && t.is_finite(), "{met:?} {placed:?} {ray:?}");
+        let apart = |other: &Met| (other.t - t).abs() > 2.0 * (error + other.error);
+        let alone = all.iter().enumerate().all(|(j, other)| j == i || apart(other));
+        if !alone {
+            continue;
+        }
+        let (before, after) = (height(t, -error).0, height(t, error).0);
+        let (outer, inner) = if leaving { (after, before) } else { (before, after) };
+        assert!(outer >= 0.0 && inner <= 0.0, "{before:e} {after:e}: {met:?} {placed:?} {ray:?}");
+    }
+    if placed.body.is_sheet() {
+        return all.len();
+    }
+    // Where the line is in reach.
+    let reach = placed.body.reach().min(1e3);
+    let near = placed.placement.local_point(ray.origin);
+    let step = placed.placement.local_direction(ray.direction);
+    let middle = -near.dot(step) / step.length_squared();
+    for _ in 0..16 {
+        let t = middle + random.number(-1.0, 1.0) * reach / step.length();
+        if all.iter().any(|met| (met.t - t).abs() <= met.error) {
+            continue;
+        }
+        let height = height(t, 0.0).0;
+        let is_inside = all.iter().filter(|met| met.t < t).count() % 2 == 1;
+        if height.abs() > blur(placed, ray).sqrt().min(1e-3) {
+            assert_eq!(height < 0.0, is_inside, "{height:e} at {t:e}: {all:?} {placed:?} {ray:?}");
+        }
+    }
+    all.len()
+}
+
+/// The surface's point is on it within its bound, and a ray that goes on from there leaves.
+pub(super) fn assert_left_where_it_is(
+    random: &mut Random,
+    placed: &Placed,
+    ray: &Ray,
+    inside: Inside,
+) {
+    let all = placed.crossings(ray);
+    if all.is_empty() {
+        return;
+    }
+    let met = all[random.below(all.len())];
+    if !met.is_seen() {
+        return;
+    }
+    let surface = placed.surface(ray, met.t, met.leaving);
+    let out = Ray { origin: surface.point, direction: surface.normal };
+    let height = |more: f64| inside(&placed.body, local_at(placed, &out, 0.0, more)).0;
+    let (inner, outer) = (height(-surface.error), height(surface.error));
+    // At an edge, what is inside of one part is outside of another.
+    assert!(outer >= 0.0, "{outer:e}: {surface:?} {placed:?} {ray:?}");
+    if let Some(bounds) = placed.bounds() {
+        assert!(bounds.contains(surface.point), "{bounds:?} {surface:?} {placed:?} {ray:?}");
+    }
+    if inner > 0.0 {
+        return;
+    }
+    let sideways = surface.normal.cross(random.direction().get());
+    let steep = [random.number(0.0, 1.0), random.size(-18.0, -1.0)][random.below(2)];
+    let Some(direction) = UnitVector::from_direction(sideways + surface.normal * steep) else {
+        return;
+    };
+    let direction = direction.get();
+    // Rounding may turn what is nearly along the surface inward.
+    if direction.dot(surface.normal) < 0.0 {
+        return;
+    }
+    let onward = Ray { origin: surface.spawn(direction), direction };
+    // A convex body is left for good.
+    let again = placed.crossings(&onward).into_iter().find(|met| met.crossing().is_ahead());
+    if let Some(again) = again {
+        let far = again.t * placed.placement.local_direction(direction).length();
+        let sound = !again.leaving && far > 1e-3;
+        assert!(sound, "met again: {again:?} {surface:?} {onward:?} {placed:?} {ray:?}");
+    }
+}
+
+fn square(x: Double) -> Double {
+    x * x
+}
+
+fn greater(a: Double, b: Double) -> Double {
+    if (a - b).0 < 0.0 { b } else { a }
+}
+
+fn cylinder(_: &Body, [x, y, z]: Triple) -> Double {
+    let one = Double::of(1.0);
+    greater((square(x) + square(y)).sqrt() - one, z.abs() - one)
+}
+
+#[test]
+fn a_cylinder_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(51);
+    let mut crossed = 0;
+    for _ in 0..tries() {
+        let body = Body::Cylinder(Cylinder { open: random.below(4) == 0 });
+        let placed = placed(&mut random, body);
+        let ray = ray_at_placed(&mut random, &placed);
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, cylinder);
+        assert_left_where_it_is(&mut random, &placed, &ray, cylinder);
+    }
+    assert!(crossed > tries() / 2, "{crossed}");
+}
