@@ -30,10 +30,26 @@ struct Inherited {
     strained: bool,
 }
 
+impl Inherited {
+    /// What a root takes from the scene, whose default is `surface`.
+    fn root(surface: Surface) -> Self {
+        Self {
+            world_from_here: Affine::IDENTITY,
+            surface,
+            interior: None,
+            flags: Flags::default(),
+            hidden_by: None,
+            item: None,
+            strained: false,
+        }
+    }
+}
+
 /// An object's modifiers come to this.
+#[derive(Default)]
 struct Modified {
-    /// From the space the object was written in to that of its parent.
-    map: Affine,
+    /// From the space the object was written in to that of its parent; `None` where they are the same.
+    map: Option<Affine>,
     /// Its place is in the parent's space.
     surface: Option<Surface>,
     interior: Option<InteriorId>,
@@ -42,6 +58,18 @@ struct Modified {
     hidden_by: Option<ObjectId>,
     strained: bool,
     calls: Calls,
+}
+
+impl Modified {
+    /// What was undone calls for nothing.
+    fn settle(&mut self) {
+        if !(self.flags.no_image || self.flags.no_reflection) {
+            self.calls.hidden.clear();
+        }
+        if !self.flags.double_illuminate {
+            self.calls.double_illuminate.clear();
+        }
+    }
 }
 
 /// What an object is that most are not.
@@ -86,40 +114,26 @@ struct Frame<'s> {
     before: usize,
     children: std::slice::Iter<'s, ObjectId>,
     inherited: Inherited,
-    default_texture: TextureId,
 }
 
 impl<'s> Lowering<'s, '_> {
     pub(super) fn objects(&mut self) {
-        let scene = self.scene;
-        let limit = self.options.objects;
         let mut visits = 0;
-        let mut stack = Vec::new();
+        let mut stack: Vec<Frame> = Vec::new();
         // Most roots have the same default.
-        let mut last: Option<(TextureId, Surface)> = None;
-        for Root { object, default_texture } in &scene.roots {
-            let known = last.filter(|(texture, _)| texture == default_texture);
-            let default = match known {
-                Some((_, surface)) => Ok(surface),
-                None => {
-                    Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY)
-                }
-            };
-            let Some(surface) = self.reporter.made_there(default) else { continue };
-            last = Some((*default_texture, surface));
-            let inherited = Inherited {
-                world_from_here: Affine::IDENTITY,
-                surface,
-                interior: None,
-                flags: Flags::default(),
-                hidden_by: None,
-                item: None,
-                strained: false,
-            };
-            let children = std::slice::from_ref(object).iter();
-            let (calls, before) = (Calls::default(), self.world.objects.len());
-            let default_texture = *default_texture;
-            stack.push(Frame { calls, before, children, inherited, default_texture });
+        let mut last: Option<(TextureId, Inherited)> = None;
+        for &Root { object, default_texture } in &self.scene.roots {
+            if last.as_ref().is_none_or(|(texture, _)| *texture != default_texture) {
+                let place = Affine::IDENTITY;
+                let set = Surface::set(self.scene, &mut self.transforms, default_texture, place);
+                let Some(surface) = self.reporter.made_there(set) else { continue };
+                last = Some((default_texture, Inherited::root(surface)));
+            }
+            let Some((_, inherited)) = &last else { continue };
+            if !self.may_visit(object, &mut visits) {
+                return;
+            }
+            stack.extend(self.visit(object, inherited, default_texture));
             while let Some(frame) = stack.last_mut() {
                 let Some(&id) = frame.children.next() else {
                     if let Some(Frame { calls, before, .. }) = stack.pop() {
@@ -127,57 +141,65 @@ impl<'s> Lowering<'s, '_> {
                     }
                     continue;
                 };
-                visits += 1;
-                if visits > limit {
-                    let fault = Fault::new(
-                        Code::ObjectLimit,
-                        format!("the scene has more than {limit} objects"),
-                    )
-                    .help("raise the limit with `--limit objects=N`");
-                    self.reporter
-                        .fault(fault.label("reached here"), scene.objects[id.index()].site);
+                if !self.may_visit(id, &mut visits) {
                     return;
                 }
-                let default_texture = frame.default_texture;
-                let before = self.world.objects.len();
-                if let Some((children, inherited, calls)) =
-                    self.visit(id, &frame.inherited, default_texture)
-                {
-                    let children = children.iter();
-                    stack.push(Frame { calls, before, children, inherited, default_texture });
-                }
+                let inner = self.visit(id, &frame.inherited, default_texture);
+                stack.extend(inner);
             }
         }
     }
 
-    /// Spends a leaf, or returns a union's children and what they inherit.
+    /// Counts one object more; says so where that is one too many.
+    fn may_visit(&mut self, id: ObjectId, visits: &mut u64) -> bool {
+        let limit = self.options.objects;
+        *visits += 1;
+        if *visits <= limit {
+            return true;
+        }
+        let fault =
+            Fault::new(Code::ObjectLimit, format!("the scene has more than {limit} objects"))
+                .help("raise the limit with `--limit objects=N`");
+        self.reporter.fault(fault.label("reached here"), self.scene.objects[id.index()].site);
+        false
+    }
+
+    /// Spends a leaf, or returns how to go through a union.
     fn visit(
         &mut self,
         id: ObjectId,
         inherited: &Inherited,
         default_texture: TextureId,
-    ) -> Option<(&'s [ObjectId], Inherited, Calls)> {
+    ) -> Option<Frame<'s>> {
         let scene = self.scene;
         // A use goes on where the object it names left off: its texture replaces that one's.
-        let mut uses = vec![id];
-        let mut target = id;
+        let (mut uses, mut target) = (Vec::new(), id);
         while let ObjectKind::Use(next) = scene.objects[target.index()].kind {
+            uses.push(target);
             target = next;
-            uses.push(next);
         }
         let object = &scene.objects[target.index()];
-        let own = uses.iter().rev().find_map(|id| scene.objects[id.index()].item);
-        let modified = self.modify(&uses, default_texture)?;
-        let world_from_here = inherited.world_from_here.after(&modified.map);
-        let surface = match modified.surface {
-            Some(own) => own.within(&inherited.world_from_here),
-            None => inherited.surface.under(&modified.map),
-        };
+        let mut own = object.item;
+        let mut modified = Modified::default();
+        self.modify(&mut modified, target, default_texture)?;
+        for &id in uses.iter().rev() {
+            own = own.or(scene.objects[id.index()].item);
+            self.modify(&mut modified, id, default_texture)?;
+        }
+        modified.settle();
+        let above = &inherited.world_from_here;
         let flags = modified.flags.under(inherited.flags);
         let by_both = flags.hide().then_some(id);
         let here = Inherited {
-            world_from_here,
-            surface,
+            world_from_here: match &modified.map {
+                Some(map) => above.after(map),
+                None => *above,
+            },
+            surface: match (&modified.surface, &modified.map) {
+                (Some(own), _) => own.within(above),
+                (None, Some(map)) => inherited.surface.under(map),
+                (None, None) => inherited.surface,
+            },
             interior: modified.interior.or(inherited.interior),
             flags,
             hidden_by: inherited.hidden_by.or(modified.hidden_by).or(by_both),
@@ -189,11 +211,16 @@ impl<'s> Lowering<'s, '_> {
                 if children.is_empty() {
                     self.drop_part(object.site, "union", "it is empty");
                 }
-                return Some((children, here, modified.calls));
+                return Some(Frame {
+                    calls: modified.calls,
+                    before: self.world.objects.len(),
+                    children: children.iter(),
+                    inherited: here,
+                });
             }
             ObjectKind::LightSource(light) => {
                 let item = here.item.unwrap_or(object.site);
-                self.light(light, &world_from_here, object.site, item);
+                self.light(light, &here.world_from_here, object.site, item);
             }
             solid => {
                 let before = self.world.objects.len();
@@ -208,31 +235,24 @@ impl<'s> Lowering<'s, '_> {
         None
     }
 
-    /// The modifiers of an object and of its uses, innermost first. `None`, and a message, where a
-    /// transform cannot be spent.
-    fn modify(&mut self, uses: &[ObjectId], default_texture: TextureId) -> Option<Modified> {
+    /// The modifiers of an object, or of a use of it, which come after its own. `None`, and a message, where
+    /// a transform cannot be spent.
+    fn modify(
+        &mut self,
+        modified: &mut Modified,
+        id: ObjectId,
+        default_texture: TextureId,
+    ) -> Option<()> {
         let scene = self.scene;
-        let mut modified = Modified {
-            map: Affine::IDENTITY,
-            surface: None,
-            interior: None,
-            flags: Flags::default(),
-            hidden_by: None,
-            strained: false,
-            calls: Calls::default(),
-        };
-        let modifiers = |&id: &ObjectId| {
-            scene.objects[id.index()].modifiers.iter().map(move |modifier| (id, modifier))
-        };
-        for (id, modifier) in uses.iter().rev().flat_map(modifiers) {
-            let map = modified.map;
+        for modifier in &scene.objects[id.index()].modifiers {
+            let map = modified.map.unwrap_or(Affine::IDENTITY);
             let (flags, calls) = (&mut modified.flags, &mut modified.calls);
             match modifier.kind {
                 ModifierKind::Transform(id) => {
                     let step = self.transforms.get(id);
                     let step = self.reporter.made(step, modifier.site)?;
                     modified.strained |= self.transforms.near_singular(id).is_some();
-                    modified.map = step.after(&map);
+                    modified.map = Some(step.after(&map));
                     modified.surface = modified.surface.map(|surface| surface.within(&step));
                 }
                 ModifierKind::Texture(id) => {
@@ -268,15 +288,7 @@ impl<'s> Lowering<'s, '_> {
             let hiding = flags.hide();
             modified.hidden_by = modified.hidden_by.or(Some(id)).filter(|_| hiding);
         }
-        // What was undone calls for nothing.
-        let (flags, calls) = (modified.flags, &mut modified.calls);
-        if !(flags.no_image || flags.no_reflection) {
-            calls.hidden.clear();
-        }
-        if !flags.double_illuminate {
-            calls.double_illuminate.clear();
-        }
-        Some(modified)
+        Some(())
     }
 
     /// The object's own surface; the default texture where it has none yet.
