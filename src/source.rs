@@ -115,6 +115,11 @@ impl Expansions {
         name: ExpansionName,
     ) -> ExpansionId {
         self.list.push(Expansion { parent, call, kind, name });
+        self.newest()
+    }
+
+    /// The newest of all, or [`ExpansionId::MAIN`] while there is none.
+    pub fn newest(&self) -> ExpansionId {
         ExpansionId(self.list.len() as u32)
     }
 

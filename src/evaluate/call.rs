@@ -33,12 +33,12 @@ impl Evaluator<'_> {
                         self.macro_value(here, id, arguments, span)
                     }
                     Some(Value::Function(id)) => {
-                        let (id, unit) = (*id, here.unit.clone());
-                        self.function_value(here, id, unit.ast.arguments(arguments), span)
+                        let id = *id;
+                        self.function_value(here, id, here.unit.ast.arguments(arguments), span)
                     }
                     Some(Value::Spline(spline)) => {
-                        let (spline, unit) = (spline.clone(), here.unit.clone());
-                        self.spline_value(here, &spline, unit.ast.arguments(arguments), span)
+                        let spline = spline.clone();
+                        self.spline_value(here, &spline, here.unit.ast.arguments(arguments), span)
                     }
                     Some(Value::Broken) => Err(Reported),
                     Some(Value::Poison(poison)) => {
@@ -66,8 +66,7 @@ impl Evaluator<'_> {
 
     /// Evaluates arguments for what they do (draw from a stream, set a parameter), not for their values.
     pub(super) fn run_arguments(&mut self, here: &Here, arguments: Arguments) {
-        let unit = here.unit.clone();
-        for argument in unit.ast.arguments(arguments) {
+        for argument in here.unit.ast.arguments(arguments) {
             match *argument {
                 Argument::Expression(id) => drop(self.expression(here, id)),
                 Argument::Items(items) => self.inside(here, items, Self::run_items),
@@ -83,14 +82,13 @@ impl Evaluator<'_> {
         arguments: Arguments,
         span: Span,
     ) -> Outcome<Value> {
-        let unit = here.unit.clone();
-        let list = unit.ast.arguments(arguments);
+        let list = here.unit.ast.arguments(arguments);
         match word {
             Word::Defined => {
                 let [Argument::Expression(id)] = list else {
                     return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
                 };
-                let ExpressionKind::Name(name) = unit.expression(*id).kind else {
+                let ExpressionKind::Name(name) = here.unit.expression(*id).kind else {
                     return Ok(Value::truth(true));
                 };
                 let symbol = here.symbol(name);
@@ -159,7 +157,7 @@ impl Evaluator<'_> {
         builtin::call(word, &values, &mut self.streams, longest).map_err(|error| {
             let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
                 match *argument {
-                    Argument::Expression(id) => unit.expression(id).span,
+                    Argument::Expression(id) => here.unit.expression(id).span,
                     Argument::Items(_) => span,
                 }
             });

@@ -13,9 +13,10 @@ use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported};
 
 impl Evaluator<'_> {
+    // Apart from the loop that asks for items: what each of these needs would be made ready for every item.
+    #[inline(never)]
     pub(super) fn directive(&mut self, here: &Here, id: DirectiveId) -> Outcome<()> {
-        let unit = here.unit.clone();
-        let directive = unit.ast.directive(id);
+        let directive = here.unit.ast.directive(id);
         match &directive.kind {
             DirectiveKind::Declare { local, target } => self.declare(here, *local, target),
             DirectiveKind::Undef(target) => {
@@ -46,7 +47,7 @@ impl Evaluator<'_> {
                 let from = self.number(here, *from);
                 let to = self.number(here, *to);
                 let (step_value, step_span) = match step {
-                    Some(step) => (self.number(here, *step), unit.expression(*step).span),
+                    Some(step) => (self.number(here, *step), here.unit.expression(*step).span),
                     None => (Ok(1.0), directive.head),
                 };
                 let (from, to, step) = (from?, to?, step_value?);

@@ -79,7 +79,7 @@ impl Evaluator<'_> {
         consumer: impl FnOnce(&mut Self) -> T,
         end: impl FnOnce(&mut Self),
     ) -> T {
-        let (peeked, taken) = (self.peeked.take(), self.taken);
+        let (peeked, taken, silent) = (self.peeked.take(), self.taken, self.silent);
         // What a `#declare` must not look at lies behind the block.
         let hold = self.hold.take();
         self.enclosures.push(enclosure);
@@ -87,6 +87,7 @@ impl Evaluator<'_> {
         let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
         (self.peeked, self.taken) = (None, taken);
         end(self);
+        self.silent = silent;
         self.enclosures.pop();
         self.hold = hold;
         self.peeked = peeked;

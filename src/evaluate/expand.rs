@@ -30,6 +30,8 @@ pub(super) struct Macro {
     called: ExpansionName,
     /// Each with whether it is optional.
     pub parameters: Vec<(Symbol, bool)>,
+    /// How many of them, from the first, no call leaves out.
+    required: usize,
     body: MacroBody,
     unit: Rc<Unit>,
     /// Its name, where it is defined.
@@ -55,11 +57,15 @@ impl Macro {
 }
 
 /// What a parameter is bound to.
-pub(super) enum Bound {
-    Variable(Slot),
-    Element(Slot, Box<[f64]>),
-    Value(Value),
-    Nothing,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bound {
+    slot: Slot,
+    /// Not the caller's.
+    own: bool,
+}
+
+impl Bound {
+    const NOTHING: Self = Self { slot: Slot::NONE, own: false };
 }
 
 impl Evaluator<'_> {
@@ -76,11 +82,13 @@ impl Evaluator<'_> {
         let is_reserved = |p: &Parameter| Word::from_name(here.unit.ast.name(p.name)).is_some();
         let reserved = parameters.iter().any(is_reserved);
         let id = MacroId(self.macros.len() as u32);
+        let required = parameters.iter().rposition(|p| !p.optional).map_or(0, |last| last + 1);
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
         self.macros.push(Rc::new(Macro {
             name: symbol,
             called: self.scene.expansions.named(self.scopes.name(symbol)),
             parameters,
+            required,
             body: match body {
                 Body::Items(items) => MacroBody::Items(*items),
                 Body::Raw(_) => MacroBody::Raw,
@@ -95,19 +103,21 @@ impl Evaluator<'_> {
 
     /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
     /// expression is no such call.
+    #[inline(never)]
     pub(super) fn splices_macro(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
-        let expression = *here.unit.expression(id);
-        let ExpressionKind::Call(Callee::Name(name, _), arguments) = expression.kind else {
+        let ExpressionKind::Call(Callee::Name(name, _), arguments) = here.unit.expression(id).kind
+        else {
             return Ok(false);
         };
         let Some(Value::Macro(macro_id)) = self.scopes.read(here.symbol(name)) else {
             return Ok(false);
         };
+        let span = here.unit.expression(id).span;
         let definition = self.macros[macro_id.0 as usize].clone();
         let MacroBody::Items(body) = definition.body else {
-            return Err(self.raw_macro(here, expression.span));
+            return Err(self.raw_macro(here, span));
         };
-        let expansion = self.enter_macro(here, &definition, arguments, expression.span)?;
+        let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.push_macro(&definition.unit, expansion, body);
         Ok(true)
     }
@@ -127,10 +137,34 @@ impl Evaluator<'_> {
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.macro_depth += 1;
         let inner = Here { unit: definition.unit.clone(), expansion };
-        let value = self.inside(&inner, body, |evaluator| evaluator.only_value(here, span));
+        let value = self.inside(&inner, body, |evaluator| match evaluator.peek() {
+            None => Err(evaluator.leaves_no_value(expansion, "a value")),
+            Some(_) => evaluator.only_value(here, span),
+        });
         self.macro_depth -= 1;
         self.scopes.close();
         value
+    }
+
+    /// A value is missing where a macro was called last that gave no item: says so.
+    pub(super) fn blame_macro(&mut self, wanted: &str) -> Option<Reported> {
+        let silent = self.silent.take()?;
+        Some(silent.called.map_or(Reported, |called| self.leaves_no_value(called, wanted)))
+    }
+
+    /// A macro was called for a value and has run to its end without an item.
+    fn leaves_no_value(&mut self, called: ExpansionId, wanted: &str) -> Reported {
+        let Some(&expansion) = self.scene.expansions.get(called) else { return Reported };
+        let name = self.scene.expansions.name(&expansion).to_owned();
+        let message = format!("expected {wanted}, and macro `{name}` leaves none");
+        let mut diagnostic = Diagnostic::new(Code::MissingPart, message)
+            .at(expansion.call, "nothing stands here after it has run");
+        let symbol = self.scopes.symbol(&name);
+        if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
+            diagnostic = diagnostic.also(declared.site.span, "defined here");
+        }
+        let help = "the value stands alone in the body: `#macro Twice(N) 2*N #end`";
+        self.report_in(expansion.parent, diagnostic.help(help))
     }
 
     fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
@@ -150,8 +184,15 @@ impl Evaluator<'_> {
         arguments: Arguments,
         span: Span,
     ) -> Outcome<ExpansionId> {
-        let unit = here.unit.clone();
-        let list = unit.ast.arguments(arguments);
+        let list = match here.unit.ast.arguments(arguments) {
+            // A call may end with a comma, as in POV-Ray.
+            [all @ .., Argument::Items(last)]
+                if last.is_empty() && all.len() == definition.parameters.len() =>
+            {
+                all
+            }
+            list => list,
+        };
         self.check_arguments(here, definition, list, span)?;
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
@@ -173,7 +214,7 @@ impl Evaluator<'_> {
         for (argument, &(_, optional)) in list.iter().zip(&definition.parameters) {
             bound.push(self.bound(here, argument, optional, span));
         }
-        bound.resize_with(definition.parameters.len(), || Bound::Nothing);
+        bound.resize(definition.parameters.len(), Bound::NOTHING);
         let expansion = self.scene.expansions.add(
             here.expansion,
             span,
@@ -187,14 +228,10 @@ impl Evaluator<'_> {
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         self.scopes.open();
-        for (&(parameter, _), bound) in definition.parameters.iter().zip(bound.drain(..)) {
-            match bound {
-                Bound::Variable(slot) => self.scopes.bind(parameter, slot),
-                Bound::Element(slot, indices) => self.scopes.bind_element(parameter, slot, indices),
-                Bound::Value(value) => self.scopes.bind_value(parameter, value),
-                Bound::Nothing => self.scopes.bind_nothing(parameter),
-            }
+        for (&(parameter, _), &Bound { slot, own }) in definition.parameters.iter().zip(&bound) {
+            self.scopes.bind(parameter, slot, own);
         }
+        bound.clear();
         self.bound = bound;
         Ok(expansion)
     }
@@ -208,10 +245,9 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Outcome<()> {
         let parameters = &definition.parameters;
-        let required = parameters.iter().rposition(|&(_, optional)| !optional).map_or(0, |n| n + 1);
-        let wanted = required..=parameters.len();
-        let name = self.scopes.name(definition.name);
+        let wanted = definition.required..=parameters.len();
         let diagnostic = if !wanted.contains(&list.len()) {
+            let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
             Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"))
@@ -220,6 +256,7 @@ impl Evaluator<'_> {
                 !optional && matches!(argument, Argument::Items(items) if items.is_empty())
             })
         {
+            let name = self.scopes.name(definition.name);
             let parameter = self.scopes.name(parameters[empty].0);
             let message = format!("`{parameter}` of macro `{name}` is left empty");
             Diagnostic::new(Code::WrongArity, message)
@@ -271,32 +308,33 @@ impl Evaluator<'_> {
 
     /// A lone name or `A[i]` is passed by reference, all else by value.
     fn bound(&mut self, here: &Here, argument: &Argument, optional: bool, span: Span) -> Bound {
-        match *argument {
-            Argument::Expression(id) => {
-                if let ExpressionKind::Name(name) = here.unit.expression(id).kind {
+        let value = match *argument {
+            Argument::Expression(id) => match here.unit.expression(id).kind {
+                ExpressionKind::Name(name) => {
                     let symbol = here.symbol(name);
                     self.scopes.mark_used(symbol);
                     if let Some(slot) = self.scopes.slot(symbol) {
-                        return Bound::Variable(slot);
+                        return Bound { slot, own: false };
                     }
                     if optional && self.scopes.is_left_out(symbol) {
-                        return Bound::Nothing;
+                        return Bound::NOTHING;
                     }
+                    self.expression(here, id)
                 }
-                if let ExpressionKind::Index(..) = here.unit.expression(id).kind {
-                    match self.referred(here, id) {
-                        Ok(Some((slot, indices))) => return Bound::Element(slot, indices),
-                        Ok(None) => {}
-                        Err(Reported) => return Bound::Value(Value::Broken),
+                ExpressionKind::Index(..) => match self.referred(here, id) {
+                    Ok(Some((slot, indices))) => {
+                        return Bound { slot: self.scopes.refer(slot, indices), own: true };
                     }
-                }
-                Bound::Value(self.expression(here, id).unwrap_or(Value::Broken))
-            }
-            Argument::Items(items) if items.is_empty() => Bound::Nothing,
+                    Ok(None) => self.expression(here, id),
+                    Err(Reported) => Err(Reported),
+                },
+                _ => self.expression(here, id),
+            },
+            Argument::Items(items) if items.is_empty() => return Bound::NOTHING,
             Argument::Items(items) => {
-                let value = self.inside(here, items, |evaluator| evaluator.only_value(here, span));
-                Bound::Value(value.unwrap_or(Value::Broken))
+                self.inside(here, items, |evaluator| evaluator.only_value(here, span))
             }
-        }
+        };
+        Bound { slot: self.scopes.keep(value.unwrap_or(Value::Broken)), own: true }
     }
 }

@@ -16,17 +16,55 @@ const PLAIN_DEPTH: u32 = 8;
 impl Evaluator<'_> {
     /// The value of an expression; poison if something in it is not built yet.
     pub(super) fn expression(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
-        let expression = *here.unit.expression(id);
+        match self.plain_number(here, id, PLAIN_DEPTH) {
+            Some(number) => Ok(Value::Number(number)),
+            None => self.any_value(here, id),
+        }
+    }
+
+    /// The value of what is made of numbers, and of names of numbers, alone: most of what loops calculate.
+    /// `None` where it takes more than that, or has no finite value.
+    #[inline(always)]
+    fn plain_number(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Number(number) => Some(number).filter(|number| number.is_finite()),
+            ExpressionKind::Name(name) => self.scopes.read(here.symbol(name))?.as_number(),
+            ExpressionKind::Group(_)
+            | ExpressionKind::Unary(UnaryOperator::Minus, _)
+            | ExpressionKind::Binary(..)
+                if depth > 0 =>
+            {
+                self.plain_result(here, id, depth - 1)
+            }
+            _ => None,
+        }
+    }
+
+    fn plain_result(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Group(inner) => self.plain_number(here, inner, depth),
+            ExpressionKind::Unary(UnaryOperator::Minus, operand) => {
+                self.plain_number(here, operand, depth).map(|number| -number)
+            }
+            ExpressionKind::Binary(operator, left, right) => {
+                let left = self.plain_number(here, left, depth)?;
+                let right = self.plain_number(here, right, depth)?;
+                value::numbers_meet(operator, left, right).ok()
+            }
+            _ => None,
+        }
+    }
+
+    #[inline(never)]
+    fn any_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let expression = here.unit.expression(id);
         match expression.kind {
-            ExpressionKind::Number(number) => {
-                if number.is_finite() {
-                    Ok(Value::Number(number))
-                } else {
-                    let message = "this number is too large: the largest is about 1.8e308";
-                    let diagnostic =
-                        Diagnostic::new(Code::NotANumber, message).at(expression.span, "too large");
-                    Err(self.report(here, diagnostic))
-                }
+            ExpressionKind::Number(number) if number.is_finite() => Ok(Value::Number(number)),
+            ExpressionKind::Number(_) => {
+                let message = "this number is too large: the largest is about 1.8e308";
+                let diagnostic =
+                    Diagnostic::new(Code::NotANumber, message).at(expression.span, "too large");
+                Err(self.report(here, diagnostic))
             }
             ExpressionKind::Name(name) => self.name_value(here, here.symbol(name), expression.span),
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
@@ -34,9 +72,6 @@ impl Evaluator<'_> {
             ExpressionKind::Missing => Err(Reported),
             // Brackets in brackets.
             _ => {
-                if let Some(number) = self.plain_number(here, id, PLAIN_DEPTH) {
-                    return Ok(Value::Number(number));
-                }
                 self.calculating += 1;
                 let value = stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id));
                 self.calculating -= 1;
@@ -45,28 +80,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value of what is made of numbers, and of names of numbers, alone: most of what loops calculate.
-    /// `None` where it takes more than that, or has no finite value.
-    fn plain_number(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
-        match here.unit.expression(id).kind {
-            ExpressionKind::Number(number) => Some(number).filter(|number| number.is_finite()),
-            ExpressionKind::Name(name) => self.scopes.read(here.symbol(name))?.as_number(),
-            _ if depth == 0 => None,
-            ExpressionKind::Group(inner) => self.plain_number(here, inner, depth - 1),
-            ExpressionKind::Unary(UnaryOperator::Minus, operand) => {
-                self.plain_number(here, operand, depth - 1).map(|number| -number)
-            }
-            ExpressionKind::Binary(operator, left, right) => {
-                let left = self.plain_number(here, left, depth - 1)?;
-                let right = self.plain_number(here, right, depth - 1)?;
-                value::numbers_meet(operator, left, right).ok()
-            }
-            _ => None,
-        }
-    }
-
     fn compound(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
-        let expression = *here.unit.expression(id);
+        let expression = here.unit.expression(id);
         match expression.kind {
             ExpressionKind::Unary(operator, operand) => {
                 let value = self.operand(here, operand)?;
@@ -163,7 +178,7 @@ impl Evaluator<'_> {
         id: ExpressionId,
         value: Outcome<Value>,
     ) -> Outcome<Value> {
-        let expression = *here.unit.expression(id);
+        let expression = here.unit.expression(id);
         let ExpressionKind::Binary(operator, left, right) = expression.kind else { return value };
         // Both sides are evaluated before either fails: each may report, and both draw from streams.
         let operand = self.operand(here, right);

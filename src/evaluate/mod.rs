@@ -51,7 +51,7 @@ use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
 use scope::{Scopes, Symbol};
-use stream::{Frame, Hold, Token};
+use stream::{Frame, Hold, Silent, Token};
 use value::{Poison, Value};
 
 /// What the caller sets.
@@ -226,6 +226,8 @@ struct Evaluator<'a> {
     /// How often a `}` has closed another block than it would where it is written.
     loose_closers: u64,
     peeked: Option<Token>,
+    /// The macro call just before the item that comes next that gave no item itself.
+    silent: Option<Silent>,
     /// Where the item stood that a consumer took last: the end of what it is reading.
     taken: Option<Site>,
     /// While the value of a `#declare` is read. Looking past its end runs nothing there, since that may
@@ -273,8 +275,8 @@ struct Evaluator<'a> {
     reports: u64,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
-    /// What stands between their braces, where it is written as one text.
-    insides: Vec<Option<Site>>,
+    /// All of each of these blocks, from brace to brace.
+    blocks: Vec<Site>,
     /// Whether an expression is an angle in radians, as far as lints have asked.
     in_radians: HashMap<Span, bool>,
     /// What `trace` and its kin have looked at.
@@ -346,6 +348,7 @@ impl<'a> Evaluator<'a> {
             loose_blocks: 0,
             loose_closers: 0,
             peeked: None,
+            silent: None,
             taken: None,
             hold: None,
             calls_wait: false,
@@ -371,7 +374,7 @@ impl<'a> Evaluator<'a> {
             misread: false,
             reports: 0,
             openers: Vec::new(),
-            insides: Vec::new(),
+            blocks: Vec::new(),
             in_radians: HashMap::new(),
             probes: HashMap::new(),
         }

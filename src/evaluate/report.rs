@@ -14,10 +14,12 @@ use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, Symbol, endless};
 
 impl Evaluator<'_> {
+    #[cold]
     pub(super) fn report(&mut self, here: &Here, diagnostic: Diagnostic) -> Reported {
         self.report_in(here.expansion, diagnostic)
     }
 
+    #[cold]
     pub(super) fn report_in(
         &mut self,
         expansion: ExpansionId,
@@ -214,21 +216,14 @@ impl Evaluator<'_> {
         Err(self.halt(here.expansion, diagnostic))
     }
 
-    /// Whether more has to be remembered than the limit: then nothing further is evaluated.
-    pub(super) fn exceeds_memory(&mut self, here: &Here, span: Span) -> bool {
-        if self.has_memory(0) {
-            return false;
-        }
-        self.too_much_memory(here, span);
-        true
-    }
-
     /// Whether so many bytes more may be remembered.
     pub(super) fn has_memory(&self, more: u64) -> bool {
         let held = self.stored.saturating_add(self.scopes.held()).saturating_add(more);
         held >> 20 < self.options.limits.memory
     }
 
+    /// Nothing further is evaluated.
+    #[cold]
     pub(super) fn too_much_memory(&mut self, here: &Here, span: Span) -> Reported {
         let limit = self.options.limits.memory;
         let message = format!("what this scene has to remember is larger than {limit} MiB");
@@ -246,6 +241,9 @@ impl Evaluator<'_> {
         found: Option<&Token>,
         otherwise: (&Here, Span),
     ) -> Reported {
+        if let Some(reported) = self.blame_macro(wanted) {
+            return reported;
+        }
         match found {
             Some(token) => {
                 let text = self.describe(token);

@@ -25,7 +25,7 @@ pub struct Slot(u32);
 
 impl Slot {
     /// Of an optional parameter that a call left out: it hides what else has its name.
-    const NONE: Self = Self(u32::MAX);
+    pub const NONE: Self = Self(u32::MAX);
 }
 
 /// Whose a name is, where it was first declared.
@@ -165,7 +165,7 @@ impl Scopes {
     /// Closes the newest table; its names are forgotten.
     pub fn close(&mut self) {
         let mut table = self.tables.pop().unwrap_or_default();
-        for (symbol, own) in table.drain(..) {
+        while let Some((symbol, own)) = table.pop() {
             if let Some((_, slot)) = self.states[symbol.0 as usize].bindings.pop()
                 && own
             {
@@ -205,7 +205,7 @@ impl Scopes {
         let at = bindings.partition_point(|&(other, _)| other <= depth);
         match bindings[..at].last() {
             Some(&(other, Slot::NONE)) if other == depth => {
-                let slot = self.new_slot(value);
+                let slot = self.keep(value);
                 self.states[symbol.0 as usize].bindings[at - 1].1 = slot;
                 let table = &mut self.tables[depth as usize];
                 if let Some((_, own)) = table.iter_mut().rev().find(|(other, _)| *other == symbol) {
@@ -214,7 +214,7 @@ impl Scopes {
             }
             Some(&(other, slot)) if other == depth => self.put(slot, value),
             _ => {
-                let slot = self.new_slot(value);
+                let slot = self.keep(value);
                 self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
                 self.tables[depth as usize].push((symbol, true));
             }
@@ -238,30 +238,9 @@ impl Scopes {
         }
     }
 
-    /// Binds a parameter to a value of its own.
-    pub fn bind_value(&mut self, symbol: Symbol, value: Value) {
-        let slot = self.new_slot(value);
-        self.bind_slot(symbol, slot, true);
-    }
-
-    /// Binds a parameter to the caller's variable.
-    pub fn bind(&mut self, symbol: Symbol, slot: Slot) {
-        self.bind_slot(symbol, slot, false);
-    }
-
-    /// Binds a parameter to an element of the caller's array, which has it.
-    pub fn bind_element(&mut self, symbol: Symbol, array: Slot, indices: Box<[f64]>) {
-        let slot = self.empty_slot();
-        self.slots[slot.0 as usize] = Kept::Element(array, indices);
-        self.bind_slot(symbol, slot, true);
-    }
-
-    /// Binds a parameter that was left out: its name is not declared until it is assigned.
-    pub fn bind_nothing(&mut self, symbol: Symbol) {
-        self.bind_slot(symbol, Slot::NONE, false);
-    }
-
-    fn bind_slot(&mut self, symbol: Symbol, slot: Slot, own: bool) {
+    /// Binds a parameter: to a slot of its `own`, which is free when the table closes; to the caller's
+    /// variable; or to [`Slot::NONE`], so that its name is not declared until it is assigned.
+    pub fn bind(&mut self, symbol: Symbol, slot: Slot, own: bool) {
         let depth = self.tables.len() as u32 - 1;
         self.states[symbol.0 as usize].bindings.push((depth, slot));
         if let Some(table) = self.tables.last_mut() {
@@ -322,17 +301,24 @@ impl Scopes {
         })
     }
 
-    fn new_slot(&mut self, value: Value) -> Slot {
-        let slot = self.empty_slot();
-        self.put(slot, value);
-        slot
+    /// A slot for a value that no name has yet.
+    pub fn keep(&mut self, value: Value) -> Slot {
+        self.held = self.held.saturating_add(value.bytes());
+        self.fill(Kept::Value(value))
     }
 
-    fn empty_slot(&mut self) -> Slot {
-        self.free.pop().unwrap_or_else(|| {
-            self.slots.push(Kept::Value(Value::Broken));
-            Slot(self.slots.len() as u32 - 1)
-        })
+    /// A slot that stands for an element of the array in another slot, which has it.
+    pub fn refer(&mut self, array: Slot, indices: Box<[f64]>) -> Slot {
+        self.fill(Kept::Element(array, indices))
+    }
+
+    fn fill(&mut self, kept: Kept) -> Slot {
+        if let Some(slot) = self.free.pop() {
+            self.slots[slot.0 as usize] = kept;
+            return slot;
+        }
+        self.slots.push(kept);
+        Slot(self.slots.len() as u32 - 1)
     }
 
     fn release(&mut self, slot: Slot) {
@@ -395,7 +381,7 @@ mod tests {
         scopes.assign(a, Value::Number(1.0));
         let slot = scopes.slot(a).expect("declared");
         scopes.open();
-        scopes.bind(p, slot);
+        scopes.bind(p, slot, false);
         scopes.assign(p, Value::Number(9.0));
         scopes.close();
         assert_eq!(number(&mut scopes, a), Some(9.0));

@@ -5,14 +5,14 @@
 
 use std::rc::Rc;
 
-use crate::source::{ExpansionId, ExpansionKind, FileId, Span};
-use crate::syntax::ast::{DirectiveId, ExpressionId, ExpressionKind, ItemKind, Items};
+use crate::source::{ExpansionId, ExpansionKind, FileId, Site, Span};
+use crate::syntax::ast::{DirectiveId, ExpressionId, ExpressionKind, Item, ItemKind, Items};
 use crate::vocabulary::Word;
 
 use super::enclosure::Contents;
 use super::scope::Symbol;
 use super::value::{Components, Value};
-use super::{Evaluator, Here, Outcome, Unit};
+use super::{Evaluator, Here, Outcome, Reported, Unit};
 
 /// A loop in which mistakes were reported ends after so many turns without another word.
 pub(super) const FAULTY_TURNS: u64 = 1_000;
@@ -26,6 +26,21 @@ pub(super) struct Frame {
     /// Elements already taken of the number run at `at`.
     taken: u32,
     pub(super) kind: FrameKind,
+}
+
+impl Frame {
+    /// The next element of the number run at `at`, which is taken.
+    fn literal(&mut self, start: u32, count: u32, width: u32) -> Value {
+        let first = (start + self.taken * width) as usize;
+        self.taken += 1;
+        if self.taken == count {
+            (self.at, self.taken) = (self.at + 1, 0);
+        }
+        match &self.here.unit.ast.numbers[first..first + width as usize] {
+            [number] => Value::Number(*number),
+            numbers => Components::new(numbers).map_or(Value::Broken, Value::Vector),
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -66,6 +81,15 @@ pub(super) enum FrameKind {
 pub(super) struct Hold {
     pub own: usize,
     pub first: usize,
+}
+
+/// A macro call that gave no item.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Silent {
+    /// `None` where the call itself was at fault, and that was told.
+    pub called: Option<ExpansionId>,
+    /// What had been taken before it.
+    behind: Option<Site>,
 }
 
 /// What a consumer gets.
@@ -275,97 +299,107 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Whether what comes next is not run now, since it lies behind the value of a `#declare`.
+    fn waits(&self) -> bool {
+        let Some(hold) = self.hold else { return false };
+        let Some(frame) = self.frames.last() else { return false };
+        let depth = self.frames.len();
+        if frame.at == frame.end {
+            let turns = matches!(frame.kind, FrameKind::While { .. } | FrameKind::For { .. });
+            return depth <= hold.own || (depth <= hold.first && turns);
+        }
+        let ast = &frame.here.unit.ast;
+        depth <= hold.first
+            && match ast.items[frame.at as usize].kind {
+                ItemKind::Directive(_) => true,
+                ItemKind::Expression(id) => {
+                    self.calls_wait && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
+                }
+                _ => false,
+            }
+    }
+
     fn pull(&mut self) -> Option<Token> {
+        let newest = self.scene.expansions.newest();
+        if self.silent.is_some_and(|silent| silent.behind != self.taken) {
+            self.silent = None;
+        }
         loop {
             if self.halted {
                 return None;
             }
             // A directive may have looked at what comes after its value.
-            if let Some(token) = self.peeked.take() {
-                return Some(token);
+            if self.peeked.is_some() {
+                return self.peeked.take();
             }
-            let depth = self.frames.len();
-            let frame = self.frames.last_mut()?;
-            let waits = self.hold.is_some_and(|hold| {
-                if frame.at == frame.end {
-                    let turns =
-                        matches!(frame.kind, FrameKind::While { .. } | FrameKind::For { .. });
-                    return depth <= hold.own || (depth <= hold.first && turns);
-                }
-                let ast = &frame.here.unit.ast;
-                depth <= hold.first
-                    && match ast.items[frame.at as usize].kind {
-                        ItemKind::Directive(_) => true,
-                        ItemKind::Expression(id) => {
-                            self.calls_wait
-                                && matches!(ast.expression(id).kind, ExpressionKind::Call(..))
-                        }
-                        _ => false,
-                    }
-            });
-            if waits {
+            if self.waits() {
                 return None;
             }
+            let has_memory = self.has_memory(0);
+            let frame = self.frames.last_mut()?;
             if frame.at == frame.end {
                 match frame.kind {
                     FrameKind::Barrier | FrameKind::Block => return None,
                     FrameKind::While { .. } | FrameKind::For { .. } => self.turn(),
-                    FrameKind::Branch
-                    | FrameKind::Switch
-                    | FrameKind::Macro
-                    | FrameKind::Include => {
+                    FrameKind::Branch | FrameKind::Switch | FrameKind::Include => self.pop_frame(),
+                    FrameKind::Macro => {
+                        let called = frame.here.expansion;
+                        if called > newest {
+                            self.silent = Some(Silent { called: Some(called), behind: self.taken });
+                        }
                         self.pop_frame();
                     }
                 }
                 continue;
             }
-            let item = frame.here.unit.ast.items[frame.at as usize];
+            let Item { kind, span } = frame.here.unit.ast.items[frame.at as usize];
             let here = frame.here.clone();
-            if self.exceeds_memory(&here, item.span) {
+            if !has_memory {
+                self.too_much_memory(&here, span);
                 return None;
             }
-            let frame = self.frames.last_mut()?;
-            let token = |kind| Some(Token { kind, span: item.span, here: here.clone() });
-            if let ItemKind::Numbers { start, count, width } = item.kind {
-                let first = (start + frame.taken * width) as usize;
-                frame.taken += 1;
-                if frame.taken == count {
-                    frame.taken = 0;
-                    frame.at += 1;
+            if kind == ItemKind::Close {
+                if self.may_close(&here, span) {
+                    return None;
                 }
-                let numbers = &here.unit.ast.numbers[first..first + width as usize];
-                let value = match numbers {
-                    [number] => Value::Number(*number),
-                    _ => Components::new(numbers).map_or(Value::Broken, Value::Vector),
-                };
-                return token(TokenKind::Literal(Box::new(value)));
+                self.frames.last_mut()?.at += 1;
+                continue;
             }
-            if item.kind == ItemKind::Close && self.may_close(&here, item.span) {
-                return None;
+            if let ItemKind::Numbers { start, count, width } = kind {
+                let value = frame.literal(start, count, width);
+                return Some(Token { kind: TokenKind::Literal(Box::new(value)), span, here });
             }
-            let frame = self.frames.last_mut()?;
             frame.at += 1;
-            match item.kind {
-                ItemKind::Close => {}
-                ItemKind::Open => return token(TokenKind::Block(Contents::Following)),
-                ItemKind::Word(word) => return token(TokenKind::Word(word)),
-                ItemKind::Block(items) => return token(TokenKind::Block(Contents::Items(items))),
-                ItemKind::Entry(items) => return token(TokenKind::Entry(items)),
-                ItemKind::Comma => return token(TokenKind::Comma),
-                ItemKind::Semicolon => return token(TokenKind::Semicolon),
-                ItemKind::Numbers { .. } => {}
-                ItemKind::Expression(id) => match here.unit.expression(id).kind {
-                    ExpressionKind::Call(..) | ExpressionKind::Name(_)
-                        if self.splices_macro(&here, id).unwrap_or(true) => {}
-                    _ => return token(TokenKind::Expression(id)),
-                },
+            let kind = match kind {
+                ItemKind::Close | ItemKind::Numbers { .. } => continue,
+                ItemKind::Open => TokenKind::Block(Contents::Following),
+                ItemKind::Word(word) => TokenKind::Word(word),
+                ItemKind::Block(items) => TokenKind::Block(Contents::Items(items)),
+                ItemKind::Entry(items) => TokenKind::Entry(items),
+                ItemKind::Comma => TokenKind::Comma,
+                ItemKind::Semicolon => TokenKind::Semicolon,
+                ItemKind::Expression(id) => {
+                    if let ExpressionKind::Call(..) = here.unit.expression(id).kind {
+                        match self.splices_macro(&here, id) {
+                            Ok(true) => continue,
+                            Ok(false) => {}
+                            Err(Reported) => {
+                                self.silent = Some(Silent { called: None, behind: self.taken });
+                                continue;
+                            }
+                        }
+                    }
+                    TokenKind::Expression(id)
+                }
                 ItemKind::Directive(id) => {
-                    let taken = self.taken;
+                    let (taken, silent) = (self.taken, self.silent);
                     // Reported where it happened; the statement is the fault boundary.
                     let _: Outcome<()> = self.directive(&here, id);
-                    self.taken = taken;
+                    (self.taken, self.silent) = (taken, silent);
+                    continue;
                 }
-            }
+            };
+            return Some(Token { kind, span, here });
         }
     }
 }

@@ -50,6 +50,7 @@ macro_rules! facts {
     };
 }
 
+mod call;
 mod deep;
 mod file;
 mod internal;

@@ -8,6 +8,7 @@ use super::{Evaluator, Here, Limits, Outcome, endless};
 
 impl Evaluator<'_> {
     /// One more turn of the innermost loop, or its end.
+    #[inline(never)]
     pub(super) fn turn(&mut self) {
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
@@ -44,9 +45,9 @@ impl Evaluator<'_> {
                     }
                     let ast = &here.unit.ast;
                     let constant = turns == 1 && endless::is_constant(ast, condition);
-                    let word = self.sources.text(ast.directive(directive).head);
                     if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
                         // A misspelt word may have meant another directive.
+                        let word = self.sources.text(ast.directive(directive).head);
                         if !word.ends_with("while") {
                             return self.pop_frame();
                         }

@@ -16,8 +16,7 @@ impl Evaluator<'_> {
         components: Arguments,
         span: Span,
     ) -> Outcome<Value> {
-        let unit = here.unit.clone();
-        let arguments = unit.ast.arguments(components);
+        let arguments = here.unit.ast.arguments(components);
         let (mut numbers, mut count) = ([0.0; 5], 0);
         let mut failed = false;
         let mut poison = None;
@@ -35,14 +34,14 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
                 Ok(other) => {
-                    let span = unit.expression(id).span;
+                    let span = here.unit.expression(id).span;
                     let diagnostic = Diagnostic::new(
                         Code::WrongType,
                         format!("a component of a vector is a number, this is {}", other.kind()),
                     )
                     .at(span, "expected a number");
                     let text = self.sources.text(span);
-                    let diagnostic = match (&other, unit.expression(id).kind) {
+                    let diagnostic = match (&other, here.unit.expression(id).kind) {
                         (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
                             .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
                         _ => diagnostic,

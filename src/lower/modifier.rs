@@ -10,9 +10,10 @@ use crate::scene::{InteriorId, ModifierKind, ObjectId, TextureId};
 use crate::source::Site;
 
 /// An object's modifiers come to this.
+#[derive(Default)]
 pub(super) struct Modified {
-    /// From the space the object was written in to that of its parent.
-    pub map: Affine,
+    /// From the space the object was written in to that of its parent; `None` where they are the same.
+    pub map: Option<Affine>,
     /// Its place is in the parent's space.
     pub surface: Option<Surface>,
     pub interior: Option<InteriorId>,
@@ -23,6 +24,18 @@ pub(super) struct Modified {
     pub calls: Calls,
     /// What clips it, and the map to the parent's space.
     pub clips: Vec<(ObjectId, Affine)>,
+}
+
+impl Modified {
+    /// What was undone calls for nothing.
+    pub fn settle(&mut self) {
+        if !(self.flags.no_image || self.flags.no_reflection) {
+            self.calls.hidden.clear();
+        }
+        if !self.flags.double_illuminate {
+            self.calls.double_illuminate.clear();
+        }
+    }
 }
 
 /// What an object is that most are not.
@@ -62,36 +75,24 @@ pub(super) struct Calls {
 }
 
 impl Lowering<'_, '_> {
-    /// The modifiers of an object and of its uses, innermost first. `None`, and a message, where a
-    /// transform cannot be spent.
+    /// The modifiers of an object, or of a use of it, which come after its own. `None`, and a message, where
+    /// a transform cannot be spent.
     pub(super) fn modify(
         &mut self,
-        uses: &[ObjectId],
+        modified: &mut Modified,
+        id: ObjectId,
         default_texture: TextureId,
-    ) -> Option<Modified> {
+    ) -> Option<()> {
         let scene = self.scene;
-        let mut modified = Modified {
-            map: Affine::IDENTITY,
-            surface: None,
-            interior: None,
-            flags: Flags::default(),
-            hidden_by: None,
-            strained: false,
-            calls: Calls::default(),
-            clips: Vec::new(),
-        };
-        let modifiers = |&id: &ObjectId| {
-            scene.objects[id.index()].modifiers.iter().map(move |modifier| (id, modifier))
-        };
-        for (id, modifier) in uses.iter().rev().flat_map(modifiers) {
-            let map = modified.map;
+        for modifier in &scene.objects[id.index()].modifiers {
+            let map = modified.map.unwrap_or(Affine::IDENTITY);
             let (flags, calls) = (&mut modified.flags, &mut modified.calls);
             match modifier.kind {
                 ModifierKind::Transform(id) => {
                     let step = self.transforms.get(id);
                     let step = self.reporter.made(step, modifier.site)?;
                     modified.strained |= self.transforms.near_singular(id).is_some();
-                    modified.map = step.after(&map);
+                    modified.map = Some(step.after(&map));
                     modified.surface = modified.surface.map(|surface| surface.within(&step));
                     for (_, parent_from_region) in &mut modified.clips {
                         *parent_from_region = step.after(parent_from_region);
@@ -131,15 +132,7 @@ impl Lowering<'_, '_> {
             let hiding = flags.hide();
             modified.hidden_by = modified.hidden_by.or(Some(id)).filter(|_| hiding);
         }
-        // What was undone calls for nothing.
-        let (flags, calls) = (modified.flags, &mut modified.calls);
-        if !(flags.no_image || flags.no_reflection) {
-            calls.hidden.clear();
-        }
-        if !flags.double_illuminate {
-            calls.double_illuminate.clear();
-        }
-        Some(modified)
+        Some(())
     }
 
     /// The object's own surface; the default texture where it has none yet.

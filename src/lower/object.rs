@@ -3,7 +3,7 @@
 //! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
 
 use super::csg::{Making, Open};
-use super::modifier::{Calls, Flags};
+use super::modifier::{Calls, Flags, Modified};
 use super::shape::{LocalFace, Round};
 use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
@@ -31,6 +31,21 @@ struct Inherited {
     strained: bool,
 }
 
+impl Inherited {
+    /// What a root takes from the scene, whose default is `surface`.
+    fn root(surface: Surface) -> Self {
+        Self {
+            world_from_here: Affine::IDENTITY,
+            surface,
+            interior: None,
+            flags: Flags::default(),
+            hidden_by: None,
+            item: None,
+            strained: false,
+        }
+    }
+}
+
 /// Objects that are still to be gone through.
 struct Frame<'s> {
     /// The operation that makes one solid of them.
@@ -43,7 +58,6 @@ struct Frame<'s> {
     before: usize,
     children: Children<'s>,
     inherited: Inherited,
-    default_texture: TextureId,
 }
 
 /// What a frame goes through.
@@ -55,41 +69,22 @@ enum Children<'s> {
 
 impl<'s> Lowering<'s, '_> {
     pub(super) fn objects(&mut self) {
-        let scene = self.scene;
-        let limit = self.options.objects;
         let mut visits = 0;
-        let mut stack = Vec::new();
+        let mut stack: Vec<Frame> = Vec::new();
         // Most roots have the same default.
-        let mut last: Option<(TextureId, Surface)> = None;
-        for Root { object, default_texture } in &scene.roots {
-            let known = last.filter(|(texture, _)| texture == default_texture);
-            let default = match known {
-                Some((_, surface)) => Ok(surface),
-                None => {
-                    Surface::set(scene, &mut self.transforms, *default_texture, Affine::IDENTITY)
-                }
-            };
-            let Some(surface) = self.reporter.made_there(default) else { continue };
-            last = Some((*default_texture, surface));
-            let inherited = Inherited {
-                world_from_here: Affine::IDENTITY,
-                surface,
-                interior: None,
-                flags: Flags::default(),
-                hidden_by: None,
-                item: None,
-                strained: false,
-            };
-            stack.push(Frame {
-                open: None,
-                difference: false,
-                is_first: true,
-                calls: Calls::default(),
-                before: self.world.objects.len(),
-                children: Children::Listed(std::slice::from_ref(object).iter()),
-                inherited,
-                default_texture: *default_texture,
-            });
+        let mut last: Option<(TextureId, Inherited)> = None;
+        for &Root { object, default_texture } in &self.scene.roots {
+            if last.as_ref().is_none_or(|(texture, _)| *texture != default_texture) {
+                let place = Affine::IDENTITY;
+                let set = Surface::set(self.scene, &mut self.transforms, default_texture, place);
+                let Some(surface) = self.reporter.made_there(set) else { continue };
+                last = Some((default_texture, Inherited::root(surface)));
+            }
+            let Some((_, inherited)) = &last else { continue };
+            if !self.may_visit(object, &mut visits) {
+                return;
+            }
+            self.visit(object, inherited, default_texture, &mut stack);
             while let Some(frame) = stack.last_mut() {
                 let Some((id, inherited)) = frame.next() else {
                     if let Some(Frame { open, calls, before, .. }) = stack.pop() {
@@ -98,21 +93,26 @@ impl<'s> Lowering<'s, '_> {
                     }
                     continue;
                 };
-                visits += 1;
-                if visits > limit {
-                    let fault = Fault::new(
-                        Code::ObjectLimit,
-                        format!("the scene has more than {limit} objects"),
-                    )
-                    .help("raise the limit with `--limit objects=N`");
-                    self.reporter
-                        .fault(fault.label("reached here"), scene.objects[id.index()].site);
+                if !self.may_visit(id, &mut visits) {
                     return;
                 }
-                let default_texture = frame.default_texture;
                 self.visit(id, &inherited, default_texture, &mut stack);
             }
         }
+    }
+
+    /// Counts one object more; says so where that is one too many.
+    fn may_visit(&mut self, id: ObjectId, visits: &mut u64) -> bool {
+        let limit = self.options.objects;
+        *visits += 1;
+        if *visits <= limit {
+            return true;
+        }
+        let fault =
+            Fault::new(Code::ObjectLimit, format!("the scene has more than {limit} objects"))
+                .help("raise the limit with `--limit objects=N`");
+        self.reporter.fault(fault.label("reached here"), self.scene.objects[id.index()].site);
+        false
     }
 
     /// Spends a leaf, or puts what an object holds on the stack.
@@ -125,25 +125,34 @@ impl<'s> Lowering<'s, '_> {
     ) {
         let scene = self.scene;
         // A use goes on where the object it names left off: its texture replaces that one's.
-        let mut uses = vec![id];
-        let mut target = id;
+        let (mut uses, mut target) = (Vec::new(), id);
         while let ObjectKind::Use(next) = scene.objects[target.index()].kind {
+            uses.push(target);
             target = next;
-            uses.push(next);
         }
         let object = &scene.objects[target.index()];
-        let own = uses.iter().rev().find_map(|id| scene.objects[id.index()].item);
-        let Some(modified) = self.modify(&uses, default_texture) else { return };
-        let world_from_here = inherited.world_from_here.after(&modified.map);
-        let surface = match modified.surface {
-            Some(own) => own.within(&inherited.world_from_here),
-            None => inherited.surface.under(&modified.map),
-        };
+        let mut own = object.item;
+        let mut modified = Modified::default();
+        for &id in [target].iter().chain(uses.iter().rev()) {
+            own = own.or(scene.objects[id.index()].item);
+            if self.modify(&mut modified, id, default_texture).is_none() {
+                return;
+            }
+        }
+        modified.settle();
+        let above = &inherited.world_from_here;
         let flags = modified.flags.under(inherited.flags);
         let by_both = flags.hide().then_some(id);
         let here = Inherited {
-            world_from_here,
-            surface,
+            world_from_here: match &modified.map {
+                Some(map) => above.after(map),
+                None => *above,
+            },
+            surface: match (&modified.surface, &modified.map) {
+                (Some(own), _) => own.within(above),
+                (None, Some(map)) => inherited.surface.under(map),
+                (None, None) => inherited.surface,
+            },
             interior: modified.interior.or(inherited.interior),
             flags,
             hidden_by: inherited.hidden_by.or(modified.hidden_by).or(by_both),
@@ -160,7 +169,6 @@ impl<'s> Lowering<'s, '_> {
             before,
             children,
             inherited,
-            default_texture,
         };
         if !modified.clips.is_empty() {
             let open = self.open(Making::Clip, inverse);
@@ -193,7 +201,7 @@ impl<'s> Lowering<'s, '_> {
             }
             ObjectKind::LightSource(light) => {
                 let item = here.item.unwrap_or(object.site);
-                self.light(light, &world_from_here, object.site, item);
+                self.light(light, &here.world_from_here, object.site, item);
             }
             ObjectKind::Solid(solid) => {
                 let spent = self.solid(solid, &here, object.site);

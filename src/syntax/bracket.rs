@@ -2,7 +2,7 @@
 
 use super::ast::{Argument, Callee, ExpressionId, ExpressionKind, Item, ItemKind};
 use super::nest::{Frame, FrameKind, Nest, State};
-use super::token::{Bracket, TokenKind};
+use super::token::{Bracket, Head, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -144,19 +144,24 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn end_last_argument(&mut self, frame: &Frame, close: Span) {
-        let empty = self.items.len() == frame.items;
-        // A macro's call and a directive's list may end with a comma, a function's may not.
-        if let FrameKind::Call(Callee::Word(..)) = frame.kind
-            && empty
-            && self.arguments.len() > frame.arguments
-        {
-            let text = self.slice(close);
-            self.report(
-                Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
-                    .at(close, format!("`{text}` follows the comma")),
-            );
+        let after_comma = self.items.len() == frame.items && self.arguments.len() > frame.arguments;
+        let in_macro_head = matches!(self.top().kind, FrameKind::Head(Head::Macro));
+        match frame.kind {
+            FrameKind::Call(Callee::Word(..)) if after_comma => {
+                let text = self.slice(close);
+                self.report(
+                    Diagnostic::new(Code::ExpectedExpression, "expected an argument after `,`")
+                        .at(close, format!("`{text}` follows the comma")),
+                );
+            }
+            // Who is called knows whether it may be left empty.
+            FrameKind::Call(Callee::Name(..)) if after_comma && !in_macro_head => {
+                let items = self.take_items(frame.items);
+                self.arguments.push(Argument::Items(items));
+            }
+            // A directive's list may end with a comma.
+            _ => self.arguments_from(frame.items),
         }
-        self.arguments_from(frame.items);
     }
 
     pub(super) fn arguments_from(&mut self, base: usize) {

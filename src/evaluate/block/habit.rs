@@ -50,8 +50,12 @@ impl Evaluator<'_> {
     pub(super) fn bare_points(&mut self, points: usize, numbers: usize) -> Option<Reported> {
         let first = self.peek()?.span;
         let text = &self.sources.get(first.file).text;
-        let (mut found, wanted): (Vec<Span>, _) = (Vec::new(), 3 * points + numbers);
         let mut at = first.start as usize;
+        // Most points are vectors and names.
+        if !matches!(text.as_bytes().get(at), Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b',')) {
+            return None;
+        }
+        let (mut found, wanted): (Vec<Span>, _) = (Vec::new(), 3 * points + numbers);
         // One more would be too many.
         while found.len() <= wanted {
             let rest = text.get(at..)?;

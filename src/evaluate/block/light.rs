@@ -79,7 +79,7 @@ impl Evaluator<'_> {
     }
 
     fn declared_light(&mut self) -> Option<ObjectId> {
-        match self.peek_declared()? {
+        match *self.peek_declared()? {
             Value::Object(object) => Some(object),
             _ => None,
         }

@@ -226,20 +226,14 @@ impl Evaluator<'_> {
         match self.next() {
             Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
-                // A block that is never closed has no end to stop before.
-                let whole = self.sources.text(span).strip_prefix('{');
-                let inside = whole.and_then(|text| text.strip_suffix('}')).map(|text| {
-                    let start = span.start as usize + 1;
-                    here.site(Span::new(span.file, start, start + text.len()))
-                });
-                self.insides.push(inside);
+                self.blocks.push(here.site(span));
                 // What stands in here is no part of what is not built before it.
                 let outer = self.poison.take();
                 let outcome = self.inside_block(&here, contents, span, consumer);
                 if let Some(inner) = std::mem::replace(&mut self.poison, outer) {
                     self.set_poison(inner);
                 }
-                self.insides.pop();
+                self.blocks.pop();
                 self.openers.pop();
                 outcome
             }

@@ -89,36 +89,29 @@ impl Evaluator<'_> {
         parts: impl FnOnce(&mut Self, &Token) -> Outcome<ObjectKind>,
     ) -> Outcome<ObjectId> {
         let site = token.here.site(token.span);
-        let (kind, modifiers, failed) = self.block(token, word, |evaluator| {
-            let kind = match evaluator.declared_object(word) {
+        let (mut kind, mut modifiers) = (Err(Reported), Vec::new());
+        self.block(token, word, |evaluator| {
+            kind = match evaluator.declared_object(word) {
                 Some(kind) => kind,
                 None => parts(evaluator, token),
             };
             if kind.is_err() {
                 evaluator.skip_parts();
             }
-            let mut modifiers = Vec::new();
             let used = match kind {
                 Ok(ObjectKind::Use(used)) => Some(used),
                 _ => None,
             };
-            let failed = evaluator.modifiers(word, used, &mut modifiers);
-            Ok((kind, modifiers, failed))
+            evaluator.modifiers(word, used, &mut modifiers)
         })?;
-        let kind = kind?;
-        if failed == Err(Reported) {
-            return Err(Reported);
-        }
-        self.add_object(Object { kind, modifiers, site, item: None })
+        self.add_object(Object { kind: kind?, modifiers, site, item: None })
     }
 
     /// `sphere { Ball … }`: a declared object where the parts would stand.
     fn declared_object(&mut self, word: Word) -> Option<Outcome<ObjectKind>> {
-        let value = self.peek_declared()?;
-        let token = self.peek()?.clone();
-        match value {
+        match *self.peek_declared()? {
             Value::Object(object) => {
-                self.next();
+                let token = self.next()?;
                 if let Some(reported) = self.wrong_kind(&token, word, object) {
                     return Some(Err(reported));
                 }
@@ -179,10 +172,11 @@ impl Evaluator<'_> {
 
     /// Takes a name that stands for something not built, and remembers it.
     pub(super) fn takes_poison(&mut self) -> bool {
-        let Some(Token { kind: TokenKind::Expression(id), .. }) = self.peek() else { return false };
-        let id = *id;
-        let Some(token) = self.peek().cloned() else { return false };
-        match self.named(&token, id) {
+        let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else {
+            return false;
+        };
+        let (id, here) = (*id, here.clone());
+        match self.named(&here, id) {
             Some(Value::Poison(poison)) => {
                 self.next();
                 self.set_poison(poison);

@@ -45,9 +45,18 @@ impl Evaluator<'_> {
         let [a, b] = self.scene.expansions.side_by_side(a, b);
         let between = Span { end: b.span.start, ..a.span };
         if a.span.file != b.span.file || self.sources.text(between).contains('#') {
-            return self.insides.last().copied().flatten().unwrap_or(a);
+            return self.within_block().unwrap_or(a);
         }
         Site { span: a.span.to(b.span), ..a }
+    }
+
+    /// What stands between the braces of the block being read. A block that is never closed has no end to
+    /// stop before.
+    pub(in crate::evaluate) fn within_block(&self) -> Option<Site> {
+        let Site { span, expansion } = *self.blocks.last()?;
+        let inside = self.sources.text(span).strip_prefix('{')?.strip_suffix('}')?;
+        let start = span.start + 1;
+        Some(Site { span: Span { start, end: start + inside.len() as u32, ..span }, expansion })
     }
 
     /// An object that the scene or a union holds: it could be taken out.
@@ -58,12 +67,21 @@ impl Evaluator<'_> {
 
     /// The value after `after` (a word of the block, or what opened it).
     pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
-        self.skip_commas();
+        // A macro that gave nothing may have stood before a comma; for the first part it must have.
+        let comma = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
+        let silent = self.silent;
+        if !(comma && silent.is_some() && self.taken == self.blocks.last().copied()) {
+            self.skip_commas();
+        }
         let is_value = matches!(
             self.peek().map(|token| &token.kind),
             Some(TokenKind::Expression(_) | TokenKind::Literal(_))
         );
         if !is_value {
+            self.silent = self.silent.or(silent);
+            if let Some(reported) = self.blame_macro(wanted) {
+                return Err(reported);
+            }
             let next = self.peek().cloned();
             let place = next.as_ref().map_or(after.span, |next| next.span);
             let place = after.here.site(place);
@@ -142,7 +160,7 @@ impl Evaluator<'_> {
         &mut self,
         after: &Token,
         (vector, number): (&str, &str),
-    ) -> (Outcome<Given<Value>>, Outcome<Given<f64>>) {
+    ) -> (Outcome<Given<Vector>>, Outcome<Given<f64>>) {
         if let Some(reported) = self.bare_points(1, 1) {
             return (Err(reported), Err(reported));
         }
@@ -160,7 +178,7 @@ impl Evaluator<'_> {
             let number = self.as_number(&given.here, given.span, &given.value, number)?;
             Ok(given.with(number))
         });
-        (first, second)
+        (first.and_then(|given| self.as_vector(given, vector)), second)
     }
 
     /// Two parts stand in each other's place.

@@ -149,7 +149,7 @@ impl Evaluator<'_> {
             }
             TokenKind::Expression(id) => {
                 let id = *id;
-                let value = match self.named(token, id) {
+                let value = match self.named(&token.here, id) {
                     Some(value) => value,
                     None if matches!(
                         token.here.unit.expression(id).kind,

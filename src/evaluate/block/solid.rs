@@ -23,7 +23,6 @@ impl Evaluator<'_> {
     fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
         let (centre, radius) = self.vector_and_number(token, WANTED);
-        let centre = centre.and_then(|given| self.as_vector(given, WANTED.0));
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
             self.scene.sizeless.push(("sphere", token.here.site(token.span)));
@@ -46,9 +45,7 @@ impl Evaluator<'_> {
     fn plane(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
         let (normal, distance) = self.vector_and_number(token, WANTED);
-        let normal = normal
-            .and_then(|given| self.as_vector(given, WANTED.0))
-            .and_then(|given| self.as_direction(given, "the normal"));
+        let normal = normal.and_then(|given| self.as_direction(given, "the normal"));
         let (normal, distance) = (normal?, distance?);
         Ok(Solid::Plane { normal: normal.value, distance: distance.value })
     }

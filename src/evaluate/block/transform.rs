@@ -8,9 +8,10 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Dialect, Word};
 
+use super::super::scope::Scopes;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Outcome, Reported};
+use super::super::{Evaluator, Here, Outcome, Reported};
 use super::Given;
 use super::Place;
 
@@ -221,45 +222,44 @@ impl Evaluator<'_> {
             ExpressionKind::Index(..) => {
                 Some(self.expression(&token.here, id).unwrap_or(Value::Broken))
             }
-            _ => self.named(token, id),
+            _ => self.named(&token.here, id),
         }
     }
 
     /// The value that comes next, if it is declared, before it is known whether it is wanted.
-    pub(super) fn peek_declared(&mut self) -> Option<Value> {
+    pub(super) fn peek_declared(&mut self) -> Option<&Value> {
         self.settle_element();
-        let token = self.peek()?.clone();
-        match token.kind {
-            TokenKind::Expression(id) => self.named(&token, id),
-            TokenKind::Literal(value) => Some(*value),
+        let token = self.peeked.as_ref()?;
+        match &token.kind {
+            TokenKind::Literal(value) => Some(value),
+            TokenKind::Expression(id) => named(&mut self.scopes, &token.here, *id),
             _ => None,
         }
     }
 
     /// Puts the value of an element of an array in the place of its expression, which is evaluated once.
     fn settle_element(&mut self) {
-        let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned()
-        else {
-            return;
-        };
-        if matches!(here.unit.expression(id).kind, ExpressionKind::Index(..)) {
-            self.next();
+        let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else { return };
+        let id = *id;
+        if matches!(here.unit.expression(id).kind, ExpressionKind::Index(..))
+            && let Some(Token { here, span, .. }) = self.next()
+        {
             let value = self.expression(&here, id).unwrap_or(Value::Broken);
             self.peeked = Some(Token { kind: TokenKind::Literal(Box::new(value)), span, here });
         }
     }
 
-    /// The value of a token that is a lone declared name; nothing is reported.
-    pub(super) fn named(&mut self, token: &Token, id: ExpressionId) -> Option<Value> {
-        match token.here.unit.expression(id).kind {
-            ExpressionKind::Name(name) => {
-                let symbol = token.here.symbol(name);
-                match self.scopes.read(symbol) {
-                    Some(Value::Macro(_)) | None => None,
-                    Some(value) => Some(value.clone()),
-                }
-            }
-            _ => None,
+    /// The value of an expression that is a lone declared name; nothing is reported.
+    pub(super) fn named(&mut self, here: &Here, id: ExpressionId) -> Option<Value> {
+        named(&mut self.scopes, here, id).cloned()
+    }
+}
+
+fn named<'s>(scopes: &'s mut Scopes, here: &Here, id: ExpressionId) -> Option<&'s Value> {
+    match here.unit.expression(id).kind {
+        ExpressionKind::Name(name) => {
+            scopes.read(here.symbol(name)).filter(|value| !matches!(value, Value::Macro(_)))
         }
+        _ => None,
     }
 }
