@@ -5,7 +5,7 @@
 
 mod echo;
 
-use crate::diagnostic::{Allowance, Code, Diagnostic, Diagnostics, Levels, allowances};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -56,7 +56,6 @@ pub struct Road<'a> {
     pub sources: Sources,
     pub diagnostics: Diagnostics,
     /// What the comments of the first `heard` sources allow.
-    allowances: Vec<Allowance>,
     heard: usize,
 }
 
@@ -64,7 +63,7 @@ impl<'a> Road<'a> {
     pub fn new(files: &'a dyn Files, options: Options) -> Self {
         let diagnostics = Diagnostics::with_levels(options.levels.clone());
         let sources = Sources::default();
-        Self { files, options, sources, diagnostics, allowances: Vec::new(), heard: 0 }
+        Self { files, options, sources, diagnostics, heard: 0 }
     }
 
     /// Takes in the main file as it lies on disk.
@@ -116,6 +115,9 @@ impl<'a> Road<'a> {
         if let Some(ast) = &faulty {
             echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
         }
+        if self.options.legacy {
+            self.drop_twice_told();
+        }
         self.silence(before);
         scene
     }
@@ -133,19 +135,26 @@ impl<'a> Road<'a> {
         lowered
     }
 
+    /// An old form that is an error, too, is told as that.
+    fn drop_twice_told(&mut self) {
+        let errors = self.diagnostics.iter().filter(|one| one.code.severity() == Severity::Error);
+        let mended: Vec<Vec<Fix>> =
+            errors.map(|one| one.fixes.clone()).filter(|fixes| !fixes.is_empty()).collect();
+        self.diagnostics
+            .retain_after(0, |one| one.code != Code::LegacyForm || !mended.contains(&one.fixes));
+    }
+
     /// Drops, of the messages after the first `len`, those that comments allow.
     fn silence(&mut self, len: usize) {
         for (file, source) in self.sources.iter().skip(self.heard) {
             let (allowed, told) = allowances(source, file);
-            self.allowances.extend(allowed);
+            self.diagnostics.allow(allowed);
             told.into_iter().for_each(|told| self.diagnostics.push(told));
             self.heard += 1;
         }
-        let (allowances, sources) = (&self.allowances, &self.sources);
-        self.diagnostics.retain_after(len, |told| {
-            !(is_of_a_standard_include(told, sources)
-                || allowances.iter().any(|one| one.silences(told)))
-        });
+        let sources = &self.sources;
+        self.diagnostics.drop_allowed_after(len);
+        self.diagnostics.retain_after(len, |told| !is_of_a_standard_include(told, sources));
     }
 
     /// From the main file to its World.

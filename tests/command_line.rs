@@ -373,7 +373,10 @@ fn a_warning_is_dropped_told_or_denied_as_the_flags_and_the_comments_say() {
     assert!(!both.stderr().contains("`Height`"));
     let one = place.run("check a.scene --allow unused-declaration").ends(0, &["1 warning"]);
     assert!(!one.stderr().contains("Radius"));
-    assert_eq!(place.run("check a.scene --allow all").ends(0, &[]).stderr(), "");
+    assert_eq!(
+        place.run("check a.scene --allow all").ends(0, &[]).stderr(),
+        "a.scene: no messages\n"
+    );
     let denied = ["error[unused-declaration]", "warning[color-range]"];
     place.run("check a.scene --deny unused-declaration --message-format short").ends(1, &denied);
     place.run("a.scene --size 8x6 --deny all").ends(1, &["2 errors"]);
@@ -432,7 +435,7 @@ fn wrong_usage_is_two() {
         "a.scene -o a.exr --bits 8",
         "a.scene -I no_such_folder",
         "check",
-        "show a.scene",
+        "show a.scene --stage",
         "explain no-such-code",
         "chekc a.scene",
     ] {
@@ -579,8 +582,48 @@ fn a_background_is_darker_by_its_transmit_as_in_pov_ray() {
 
 #[test]
 fn a_right_scene_gets_no_message() {
-    let run = Place::new().run("check a.scene").ends(0, &[]);
-    assert_eq!((run.stdout().as_str(), run.stderr().as_str()), ("", ""));
+    let place = Place::new();
+    let run = place.run("check a.scene").ends(0, &[]);
+    assert_eq!((run.stdout().as_str(), run.stderr().as_str()), ("", "a.scene: no messages\n"));
+    for quiet in ["--quiet", "--message-format short", "--message-format json"] {
+        let run = place.run(&format!("check a.scene {quiet}")).ends(0, &[]);
+        assert_eq!((run.stdout(), run.stderr()), (String::new(), String::new()), "{quiet}");
+    }
+}
+
+#[test]
+fn an_include_alone_is_not_judged_as_a_scene() {
+    let place = Place::new();
+    place
+        .write("part.inc", "#declare Size = 2;\n#declare Ball = sphere { 0, 1 }\nbox { 0, Foo }\n");
+    let run = place.run("check part.inc --lint --message-format short").ends(1, &["`Foo`"]);
+    assert_eq!(run.stderr().lines().count(), 1, "{}", run.stderr());
+    place.write("right.inc", "#declare Ball = sphere { 0, 1 }\n");
+    place.run("check right.inc").ends(0, &["right.inc: no messages"]);
+    place.run("check right.inc --deny never-placed").ends(1, &["never-placed"]);
+}
+
+#[test]
+fn an_include_beside_the_scene_is_suggested_without_a_path() {
+    let place = Place::new();
+    place.write("shapes_of_mine.inc", "");
+    place.write("i.scene", &format!("#include \"shape_of_mine.inc\"\n{SCENE}"));
+    place.run("check i.scene").ends(1, &["missing-include", "`shapes_of_mine.inc`"]);
+}
+
+#[test]
+fn warnings_may_be_named_with_commas() {
+    let place = Place::new();
+    place.write("l.scene", "#declare Size = 2;\nsphere { 0, 1 }\n");
+    let all = "check l.scene --allow unused-declaration,no-camera,no-light,nothing-in-view";
+    place.run(all).ends(0, &["l.scene: no messages"]);
+}
+
+#[test]
+fn show_without_a_stage_shows_the_scene() {
+    let place = Place::new();
+    let [bare, named] = ["show a.scene", "show a.scene --stage scene"].map(|run| place.run(run));
+    assert_eq!(bare.ends(0, &[]).stdout(), named.ends(0, &[]).stdout());
 }
 
 #[test]
@@ -634,7 +677,7 @@ fn lints_are_off_for_pov_files_unless_asked_for() {
     let place = Place::new();
     let text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Unused = 1;\n";
     place.write("w.pov", &format!("{text}{SCENE}"));
-    assert_eq!(place.run("check w.pov").ends(0, &[]).stderr(), "");
+    assert_eq!(place.run("check w.pov").ends(0, &[]).stderr(), "w.pov: no messages\n");
     place.run("check w.pov --lint").ends(0, &["unused-declaration"]);
 }
 
@@ -658,7 +701,10 @@ fn a_fix_in_an_included_file_is_told_with_what_applies_it() {
     let told = "1 fix is in part.inc: `lucarne check --fix part.inc` applies it";
     place.run("check --fix whole.scene").ends(1, &[told, "`pigmnt`"]);
     place.run("check --fix part.inc").ends(0, &["part.inc: 1 fix applied"]);
-    assert_eq!(place.run("check --fix whole.scene").ends(0, &[]).stderr(), "");
+    assert_eq!(
+        place.run("check --fix whole.scene").ends(0, &[]).stderr(),
+        "whole.scene: no messages\n"
+    );
 }
 
 #[test]
@@ -668,7 +714,7 @@ fn fixes_are_applied_and_the_rest_is_told() {
     place.run("check --fix f.scene").ends(1, &["f.scene: 1 fix applied", "undeclared-name"]);
     let mended = format!("\u{feff}{SCENE}sphere {{ 0, Nowhere }}\r\n");
     assert_eq!(String::from_utf8(place.read("f.scene")).as_deref(), Ok(mended.as_str()));
-    assert_eq!(place.run("check --fix a.scene").ends(0, &[]).stderr(), "");
+    assert_eq!(place.run("check --fix a.scene").ends(0, &[]).stderr(), "a.scene: no messages\n");
     assert_eq!(place.names(), ["a.scene", "broken.scene", "f.scene"]);
 }
 
@@ -966,13 +1012,13 @@ fn old_forms_are_listed_and_rewritten() {
     let old = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Size = 2\n\
                sphere { <0 0 0>, Size pigment { color red 1 green 0.5 } }\n";
     place.write("a.pov", old);
-    assert_eq!(place.run("check a.pov").ends(0, &[]).stderr(), "");
+    assert_eq!(place.run("check a.pov").ends(0, &[]).stderr(), "a.pov: no messages\n");
     place.run("check a.pov --legacy").ends(0, &["legacy-form", "rgb <1, 0.5, 0>", "3 warnings"]);
     place.run("check a.pov --legacy --fix").ends(0, &["a.pov: 3 fixes applied"]);
     let new = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#declare Size = 2;\n\
                sphere { <0, 0, 0>, Size pigment { color rgb <1, 0.5, 0> } }\n";
     assert_eq!(String::from_utf8_lossy(&place.read("a.pov")), new);
-    assert_eq!(place.run("check a.pov --legacy").ends(0, &[]).stderr(), "");
+    assert_eq!(place.run("check a.pov --legacy").ends(0, &[]).stderr(), "a.pov: no messages\n");
 }
 
 // ── files that a scene reads and writes ──
@@ -996,17 +1042,40 @@ fn a_scene_writes_only_where_it_is_allowed_to() {
     assert!(refused.stderr().contains("1 error\n"), "{}", refused.stderr());
     place.run("w.scene --size 16x12").ends(1, &["forbidden-file"]);
     assert_eq!(place.names(), ["a.scene", "broken.scene", "w.scene"]);
-    place.run("check --allow-write w.scene").ends(0, &["list.inc: 22 bytes, by the scene\n"]);
-    assert_eq!(place.read("list.inc"), b"#declare Size = 0.25;\n");
+    for other in ["check", "plan", "show"] {
+        let told = "list.inc: 22 bytes, not written: only rendering writes\n";
+        place.run(&format!("{other} --allow-write w.scene")).ends(0, &[told]);
+        assert_eq!(place.names(), ["a.scene", "broken.scene", "w.scene"]);
+    }
     place
         .run("w.scene --allow-write --size 16x12")
-        .ends(0, &["list.inc: 22 bytes", "w.png: 16×12"]);
+        .ends(0, &["list.inc: 22 bytes, by the scene\n", "w.png: 16×12"]);
+    assert_eq!(place.read("list.inc"), b"#declare Size = 0.25;\n");
     for name in ["../out.txt", "/tmp/out.txt", "none/../../out.txt"] {
         place.write("o.scene", &format!("#fopen F \"{name}\" write\n{SCENE}"));
         place
             .run("check --allow-write o.scene")
             .ends(1, &["forbidden-file", "the current folder only"]);
     }
+}
+
+#[test]
+fn a_scene_overwrites_no_part_of_itself() {
+    let place = Place::new();
+    place.write("part.inc", "#declare Size = 1;\n");
+    let write = "#fopen F \"part.inc\" write #write (F, 1) #fclose F\n";
+    place.write("w.scene", &format!("#include \"part.inc\"\n{write}sphere {{ 0, Size }}\n"));
+    place
+        .run("w.scene --allow-write --size 16x12")
+        .ends(1, &["`part.inc` is a part of this scene"]);
+    assert_eq!(place.read("part.inc"), b"#declare Size = 1;\n");
+    place.write("w.scene", "#fopen F \"w.scene\" append\n");
+    place.run("w.scene --allow-write --size 16x12").ends(1, &["`w.scene` is this scene itself"]);
+    // What it has written itself is its own.
+    let reads = "#include \"own.inc\"\n";
+    let write = "#fopen F \"own.inc\" write #write (F, \"#declare A = 1;\") #fclose F\n";
+    place.write("o.scene", &format!("{write}{reads}{write}{reads}{SCENE}"));
+    place.run("o.scene --allow-write --size 16x12").ends(0, &["own.inc: 15 bytes"]);
 }
 
 #[test]
@@ -1028,10 +1097,10 @@ fn what_one_run_wrote_the_next_one_reads_where_it_is_run() {
                  #read (F, N) #fclose F #end #fopen F \"count.txt\" write #write (F, N + 1) #fclose F\n";
     place.write("scenes/c.scene", &format!("{count}{SCENE}"));
     for run in ["1", "2", "3"] {
-        place.run("check --allow-write scenes/c.scene").ends(0, &[]);
+        place.run("scenes/c.scene --allow-write --size 8x6").ends(0, &[]);
         assert_eq!(place.read("count.txt"), run.as_bytes());
     }
-    assert_eq!(place.names(), ["a.scene", "broken.scene", "count.txt", "scenes"]);
+    assert_eq!(place.names(), ["a.scene", "broken.scene", "c.png", "count.txt", "scenes"]);
 }
 
 #[test]
@@ -1042,7 +1111,7 @@ fn check_says_which_file_answered() {
     let said = place.run("check --where i.scene").ends(0, &[]).stdout();
     assert!(said.starts_with("colors.inc: colors.inc\n"), "{said}");
     // POV-Ray's where it is installed, else ours.
-    let (installed, embedded) = ("stdinc.inc: /", "stdinc.inc: embedded\n");
+    let (installed, embedded) = ("stdinc.inc: /", "stdinc.inc: built in\n");
     assert!(said.contains(installed) || said.contains(embedded), "{said}");
     assert_eq!(place.run("check i.scene").ends(0, &[]).stdout(), "");
 }

@@ -71,8 +71,16 @@ fn words() -> String {
             );
             rows(&mut page, |word| word.is_inert());
         }
+        let old: Vec<String> = words()
+            .filter_map(|word| Some((word, word.today()?)))
+            .map(|(word, today)| format!("`{}`, today `{}`", word.name(), today.name()))
+            .collect();
+        if !old.is_empty() {
+            let gap = if built { "\n" } else { "" };
+            let _ = writeln!(page, "{gap}Of old versions: {}.", old.join("; "));
+        }
         let later: Vec<String> = words()
-            .filter(|word| !word.is_built())
+            .filter(|word| !word.is_built() && word.today().is_none())
             .map(|word| format!("`{}`", word.name()))
             .collect();
         if !later.is_empty() {

@@ -49,7 +49,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.settle(messages.exit() == Exit::Done)?;
+    files.announce(messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

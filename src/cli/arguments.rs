@@ -111,15 +111,30 @@ pub struct CheckArguments {
     /// Apply the fixes that messages offer to these files, then check again
     #[arg(long)]
     pub fix: bool,
-    /// Say of each file that the scene reads which one answered: its path, or `embedded`
+    /// Say of each file that the scene reads which one answered: its path, or `built in`
     #[arg(long = "where")]
     pub places: bool,
+    /// Say nothing of a file that there is nothing to say of
+    #[arg(short, long)]
+    pub quiet: bool,
     /// The picture's width and height in pixels, for what depends on them
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
     #[command(flatten)]
     pub scene: SceneArguments,
 }
+
+/// Warnings that say something of a scene, and nothing of a part of one.
+const OF_WHOLE_SCENES: &[Code] = &[
+    Code::NoCamera,
+    Code::NoLight,
+    Code::NoPigment,
+    Code::EmptyScene,
+    Code::NothingInView,
+    Code::UnusedDeclaration,
+    Code::NeverPlaced,
+    Code::OldVersion,
+];
 
 #[derive(Debug, Args)]
 pub struct FmtArguments {
@@ -141,7 +156,8 @@ pub struct FmtArguments {
 pub struct ShowArguments {
     /// The scene
     pub file: PathBuf,
-    #[arg(long, value_enum)]
+    /// How far along it
+    #[arg(long, value_enum, default_value = "scene")]
     pub stage: Stage,
     #[command(flatten)]
     pub picture: PictureArguments,
@@ -259,6 +275,10 @@ impl CheckArguments {
     pub fn options(&self, file: &Path) -> Options {
         let frame = self.size.map(|(width, height)| Frame::whole(width, height));
         let mut options = self.scene.options(file, frame);
+        // Alone, an include is a part of a scene that is not known.
+        if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inc")) {
+            OF_WHOLE_SCENES.iter().for_each(|code| options.levels.set_unnamed(*code, Level::Allow));
+        }
         options.legacy = self.legacy;
         if self.legacy && options.levels.of(Code::LegacyForm) == Some(Level::Allow) {
             options.levels.set(Code::LegacyForm, Level::Warn);

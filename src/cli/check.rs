@@ -43,7 +43,11 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
         if arguments.places {
             messages::print(&places(&road.sources))?;
         }
-        files.settle(!road.diagnostics.has_errors())
+        files.announce(!road.diagnostics.has_errors())?;
+        if road.diagnostics.is_empty() && !arguments.quiet {
+            messages.nothing(&name_of(file));
+        }
+        Ok(())
     })
 }
 
@@ -71,7 +75,7 @@ fn places(sources: &Sources) -> String {
     for (_, source) in sources.iter().skip(1) {
         let path = source.name.as_str();
         let line = match standard::embedded_name(path) {
-            Some(name) => format!("{name}: embedded\n"),
+            Some(name) => format!("{name}: built in\n"),
             None => {
                 let name = Path::new(path).file_name().unwrap_or_default();
                 format!("{}: {path}\n", name.display())

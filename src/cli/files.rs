@@ -67,6 +67,11 @@ impl DiskFiles {
         self.written.as_ref().map_or(Ok(()), |written| written.settle(whole))
     }
 
+    /// Says what the scene would write, if it is `whole`.
+    pub fn announce(&self, whole: bool) -> Result<(), Failure> {
+        self.written.as_ref().map_or(Ok(()), |written| written.announce(whole))
+    }
+
     fn allowed(&self, truth: &Path) -> bool {
         self.folders.iter().any(|(_, folder)| truth.starts_with(folder))
             || self.written.as_ref().is_some_and(|written| written.covers(truth))
@@ -95,6 +100,7 @@ impl DiskFiles {
         let mut similar = Vec::new();
         for path in tried {
             let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { continue };
+            let folder = or_here(folder);
             let known = fs::canonicalize(folder).is_ok_and(|truth| self.allowed(&truth));
             let Some(entries) = known.then(|| fs::read_dir(folder).ok()).flatten() else {
                 continue;

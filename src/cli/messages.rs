@@ -116,6 +116,13 @@ impl Messages {
         }
     }
 
+    /// Says, where people read it, that there is nothing to say of a file.
+    pub fn nothing(&self, file: &str) {
+        if let Format::Human | Format::Narrated = self.format {
+            eprint(&format!("{file}: no messages\n"));
+        }
+    }
+
     /// What the messages so far mean: a limit, whatever else there was before it stopped; errors; or
     /// nothing.
     pub fn exit(&self) -> Exit {

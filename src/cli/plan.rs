@@ -33,7 +33,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.settle(messages.exit() == Exit::Done)?;
+    files.announce(messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

@@ -29,7 +29,8 @@ pub struct SceneArguments {
     /// and string (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
-    /// Let the scene write files, below the current folder, once it has been read without errors
+    /// Let the scene write files, below the current folder, once it has been read without errors.
+    /// (`render` writes them; other commands say what it would write)
     #[arg(long)]
     pub allow_write: bool,
     /// Warn about what is probably a mistake, in `.pov` files too
@@ -38,14 +39,15 @@ pub struct SceneArguments {
     /// Treat warnings as errors
     #[arg(long)]
     deny_warnings: bool,
-    /// Drop a warning: its code, or `all`; may be given several times, as may the next two
-    #[arg(long, value_name = "CODE", value_parser = warning)]
+    /// Drop a warning: its code, or `all`, or several with commas; may be given several times, as
+    /// may the next two
+    #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     allow: Vec<Warnings>,
     /// Tell a warning, whatever the dialect
-    #[arg(long, value_name = "CODE", value_parser = warning)]
+    #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     warn: Vec<Warnings>,
     /// Make an error of a warning
-    #[arg(long, value_name = "CODE", value_parser = warning)]
+    #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     deny: Vec<Warnings>,
     /// How messages are shown
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]

@@ -52,7 +52,7 @@ pub fn show(
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.settle(messages.exit() == Exit::Done)?;
+    files.announce(messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

@@ -114,6 +114,20 @@ impl Written {
 
     /// Writes all of them, if the scene has no errors, and says so.
     pub fn settle(&self, whole: bool) -> Result<(), Failure> {
+        self.each(whole, "by the scene", write_whole)
+    }
+
+    /// Says what would be written if the scene were rendered.
+    pub fn announce(&self, whole: bool) -> Result<(), Failure> {
+        self.each(whole, "not written: only rendering writes", |_, _| Ok(()))
+    }
+
+    fn each(
+        &self,
+        whole: bool,
+        said: &str,
+        done: impl Fn(&Path, &[u8]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let Ok(files) = self.files.lock() else { return Ok(()) };
         if !whole && !files.is_empty() {
             messages::eprint(
@@ -122,11 +136,11 @@ impl Written {
             return Ok(());
         }
         for (path, bytes) in files.iter() {
-            write_whole(path, bytes)?;
+            done(path, bytes)?;
             let name = path.strip_prefix(&self.root).unwrap_or(path).display();
             let count = bytes.len();
             let s = if count == 1 { "" } else { "s" };
-            messages::eprint(&format!("{name}: {count} byte{s}, by the scene\n"));
+            messages::eprint(&format!("{name}: {count} byte{s}, {said}\n"));
         }
         Ok(())
     }

@@ -4,7 +4,8 @@
 //! line on which its brackets are closed. A message about the whole scene is silenced wherever the main
 //! file allows it.
 //!
-//! **Invariant:** an error is never silenced, and a name that is no lint is told.
+//! **Invariant:** an error is never silenced; a name that is no lint is told, and so is a comment that
+//! means to say something and is not written so.
 
 use std::ops::Range;
 
@@ -22,13 +23,15 @@ pub struct Allowance {
 
 impl Allowance {
     pub fn silences(&self, diagnostic: &Diagnostic) -> bool {
-        self.lint == diagnostic.code
-            && match diagnostic.primary() {
-                Some(label) => {
-                    self.file == label.span.file && self.reach.contains(&label.span.range().start)
-                }
-                None => self.file == FileId(0),
-            }
+        match diagnostic.primary() {
+            Some(label) => self.reaches(diagnostic.code, label.span),
+            None => self.lint == diagnostic.code && self.file == FileId(0),
+        }
+    }
+
+    /// Whether this lint is not told of this place.
+    pub fn reaches(&self, lint: Code, place: Span) -> bool {
+        self.lint == lint && self.file == place.file && self.reach.contains(&place.range().start)
     }
 }
 
@@ -43,8 +46,12 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
             continue;
         };
         let rest = text[at + word.len()..].lines().next().unwrap_or("");
-        let Some(list) = rest.trim_start().strip_prefix("allow(") else { continue };
-        let Some(end) = list.find(')') else { continue };
+        let list = rest.trim_start().strip_prefix("allow(");
+        let Some((list, end)) = list.and_then(|list| Some((list, list.find(')')?))) else {
+            let lead = rest.len() - rest.trim_start().len();
+            told.extend(unclear(rest.trim_start(), file, at + word.len() + lead));
+            continue;
+        };
         let start = at + word.len() + (rest.len() - list.len());
         let line_end = text[at..].find('\n').map_or(text.len(), |end| at + end);
         let reach = match code.trim().is_empty() {
@@ -63,6 +70,49 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
         }
     }
     (allowed, told)
+}
+
+/// `deny(no-light)`, `allow no-light`: what stands behind `lucarne:`, unless it is a sentence of the
+/// author's own.
+fn unclear(text: &str, file: FileId, at: usize) -> Option<Diagnostic> {
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let verb = &text[..text.find(|c| !is_name(c)).unwrap_or(text.len())];
+    let behind = &text[verb.len()..];
+    let list = behind.trim_start().trim_start_matches(['(', ':', '=']).trim_start();
+    let names = list.split(|c: char| c == ',' || c.is_whitespace());
+    let names: Vec<&str> = names
+        .map(|name| name.trim_end_matches(')'))
+        .take_while(|name| is_like_a_code(name))
+        .collect();
+    let (&first, span) = (names.first()?, Span::new(file, at, at + verb.len()));
+    if verb != "allow" {
+        let diagnostic =
+            Diagnostic::new(Code::UnknownLint, "a comment to lucarne can only `allow`")
+                .at(span, "this does nothing");
+        return Some(match verb {
+            "deny" | "warn" => diagnostic.help(format!("`--{verb} {first}` does it for all files")),
+            _ => diagnostic.help(format!("write `// lucarne: allow({first})`")),
+        });
+    }
+    // The names stand one after another at the beginning of the list.
+    let length =
+        names.iter().fold(0, |end, name| end + list[end..].find(name).unwrap_or(0) + name.len());
+    let start = at + text.len() - list.len();
+    let meant = format!("({})", names.join(", "));
+    let closes = list[length..].starts_with(')');
+    let whole = Span::new(file, at + verb.len(), start + length + usize::from(closes));
+    Some(
+        Diagnostic::new(Code::UnknownLint, "`allow` takes the lints in parentheses")
+            .at(span, "this allows nothing")
+            .help(format!("write `// lucarne: allow{meant}`"))
+            .fix(whole, meant),
+    )
+}
+
+/// Whether a word is the code of a message, or was meant as one.
+fn is_like_a_code(name: &str) -> bool {
+    let codes = || Code::ALL.iter().map(|code| code.name());
+    codes().any(|code| code == name) || (name.contains('-') && closest(name, codes()).is_some())
 }
 
 fn unknown(name: &str, span: Span) -> Diagnostic {
@@ -146,6 +196,28 @@ mod tests {
     #[test]
     fn other_comments_and_other_texts_allow_nothing() {
         assert_eq!(reached("// lucarne: allow nothing\n\"lucarne: allow(no-light)\""), [""; 0]);
+    }
+
+    #[test]
+    fn a_comment_that_means_to_allow_and_does_not_is_told() {
+        for (text, said, mended) in [
+            ("// lucarne: allow no-pigment", "in parentheses", "allow(no-pigment)"),
+            ("// lucarne: allow no-pigment, no-light", "in parentheses", "(no-pigment, no-light)"),
+            ("// lucarne: allow (no-light) as it is", "in parentheses", "allow(no-light) as it"),
+            ("// lucarne: allow(no-light", "in parentheses", "allow(no-light)"),
+            ("// lucarne: deny(no-pigment)", "can only `allow`", "deny"),
+            ("// lucarne: ignore no-pigment", "can only `allow`", "ignore"),
+        ] {
+            let (allowed, told) = allowances(&Source::new("a.scene", text), FileId(0));
+            let [told] = told.as_slice() else { panic!("{text}: {told:?}") };
+            assert!(allowed.is_empty() && told.message.contains(said), "{text}: {told:?}");
+            let mut after = text.to_owned();
+            told.fixes.iter().for_each(|fix| after.replace_range(fix.span.range(), &fix.text));
+            assert!(after.contains(mended), "{after}");
+        }
+        let (allowed, told) =
+            allowances(&Source::new("a.scene", "// lucarne: a house with windows"), FileId(0));
+        assert_eq!((allowed, told), (vec![], vec![]));
     }
 
     #[test]

@@ -107,7 +107,7 @@ codes! {
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
     SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant, or the reverse";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
-    ColorRange "color-range" lint "a colour looks as if written as 0 to 255";
+    ColorRange "color-range" lint "a colour looks as if written as 0 to 255, or is negative";
     UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
     UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";
     TooClear "too-clear" lint "a colour is clearer than it can be";
@@ -116,9 +116,13 @@ codes! {
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
+    NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";
+    FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
+    ShortFile "short-file" lint "a file of values ends in the middle of what `#read` reads together";
+    ReplacedPigment "replaced-pigment" lint "an object has two pigments; the last one is used";
     RepeatedParameter "repeated-parameter" lint "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
-    UnknownLint "unknown-lint" lint "a comment allows a lint that does not exist";
+    UnknownLint "unknown-lint" lint "a comment that is to silence a warning does not";
     // files
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";

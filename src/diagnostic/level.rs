@@ -39,6 +39,11 @@ impl Levels {
         self.named.insert(code, level);
     }
 
+    /// Sets a code that is not named.
+    pub fn set_unnamed(&mut self, code: Code, level: Level) {
+        self.named.entry(code).or_insert(level);
+    }
+
     /// Of a code that warns; of an error and of a note, none.
     pub fn of(&self, code: Code) -> Option<Level> {
         let unnamed = match code.is_lint() {

@@ -141,6 +141,7 @@ impl TraceStep {
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     levels: Levels,
+    allowances: Vec<Allowance>,
 }
 
 impl Diagnostics {
@@ -151,7 +152,7 @@ impl Diagnostics {
 
     /// A sink that drops lints, keeps them or makes errors of them, each as it is said.
     pub fn with_levels(levels: Levels) -> Self {
-        Self { list: Vec::new(), levels }
+        Self { list: Vec::new(), levels, allowances: Vec::new() }
     }
 
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
@@ -180,6 +181,24 @@ impl Diagnostics {
     pub fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
         let later = self.list.split_off(len);
         self.list.extend(later.into_iter().filter(keep));
+    }
+
+    /// Lints that a comment allows: those that are told already stay.
+    pub fn allow(&mut self, allowances: Vec<Allowance>) {
+        self.allowances.extend(allowances);
+    }
+
+    /// Whether a comment allows a lint at this place: where one message stands for several places, each
+    /// has to ask for itself.
+    pub fn allows(&self, lint: Code, place: Span) -> bool {
+        self.allowances.iter().any(|one| one.reaches(lint, place))
+    }
+
+    /// Drops, of the messages after the first `len`, those that a comment allows.
+    pub fn drop_allowed_after(&mut self, len: usize) {
+        let later = self.list.split_off(len);
+        let told = |one: &Diagnostic| !self.allowances.iter().any(|allowed| allowed.silences(one));
+        self.list.extend(later.into_iter().filter(told));
     }
 
     /// Whether anything is certainly wrong; a denied warning is an error only to who denied it.

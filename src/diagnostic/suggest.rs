@@ -38,6 +38,27 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, _, candidate)| candidate)
 }
 
+/// Whether two names differ only in the number or the capital that tells the members of a series apart:
+/// `Ball1` and `Ball2`, `RadiusA` and `RadiusB`. One is rarely meant where the other is written.
+pub fn are_of_a_series(a: &str, b: &str) -> bool {
+    let digits = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let letter = |name: &str| {
+        let stem = name.strip_suffix(|c: char| c.is_ascii_alphabetic())?;
+        let capital = name.ends_with(|c: char| c.is_ascii_uppercase());
+        let apart = stem.ends_with(|c: char| c == '_' || c.is_ascii_digit())
+            || (capital && stem.ends_with(|c: char| c.is_ascii_lowercase()));
+        apart.then_some(stem.len())
+    };
+    let stems = |a: usize, b: usize| a == b && a > 0;
+    let same = |length: usize| a.get(..length) == b.get(..length);
+    let numbered = stems(digits(a), digits(b)) && same(digits(a));
+    let lettered = match (letter(a), letter(b)) {
+        (Some(of_a), Some(of_b)) => of_a == of_b && same(of_a),
+        _ => false,
+    };
+    a != b && (numbered || (lettered && !a.eq_ignore_ascii_case(b)))
+}
+
 /// How many letters a word has in lower case, and which (one bit for each, some sharing one).
 fn letters(word: &str) -> (usize, u32) {
     if word.is_ascii() {
@@ -237,6 +258,20 @@ mod tests {
         assert_eq!(near("bax1"), None);
         assert_eq!(near(""), None);
         assert_eq!(near(&"pigment".repeat(1000)), None);
+    }
+
+    #[test]
+    fn members_of_a_series_are_told_from_slips() {
+        for (a, b) in
+            [("Ball1", "Ball2"), ("Ball", "Ball1"), ("RadiusA", "RadiusB"), ("p_a", "p_b")]
+        {
+            assert!(are_of_a_series(a, b) && are_of_a_series(b, a), "{a} {b}");
+        }
+        for (a, b) in
+            [("Ball", "Bal"), ("Radius", "Radiuz"), ("RED", "REC"), ("RadiusA", "Radiusa")]
+        {
+            assert!(!are_of_a_series(a, b), "{a} {b}");
+        }
     }
 
     #[test]

@@ -44,6 +44,7 @@ impl Evaluator<'_> {
                 Ok(())
             }
             DirectiveKind::For { name, from, to, step, body, name_span } => {
+                let spans = [*from, *to].map(|id| here.unit.expression(id).span);
                 let from = self.number(here, *from);
                 let to = self.number(here, *to);
                 let (step_value, step_span) = match step {
@@ -58,6 +59,10 @@ impl Evaluator<'_> {
                     )
                     .at(step_span, "expected a number other than zero");
                     return Err(self.report(here, diagnostic));
+                }
+                if (to - from) * step < 0.0 {
+                    let own = (step_span != directive.head).then_some(step_span);
+                    self.lint_never_runs(here, directive.head, spans, own);
                 }
                 let symbol = here.symbol(*name);
                 self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);

@@ -57,7 +57,12 @@ impl Evaluator<'_> {
                 Ok(value) => {
                     let span = here.unit.expression(index).span;
                     match self.as_number(here, span, &value, "a number as index") {
-                        Ok(number) => numbers.push(number),
+                        Ok(number) => {
+                            if number.fract() != 0.0 {
+                                self.lint_index(here, span, number);
+                            }
+                            numbers.push(number);
+                        }
                         Err(reported) => outcome = Err(reported),
                     }
                 }

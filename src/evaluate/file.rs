@@ -81,7 +81,7 @@ impl Evaluator<'_> {
                 let open: Vec<&str> =
                     open.map(|opened| self.sources.text(opened.site.span)).collect();
                 if suggest::closest(self.scopes.name(symbol), open).is_some() {
-                    self.undeclared(here, symbol, span);
+                    self.undeclared_among(here, symbol, span, |_| false);
                 }
             }
         }
@@ -98,7 +98,8 @@ impl Evaluator<'_> {
     fn opened(&mut self, here: &Here, (name, span): (NameId, Span)) -> Outcome<FileHandle> {
         let symbol = here.symbol(name);
         let handle = match self.scopes.read(symbol) {
-            None => return Err(self.undeclared(here, symbol, span)),
+            // No word of the language is a file.
+            None => return Err(self.undeclared_among(here, symbol, span, |_| false)),
             Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
             Some(Value::File(handle)) => *handle,
             Some(other) => {

@@ -128,6 +128,16 @@ impl Evaluator<'_> {
     fn constant(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let span = here.unit.expression(id).span;
         if let Some(parameter) = mention(here, formula, id) {
+            if matches!(here.unit.expression(id).kind, ExpressionKind::Vector(_)) {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongType,
+                    "a function gives a number, and this is a vector",
+                )
+                .at(span, "expected a number")
+                .help("a macro gives a vector: `#macro F(p) <p, 2*p, 0> #end`")
+                .help("or a vector is made of functions: `<Fx(p), Fy(p), Fz(p)>`");
+                return Err(self.report(here, diagnostic));
+            }
             let text = self.sources.text(parameter).to_owned();
             let message = format!("`{text}` has no value yet where the function is defined");
             let diagnostic = Diagnostic::new(Code::WrongType, message)

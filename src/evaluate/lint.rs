@@ -7,11 +7,13 @@ mod light;
 mod map;
 mod unit;
 
+use std::collections::BTreeMap;
+
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{Site, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, ItemKind};
+use crate::syntax::ast::{Ast, DirectiveKind, ItemKind, NameId};
 use crate::vocabulary::{PREDECLARED, Word};
 
 use super::scope::Owner;
@@ -21,6 +23,9 @@ pub(in crate::evaluate) use map::Rise;
 use super::stream::Token;
 use super::value::Value;
 use super::{Evaluator, Here, Unit};
+
+/// How many names are looked at that are declared again.
+const MOST_LOOKS: usize = 100;
 
 impl Evaluator<'_> {
     /// Names that were declared in the main file and never used: the scene knows them, and there is
@@ -63,6 +68,7 @@ impl Evaluator<'_> {
             };
             unused.push((name.to_owned(), site, diagnostic));
         }
+        self.lint_redeclared(main);
         unused.sort_by_key(|(_, site, _)| site.span);
         for (name, site, diagnostic) in unused {
             self.scene.unused.push((name, site));
@@ -124,6 +130,111 @@ impl Evaluator<'_> {
             }
         }
         self.diagnostics.push(diagnostic);
+    }
+
+    /// `A[0.5]`, typed; what is computed may be meant.
+    pub(super) fn lint_index(&mut self, here: &Here, span: Span, number: f64) {
+        if is_literal(self.sources.text(span)) {
+            let message = format!("the index {number} is not whole: its fraction is dropped");
+            let diagnostic = Diagnostic::new(Code::FractionalIndex, message)
+                .at(span, format!("this is the element {}", number.trunc()));
+            self.report(here, diagnostic);
+        }
+    }
+
+    /// A second pigment in the block of an object.
+    pub(super) fn lint_replaced(&mut self, token: &Token, first: Site) {
+        let message = "this object has two pigments; the last one is used";
+        let diagnostic = Diagnostic::new(Code::ReplacedPigment, message)
+            .at(token.span, "this one is used")
+            .also(first.span, "this one does nothing");
+        self.report(&token.here, diagnostic);
+    }
+
+    /// Names of the main file that get another value before the first one was used. A word that may be
+    /// the name, an include or a call in between: better silent than wrong.
+    fn lint_redeclared(&mut self, main: &Unit) {
+        let text = &self.sources.get(main.ast.file).text;
+        let declared = main.ast.items(main.ast.root).iter().filter_map(|item| {
+            let ItemKind::Directive(id) = item.kind else { return None };
+            match &main.ast.directive(id).kind {
+                DirectiveKind::Declare { target, .. } if target.indices.is_empty() => {
+                    Some((target.name, target.span))
+                }
+                _ => None,
+            }
+        });
+        let mut first: BTreeMap<NameId, Option<Span>> = BTreeMap::new();
+        let (mut told, mut looked) = (Vec::new(), 0);
+        for (name, span) in declared {
+            let before = match first.get_mut(&name) {
+                None => {
+                    first.insert(name, Some(span));
+                    continue;
+                }
+                Some(before) => before.take(),
+            };
+            // The second declaration only; each look goes through the text.
+            let Some(before) = before.filter(|_| looked < MOST_LOOKS) else { continue };
+            looked += 1;
+            let (known, rest) = text.split_at(span.range().start);
+            let value = rest.get(span.range().len()..).unwrap_or("");
+            let value = value.split([';', '\n', '#']).next().unwrap_or("");
+            let name = main.ast.name(name);
+            let used = self.scopes.symbol(name).and_then(|symbol| self.scopes.declared(symbol));
+            let used = used.is_some_and(|declared| declared.used);
+            let has = |text: &str| {
+                let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+                words.filter(|word| *word == name).count()
+            };
+            let between = &known[before.range().end..];
+            // A call may use it, by a macro of an include.
+            let calls = between.contains("include") || between.contains('(');
+            if used && !calls && has(known) == 1 && has(value) == 0 {
+                let message = format!("`{name}` gets another value before its first one is used");
+                told.push(
+                    Diagnostic::new(Code::UnusedDeclaration, message)
+                        .at(before, "this value is never used")
+                        .also(span, "declared again here"),
+                );
+            }
+        }
+        told.into_iter().for_each(|one| self.diagnostics.push(one));
+    }
+
+    /// `#for (I, 10, 1)`: a loop between numbers as they are typed that has no turn. Of what is computed
+    /// it may be meant.
+    pub(super) fn lint_never_runs(
+        &mut self,
+        here: &Here,
+        head: Span,
+        [from, to]: [Span; 2],
+        step: Option<Span>,
+    ) {
+        let typed = |span: Span| is_literal(self.sources.text(span));
+        if ![from, to].into_iter().chain(step).all(typed) {
+            return;
+        }
+        let [first, last] = [from, to].map(|span| self.sources.text(span).trim().to_owned());
+        let by = step.map_or("1", |step| self.sources.text(step).trim());
+        let diagnostic = Diagnostic::new(Code::NeverRuns, "this loop has no turn")
+            .at(head, format!("from {first} by steps of {by} it never comes to {last}"));
+        let diagnostic = match step {
+            None => diagnostic
+                .help(format!("a step of -1 counts down: `({first}, {last}, -1)`"))
+                .fix(to.after(), ", -1"),
+            Some(step) => {
+                let text = self.sources.text(step).trim();
+                let turned = match text.strip_prefix('-') {
+                    Some(up) => up.trim_start().to_owned(),
+                    None => format!("-{}", text.trim_start_matches('+')),
+                };
+                diagnostic
+                    .help(format!("a step of {text} leads away from {last}: write `{turned}`"))
+                    .fix(step, turned)
+            }
+        };
+        self.report(here, diagnostic);
     }
 
     /// Whether what is read now is the colour of a surface.

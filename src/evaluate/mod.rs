@@ -219,6 +219,8 @@ struct Evaluator<'a> {
     opened: Vec<file::Opened>,
     /// What it may not write: what reads it lacks it, and that says nothing more.
     unwritten: BTreeSet<String>,
+    /// What it has written, under the names that it is found by.
+    authored: BTreeSet<String>,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
     /// How many of these blocks a loose `{` has opened.
@@ -254,6 +256,8 @@ struct Evaluator<'a> {
     beside: BTreeMap<Span, Vec<Poison>>,
     /// An include was not found: what is missing now may have been declared there.
     lacks_include: bool,
+    /// The standard includes of which it was told that an included file takes them for granted.
+    lacking: BTreeSet<String>,
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
@@ -343,6 +347,7 @@ impl<'a> Evaluator<'a> {
             streams: RandomStreams::default(),
             opened: Vec::new(),
             unwritten: BTreeSet::new(),
+            authored: BTreeSet::new(),
             frames: Vec::new(),
             enclosures: Vec::new(),
             loose_blocks: 0,
@@ -363,6 +368,7 @@ impl<'a> Evaluator<'a> {
             poison: None,
             beside: BTreeMap::new(),
             lacks_include: false,
+            lacking: BTreeSet::new(),
             missing_at: None,
             bounds: Vec::new(),
             halted: false,

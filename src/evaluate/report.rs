@@ -185,6 +185,11 @@ impl Evaluator<'_> {
             format!("`{}` takes {}, and is given {found}", word.name(), count(&arity, "argument")),
         )
         .at(span, format!("expected {}", count(&arity, "argument")));
+        let diagnostic = match word {
+            Word::Rand => diagnostic
+                .help("it takes a stream: `#declare R = seed(1);` once, and then `rand(R)`"),
+            _ => diagnostic,
+        };
         self.report(here, diagnostic)
     }
 

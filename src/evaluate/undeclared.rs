@@ -1,11 +1,12 @@
 //! What to say of a name that was never declared, and what it was most likely meant to be.
 //!
-//! **Invariant:** a name that differs only in case is the likeliest; then one that a standard include
-//! declares under just this name, then a close one of the author's, then a word of the language.
+//! **Invariant:** a name that differs only in case is the likeliest; then what another language calls so,
+//! one that a standard include declares under just this name, then a close one of the author's, then a
+//! word of the language.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::Span;
-use crate::vocabulary::{Role, Word, standard_include_of};
+use crate::source::{ExpansionKind, FileId, Span};
+use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
 
 use super::value::Value;
 use super::{Evaluator, Here, Reported, Symbol};
@@ -25,9 +26,22 @@ impl Evaluator<'_> {
         fits: impl Fn(Word) -> bool,
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
+        if let Some(diagnostic) = self.alpha_color(&name, span) {
+            let reported = self.report(here, diagnostic);
+            self.skip_behind(span);
+            return reported;
+        }
         let mut diagnostic =
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
         let standard = self.lacking_include(&name);
+        // What the files that the main file includes lack of another one is one mistake.
+        if let Some(include) = &standard
+            && span.file != MAIN
+            && !self.lacking.insert(include.clone())
+        {
+            self.scopes.assign(symbol, Value::Broken);
+            return Reported;
+        }
         let close = suggest::closest(&name, self.scopes.visible())
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(&name))
             .map(str::to_owned);
@@ -45,11 +59,17 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, "declared only here: move it up");
+        } else if let Some(call) = self.call_elsewhere(&name, span, close.as_deref()) {
+            diagnostic =
+                diagnostic.at(span, "not declared, and not a word of the language").help(call.help);
+            diagnostic = call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by));
         } else if let Some(close) = close {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
-                .help(format!("did you mean `{close}`?"))
-                .fix(span, close.clone());
+                .help(format!("did you mean `{close}`?"));
+            if !suggest::are_of_a_series(&name, &close) {
+                diagnostic = diagnostic.fix(span, close.clone());
+            }
             if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s))
             {
                 let declared = declared.site.span;
@@ -59,11 +79,16 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("`{name}` comes with `#include \"{include}\"`"));
+            diagnostic = self.include_before(here, diagnostic, &include);
         } else if let Some((close, later)) = here.unit.similar_declaration(&name) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
+        } else if let Some((close, include)) = self.lacking_near(&name) {
+            diagnostic = diagnostic
+                .at(span, "not declared up to here")
+                .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
         } else if let Some(word) = word_like(&name, fits) {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
@@ -86,10 +111,100 @@ impl Evaluator<'_> {
     pub(super) fn lacking_include(&self, name: &str) -> Option<String> {
         standard_include_of(name).filter(|include| {
             // An author's own name of one letter is likelier.
-            name.len() > 1 && !self.parsed.keys().any(|file| file.ends_with(include))
+            name.len() > 1 && !self.has_read(include)
         })
     }
+
+    fn has_read(&self, include: &str) -> bool {
+        self.parsed.keys().any(|file| file.ends_with(include))
+    }
+
+    /// The name in a standard include which was not read that one with a capital is most likely meant as.
+    pub(super) fn lacking_near(&self, name: &str) -> Option<(&'static str, String)> {
+        if !name.starts_with(char::is_uppercase) || name.len() < 3 {
+            return None;
+        }
+        // Of all names of the includes too many are close to a short one: only those of colours are.
+        let near = suggest::closest(name, standard_names(COLORS))?;
+        (!suggest::are_of_a_series(name, near) && !self.has_read(COLORS))
+            .then(|| (near, COLORS.to_owned()))
+    }
+
+    /// Where a name is missing in a file that the main file includes, the include belongs before that.
+    fn include_before(&self, here: &Here, diagnostic: Diagnostic, include: &str) -> Diagnostic {
+        let expansions = &self.scene.expansions;
+        let Some(outermost) = expansions
+            .chain(here.expansion)
+            .filter(|expansion| expansion.kind == ExpansionKind::Include)
+            .last()
+            .filter(|outermost| outermost.call.file == MAIN)
+        else {
+            return diagnostic;
+        };
+        let before = Span { end: outermost.call.start, ..outermost.call };
+        diagnostic
+            .help(format!(
+                "write it before the include of `{}`, which takes it for granted",
+                expansions.name(outermost)
+            ))
+            .fix(before, format!("#include \"{include}\"\n"))
+    }
+
+    /// `len(A)`, `random()`: what another language would call, and what is called here.
+    fn call_elsewhere(&mut self, name: &str, span: Span, close: Option<&str>) -> Option<Call> {
+        if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
+            return None;
+        }
+        let text = &self.sources.get(span.file).text;
+        let rest = text.get(span.range().end..)?;
+        let inner = rest.trim_start().strip_prefix('(')?;
+        let inner = inner.split(['(', ')', '\n']).next()?;
+        let start = text.len() - (rest.len() - rest.find('(')? - 1);
+        let argument = inner.trim().to_owned();
+        let symbol = self.scopes.symbol(&argument);
+        let value = symbol.and_then(|symbol| self.scopes.read(symbol)).cloned();
+        let stays = |help: &str| Some(Call { help: help.to_owned(), fixes: Vec::new() });
+        match name.to_lowercase().as_str() {
+            "len" | "length" | "size" | "count" | "sizeof" => match value {
+                Some(Value::Array(_)) => {
+                    let close = Span::new(span.file, start + inner.len(), start + inner.len());
+                    let whole = format!("dimension_size({argument}, 1)");
+                    let fixes = vec![(span, "dimension_size".into()), (close, ", 1".into())];
+                    Some(Call { help: format!("write `{whole}`"), fixes })
+                }
+                Some(Value::String(_)) => Some(Call::renamed(span, "strlen")),
+                None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
+                Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
+                _ if name.eq_ignore_ascii_case("length") => None,
+                _ => stays(
+                    "`dimension_size(A, 1)` of an array, `strlen(S)` of a string, `vlength(V)` of a \
+                     vector",
+                ),
+            },
+            "random" | "rnd" | "randf" | "frand" | "drand" if value.is_none() => stays(
+                "`#declare R = seed(1);` once, then `rand(R)` is another number from 0 to 1 each time",
+            ),
+            _ => None,
+        }
+    }
 }
+
+/// What to write for a call of another language.
+struct Call {
+    help: String,
+    fixes: Vec<(Span, String)>,
+}
+
+impl Call {
+    fn renamed(span: Span, ours: &str) -> Self {
+        Self { help: format!("did you mean `{ours}`?"), fixes: vec![(span, ours.to_owned())] }
+    }
+}
+
+/// The main file's text.
+const MAIN: FileId = FileId(0);
+/// The include whose names are used most, and misspelt.
+const COLORS: &str = "colors.inc";
 
 /// The word of the language that an author who wrote `name` most likely meant.
 pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {

@@ -71,7 +71,8 @@ impl Lowering<'_, '_> {
 
     /// Objects that are black because nothing gives them a colour.
     fn lint_pigment(&mut self) {
-        let sites: Vec<Site> = std::mem::take(&mut self.unpainted).into_values().collect();
+        let mut sites: Vec<Site> = std::mem::take(&mut self.unpainted).into_values().collect();
+        sites.retain(|site| !self.reporter.diagnostics.allows(Code::NoPigment, site.span));
         let Some((&first, others)) = sites.split_first() else { return };
         let message = match others.len() {
             0 => "this object has no pigment, and is black".to_owned(),

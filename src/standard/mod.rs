@@ -40,6 +40,11 @@ pub fn include(name: &str) -> Option<(String, &'static str)> {
     Some((format!("{PLACE}{name}"), text))
 }
 
+/// What a text of our own that is no include is called.
+pub fn place_of(name: &str) -> String {
+    format!("{PLACE}{name}")
+}
+
 /// The include that a source of this name is, if it is one of these.
 pub fn embedded_name(source: &str) -> Option<&str> {
     source.strip_prefix(PLACE)

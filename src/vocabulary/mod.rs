@@ -217,6 +217,15 @@ impl Word {
         matches!(self.standing(), Standing::Inert { .. })
     }
 
+    /// What a word of old versions is called today.
+    pub fn today(self) -> Option<Word> {
+        match self {
+            Word::Composite => Some(Word::Union),
+            Word::Alpha => Some(Word::Filter),
+            _ => None,
+        }
+    }
+
     /// The opener of the only block it is a word in, for a contextual word.
     pub fn block(self) -> Option<Word> {
         self.row().block

@@ -196,6 +196,9 @@ impl Evaluator<'_> {
 
     /// A word of the right family that is not built: poison for the object being read.
     fn word_not_built(&mut self, token: &Token, word: Word) -> super::super::Reported {
+        if let Some(today) = word.today() {
+            return self.old_word(token, word, today);
+        }
         let poison = super::super::value::Poison { word, site: token.here.site(token.span) };
         self.skip_arguments(word);
         self.set_poison(poison);

@@ -87,6 +87,70 @@ impl Evaluator<'_> {
         Some(self.report(&here, diagnostic))
     }
 
+    /// `rgba <1, 0, 0, 0.5>`, `rgba(255, 0, 0, 0.5)`: no colour here says how opaque it is.
+    pub(in crate::evaluate) fn alpha_color(&self, name: &str, span: Span) -> Option<Diagnostic> {
+        let ours = match name.to_lowercase().as_str() {
+            "rgba" => "rgbt",
+            "srgba" => "srgbt",
+            _ => return None,
+        };
+        let diagnostic = Diagnostic::new(
+            Code::ForeignWord,
+            format!("`{name}` is not a colour here: none has an alpha"),
+        )
+        .at(span, format!("did you mean `{ours}`?"));
+        let help = format!(
+            "`{ours} <red, green, blue, transmit>` takes the opposite: transmit is 1 - alpha"
+        );
+        Some(match self.alpha_numbers(span) {
+            Some((whole, numbers)) => {
+                let right = format!("{ours} <{numbers}>");
+                diagnostic.help(format!("write `{right}`: transmit is 1 - alpha")).fix(whole, right)
+            }
+            None => diagnostic.help(help),
+        })
+    }
+
+    /// Passes over the vector or number right behind `rgba`, where that stood as a value.
+    pub(in crate::evaluate) fn skip_behind(&mut self, name: Span) {
+        let Some(next) = self.peek_on().map(|next| next.span) else { return };
+        let text = &self.sources.get(name.file).text;
+        let between = text.get(name.end as usize..next.start as usize);
+        let is_value = |c: char| c == '<' || c.is_ascii_digit();
+        let value = text.get(next.start as usize..).is_some_and(|rest| rest.starts_with(is_value));
+        if next.file == name.file && value && between.is_some_and(|b| b.trim().is_empty()) {
+            self.next();
+        }
+    }
+
+    /// The four plain numbers behind `rgba`, the last one turned; and all of it.
+    fn alpha_numbers(&self, span: Span) -> Option<(Span, String)> {
+        let rest = self.sources.get(span.file).text.get(span.end as usize..)?;
+        let list = rest.trim_start();
+        let close = match list.chars().next()? {
+            '<' => '>',
+            '(' => ')',
+            _ => return None,
+        };
+        let length = list.find(close)?;
+        let inside = list[1..length].trim().trim_start_matches('<');
+        let mut numbers = Vec::new();
+        for part in inside.split(',') {
+            numbers.push(part.trim().parse::<f64>().ok().filter(|number| *number >= 0.0)?);
+        }
+        let &[.., alpha] = numbers.as_slice() else { return None };
+        if numbers.len() != 4 || alpha > 1.0 {
+            return None;
+        }
+        // `rgba(255, 0, 0, 0.5)`, as the web has it.
+        let most = if numbers[..3].iter().any(|c| *c > 1.0) { 255.0 } else { 1.0 };
+        let short = |number: f64| format!("{}", (number * 1000.0).round() / 1000.0);
+        let mut texts: Vec<String> = numbers[..3].iter().map(|c| short(c / most)).collect();
+        texts.push(short(1.0 - alpha));
+        let end = span.end as usize + (rest.len() - list.len()) + length + 1;
+        Some((Span { end: end as u32, ..span }, texts.join(", ")))
+    }
+
     /// `transparency 0.5`, `opacity 0.5`: `transmit` belongs to a colour.
     pub(super) fn clear_word(
         &self,

@@ -1,6 +1,7 @@
 //! What follows an object's parts: its transforms, textures, interior and flags, in written order.
 
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
+use crate::source::Site;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -21,9 +22,22 @@ impl Evaluator<'_> {
             Family::Csg => Place::csg(word),
             _ => Place::shape(word),
         };
-        let mut failed = false;
+        let (mut failed, mut painted): (bool, Option<Site>) = (false, None);
         while let Some(token) = self.next() {
             let before = self.poison;
+            match token.kind {
+                TokenKind::Word(Word::Pigment) => {
+                    let site = token.here.site(token.span);
+                    // What a macro gives may be changed by who calls it.
+                    if let Some(first) = painted.replace(site)
+                        && first.expansion == site.expansion
+                    {
+                        self.lint_replaced(&token, first);
+                    }
+                }
+                TokenKind::Word(Word::Texture | Word::Material) => painted = None,
+                _ => {}
+            }
             match self.modifier(&token, used, modifiers, &mut textured) {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {

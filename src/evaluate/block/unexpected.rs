@@ -5,10 +5,10 @@ use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Role, Word};
 
-use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
+use super::super::{Evaluator, Reported};
 use super::Place;
 use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
@@ -177,6 +177,10 @@ impl Evaluator<'_> {
     }
 
     fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
+        if let Some(today) = word.today() {
+            self.old_word(token, word, today);
+            return;
+        }
         if place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
             self.skip_arguments(word);
@@ -259,6 +263,21 @@ impl Evaluator<'_> {
             Some(near) if is_transform(near) => self.skip_values(),
             _ => self.skip_arguments(word),
         }
+    }
+
+    /// `composite { … }`, `alpha 0.5`: the word of today is meant.
+    pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
+        let (name, meant) = (word.name(), today.name());
+        let message = format!("`{name}` is a word of old versions");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("today it is `{meant}`"))
+            .help(format!("write `{meant}`"))
+            .fix(token.span, meant);
+        let reported = self.report(&token.here, diagnostic);
+        if !self.judge_block(token, today) {
+            self.skip_values();
+        }
+        reported
     }
 
     /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.

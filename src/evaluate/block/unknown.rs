@@ -18,6 +18,10 @@ impl Evaluator<'_> {
     /// A name that is no word of the language and was never declared, where a word should stand.
     pub(super) fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
         let name = self.sources.text(span).to_owned();
+        if let Some(diagnostic) = self.alpha_color(&name, span) {
+            self.report(&token.here, diagnostic);
+            return self.skip_values();
+        }
         let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
@@ -103,7 +107,7 @@ impl Evaluator<'_> {
 
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
     /// when that word has no block, and nothing was read.
-    fn judge_block(&mut self, token: &Token, word: Word) -> bool {
+    pub(super) fn judge_block(&mut self, token: &Token, word: Word) -> bool {
         let token = Token { kind: TokenKind::Word(word), ..token.clone() };
         let poison = self.poison.take();
         let judged = match word {
@@ -139,6 +143,7 @@ impl Evaluator<'_> {
         }
         close.is_some()
             || self.lacking_include(name).is_some()
+            || self.lacking_near(name).is_some()
             || token.here.unit.declaration_of(symbol).is_some()
             || (here.is_none() && self.scopes.declared(symbol).is_some())
     }
@@ -186,6 +191,12 @@ impl Evaluator<'_> {
         let TokenKind::Expression(id) = token.kind else { return None };
         self.unknown_name(&token.here, id)?;
         let name = self.sources.text(token.span).to_owned();
+        if let Some(diagnostic) = self.alpha_color(&name, token.span) {
+            let reported = self.report(&token.here, diagnostic);
+            self.next();
+            self.skip_values();
+            return Some(reported);
+        }
         let near = word_like(&name, |word| word.family() == Family::Color)?;
         // Without a value behind it, it is rather the name of a colour.
         let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;

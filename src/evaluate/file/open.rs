@@ -129,6 +129,13 @@ impl Evaluator<'_> {
                     .at(span, "it would be lost");
             return Err(self.report(here, diagnostic));
         }
+        if self.parsed.contains_key(&name) && !self.authored.contains(&name) {
+            let message = format!("`{path}` is a part of this scene");
+            let diagnostic = Diagnostic::new(Code::ForbiddenFile, message)
+                .at(span, "it was included, and would be lost");
+            return Err(self.report(here, diagnostic));
+        }
+        self.authored.insert(name.clone());
         // What was read under this name is not what it holds from now on.
         self.parsed.remove(&name);
         self.found.retain(|(other, _), _| other != path);

@@ -32,10 +32,13 @@ impl Evaluator<'_> {
 
     fn read_each(&mut self, here: &Here, name: (NameId, Span), targets: &[Target]) -> Outcome<()> {
         let handle = self.opened(here, name)?;
-        for target in targets {
+        for (n, target) in targets.iter().enumerate() {
             let (file, at) = match &self.opened[handle.0 as usize].state {
                 State::Reading { file, at } => (*file, *at),
-                State::Closed { .. } => return Ok(()),
+                State::Closed { .. } => {
+                    self.lint_short_file(here, name.1, target.span);
+                    return Ok(());
+                }
                 State::Writing { .. } => {
                     return Err(self.other_way(here, handle, name.1, "write", "read"));
                 }
@@ -45,6 +48,9 @@ impl Evaluator<'_> {
                 Ok(Some(datum)) => datum,
                 Ok(None) => {
                     self.end_file(handle, Closed::End, here.site(name.1));
+                    if n > 0 {
+                        self.lint_short_file(here, name.1, target.span);
+                    }
                     return Ok(());
                 }
                 Err(Fault { code, at, message, label }) => {
@@ -62,6 +68,16 @@ impl Evaluator<'_> {
             self.set_target(here, target, value)?;
         }
         Ok(())
+    }
+
+    /// The file ends in the middle of what is read together.
+    fn lint_short_file(&mut self, here: &Here, name: Span, target: Span) {
+        let [name, text] = [name, target].map(|span| self.sources.text(span).to_owned());
+        let message = format!("`{name}` ends before there is a value for `{text}`");
+        let diagnostic = Diagnostic::new(Code::ShortFile, message)
+            .at(target, "nothing is read into this, nor into what follows")
+            .help("the number of values in the file is no multiple of those read together");
+        self.report(here, diagnostic);
     }
 
     fn set_target(&mut self, here: &Here, target: &Target, value: Value) -> Outcome<()> {

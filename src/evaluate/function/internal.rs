@@ -8,6 +8,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::NoiseFunction;
 use crate::source::{ExpansionId, Source, Span};
+use crate::standard::place_of;
 use crate::syntax::ast::{Argument, Arguments};
 use crate::syntax::{self, ParseOptions};
 
@@ -147,7 +148,7 @@ impl Evaluator<'_> {
 
     /// Every formula by its number; their names are forgotten again.
     fn compile_internals(&mut self) -> Vec<Option<FunctionId>> {
-        let id = self.sources.add(Source::new("internal.inc", FORMULAS.to_owned()));
+        let id = self.sources.add(Source::new(place_of("internal.inc"), FORMULAS.to_owned()));
         let options = ParseOptions { dialect: self.options.dialect, ..ParseOptions::default() };
         let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
         let here = Here { unit: self.unit(ast), expansion: ExpansionId::MAIN };

@@ -34,6 +34,15 @@ fn is_typed_in_radians(angle: f64) -> bool {
     near(std::f64::consts::PI / 12.0) || near(std::f64::consts::PI / 8.0)
 }
 
+/// The degrees that a typed angle in radians is meant for: 3.14 for 180.
+fn typed_for(radians: f64) -> String {
+    let meant = radians.to_degrees();
+    match (meant - meant.round()).abs() < 0.2 {
+        true => format!("{}", meant.round()),
+        false => format!("{meant:.1}"),
+    }
+}
+
 impl Evaluator<'_> {
     /// The vector of a `rotate`: degrees about each axis.
     pub(in crate::evaluate) fn lint_rotation(&mut self, given: &Given<Vector>) {
@@ -68,20 +77,16 @@ impl Evaluator<'_> {
         )
         .at(given.span, format!("{largest:.4} degrees"));
         let written = match literal {
-            true => None,
+            true => self.typed_in_degrees(&given.here, expression, degrees),
             false => self.in_degrees(&given.here, expression, degrees.len() == 1),
         };
+        let meant = typed_for(largest);
         let diagnostic = match written {
+            Some(written) if literal => diagnostic
+                .help(format!("as radians it is {meant} degrees: write `{written}`"))
+                .fix(given.span, written),
             Some(written) => diagnostic.help(format!("write `{written}`")).fix(given.span, written),
-            None => {
-                // 3.14 is meant for 180.
-                let meant = largest.to_degrees();
-                let meant = match (meant - meant.round()).abs() < 0.2 {
-                    true => format!("{}", meant.round()),
-                    false => format!("{meant:.1}"),
-                };
-                diagnostic.help(format!("as radians it is {meant} degrees: write these"))
-            }
+            None => diagnostic.help(format!("as radians it is {meant} degrees: write these")),
         };
         self.report(&given.here, diagnostic);
         true
@@ -90,6 +95,43 @@ impl Evaluator<'_> {
     /// A lone angle, if it is in radians for certain. Says whether it said so.
     pub(in crate::evaluate) fn lint_angle_in_radians(&mut self, given: &Given<f64>) -> bool {
         !is_literal(self.sources.text(given.span)) && self.lint_degrees(given, &[given.value])
+    }
+
+    /// A typed rotation in whole degrees, or tenths: `<0, 3.14159/4, 0>`, `1.5708*y`.
+    fn typed_in_degrees(&self, here: &Here, id: ExpressionId, angles: &[f64]) -> Option<String> {
+        let unit = &here.unit;
+        let whole = unit.expression(id).span;
+        let is_axis = |id: ExpressionId| {
+            matches!(unit.expression(id).kind, ExpressionKind::Word(Word::X | Word::Y | Word::Z))
+        };
+        let largest = angles.iter().copied().find(|angle| *angle != 0.0)?;
+        let pieces: Vec<(Span, f64)> = match unit.expression(id).kind {
+            ExpressionKind::Vector(list) => {
+                let list = unit.ast.arguments(list);
+                let parts = list.iter().zip(angles).filter(|(_, angle)| **angle != 0.0);
+                let parts = parts.map(|(argument, angle)| match *argument {
+                    Argument::Expression(id) if is_typed_in_radians(*angle) => {
+                        Some((unit.expression(id).span, *angle))
+                    }
+                    Argument::Expression(_) | Argument::Items(_) => None,
+                });
+                let parts: Option<Vec<(Span, f64)>> = parts.collect();
+                parts.filter(|_| list.len() == angles.len())?
+            }
+            ExpressionKind::Binary(BinaryOperator::Multiply, left, right) if is_axis(right) => {
+                vec![(unit.expression(left).span, largest)]
+            }
+            ExpressionKind::Binary(BinaryOperator::Multiply, left, right) if is_axis(left) => {
+                vec![(unit.expression(right).span, largest)]
+            }
+            _ => return None,
+        };
+        let mut text = self.sources.text(whole).to_owned();
+        for (piece, angle) in pieces.into_iter().rev() {
+            let at = (piece.start - whole.start) as usize..(piece.end - whole.start) as usize;
+            text.replace_range(at, &typed_for(angle));
+        }
+        Some(text)
     }
 
     /// An expression with its radians turned into degrees, where they are a factor or a component of it.

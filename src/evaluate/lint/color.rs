@@ -1,4 +1,4 @@
-//! Colours that were hardly meant so: 0 to 255, two components, a clear background.
+//! Colours that were hardly meant so: 0 to 255, negative, two components, a clear background.
 
 use super::is_literal;
 use crate::color::{Color, Rgb};
@@ -32,20 +32,20 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A colour is 0 to 1; this one looks like 0 to 255.
+    /// A colour is 0 to 1; this one looks like 0 to 255, or is negative.
     pub(in crate::evaluate) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: Rgb) {
         let components = [rgb.red, rgb.green, rgb.blue];
         let whole = components.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
         let largest = rgb.largest();
+        if components.iter().any(|c| *c < 0.0) {
+            return self.lint_negative_color(here, span);
+        }
         if !whole || largest < ANY {
             return;
         }
         let gray = rgb.red == rgb.green && rgb.green == rgb.blue;
         let opener = self.openers.last().map(|span| self.sources.text(*span));
-        let is_seen = matches!(
-            opener,
-            Some("pigment" | "color_map" | "colour_map" | "background" | "global_settings")
-        );
+        let is_seen = self.in_pigment() || matches!(opener, Some("background" | "global_settings"));
         // Lights may be far brighter than 1, and a colour that is declared may be for one: a grey or
         // round numbers may be meant so.
         let round = components.iter().all(|c| c % 10.0 == 0.0);
@@ -76,6 +76,20 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.fix(span, divided);
         }
         self.report(here, diagnostic);
+    }
+
+    /// Of a light it may be meant: such a one takes light away. So may what is computed, or begins a map:
+    /// it is cut at black.
+    fn lint_negative_color(&mut self, here: &Here, span: Span) {
+        let text = self.sources.text(span);
+        let typed = !text.contains(|c: char| c.is_alphabetic());
+        let opener = self.openers.last().map(|span| self.sources.text(*span));
+        if typed && opener == Some("pigment") {
+            let diagnostic =
+                Diagnostic::new(Code::ColorRange, "a component of this colour is negative")
+                    .at(span, "expected 0 to 1: no surface gives back less than nothing");
+            self.report(here, diagnostic);
+        }
     }
 
     /// There is nothing behind a background: what it lets through is black.

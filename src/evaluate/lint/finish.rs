@@ -10,6 +10,8 @@ use crate::scene::{ClassicFinish, Finish};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
+/// From here on no light tells on a surface of a middling colour.
+const LAMP_AMBIENT: f64 = 2.0;
 /// Roughness ends at 1, says the manual; a little beyond it a surface still has a highlight.
 const ROUGHEST: f64 = 2.0;
 /// From here on a strength of a whole number, up to 100, is a percentage. Ambient light may be a lamp's.
@@ -50,8 +52,18 @@ impl Evaluator<'_> {
         let Finish::Classic(ClassicFinish { diffuse, .. }) = finish else { return };
         let ambient = given.value.red;
         let whole = ambient.fract() == 0.0 && (BRIGHT_AMBIENT..=100.0).contains(&ambient);
-        if *diffuse != 0.0 && whole && is_literal(self.sources.text(given.span)) {
+        if *diffuse == 0.0 || !is_literal(self.sources.text(given.span)) {
+            return;
+        }
+        if whole {
             self.report(&given.here, percentage_of(given.span, Word::Ambient.name(), ambient));
+        } else if (LAMP_AMBIENT..BRIGHT_AMBIENT).contains(&ambient) {
+            let message =
+                format!("an `ambient` of {ambient} outshines every light on this surface");
+            let diagnostic = Diagnostic::new(Code::UnlikelyFinish, message)
+                .at(given.span, "expected 0 to 1")
+                .help("of a lamp it is meant: `ambient` with `diffuse 0`, or `emission`");
+            self.report(&given.here, diagnostic);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Loops that count, as other languages write them: `for (i = 0; i < 3; i++) { … }`, `for i in range(3):`.
 
 use super::Reader;
+use super::sample::sample;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::Word;
@@ -53,6 +54,9 @@ impl Reader<'_> {
             first => format!("#for ({name}, {}, {})", text(first), count.last_text),
         };
         let certain = !count.last_text.is_empty();
+        let inside = self.span(from, to - 1);
+        let head = self.text.get(inside.range()).unwrap_or("");
+        let sample = if certain { None } else { sample(head, &name) };
         let diagnostic = match signed {
             true => {
                 let message = "`#for` takes a name, a start and an end, with commas between them";
@@ -69,14 +73,21 @@ impl Reader<'_> {
         };
         let (mut diagnostic, braced) = self.braces(end, diagnostic);
         let ended = signed || braced || self.surplus_ends();
-        diagnostic = match certain {
-            true => diagnostic.help(format!("write `{right} … #end`: the end is included")),
-            false => diagnostic.help("write `#for (I, 0, 9) … #end`: from 0 to 9, both included"),
+        let right = match (&sample, certain) {
+            (_, true) => Some(right),
+            (Some(sample), false) => Some(format!("#for {}", sample.text)),
+            (None, false) => None,
         };
-        match certain && ended {
-            true => diagnostic = diagnostic.fix(span, right),
+        diagnostic = match &right {
+            Some(right) => diagnostic.help(format!("write `{right} … #end`: the end is included")),
+            None => diagnostic
+                .help(format!("write `#for ({name}, 0, 9) … #end`: from 0 to 9, both included")),
+        };
+        let sure = certain || sample.is_some_and(|sample| sample.certain);
+        match right.filter(|_| sure && ended) {
+            Some(right) => diagnostic = diagnostic.fix(span, right),
             // Half a fix is none.
-            false => diagnostic.fixes.clear(),
+            None => diagnostic.fixes.clear(),
         }
         self.diagnostics.push(diagnostic);
         let place = self.tokens[self.at];
@@ -186,8 +197,8 @@ impl Reader<'_> {
             }
             (first, last) = match pieces.as_slice() {
                 [last] if exclusive => (Vec::new(), last.clone()),
-                [first, last] => (first.clone(), last.clone()),
-                // A step may stand in the middle or at the end.
+                [first, last] if !self.falls(first, last) => (first.clone(), last.clone()),
+                // It counts down, or a step may stand in the middle or at the end.
                 _ => return Some(Count::unclear(name)),
             };
         }
@@ -202,6 +213,15 @@ impl Reader<'_> {
             (true, Err(_)) => format!("{text} - 1"),
         };
         Some(Count { name, first, last, last_text })
+    }
+
+    /// Whether one whole number is more than another.
+    fn falls(&self, first: &[usize], last: &[usize]) -> bool {
+        let whole = |ahead: &[usize]| {
+            let text: String = ahead.iter().map(|&at| self.slice(at)).collect();
+            text.parse::<i64>().ok()
+        };
+        matches!((whole(first), whole(last)), (Some(first), Some(last)) if first > last)
     }
 
     /// A number, with or without a sign, or a name.

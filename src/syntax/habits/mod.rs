@@ -1,5 +1,5 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the parts of
+//! count (`counting.rs`, `sample.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the parts of
 //! blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
@@ -14,6 +14,7 @@ mod head;
 mod letter;
 mod map;
 mod part;
+mod sample;
 mod sign;
 mod web;
 
