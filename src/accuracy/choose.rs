@@ -11,7 +11,7 @@ use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
 use crate::plan::{PlanOptions, plan};
-use crate::trace::{Counters, Sampling};
+use crate::trace::{Counters, Sampling, Watch};
 use crate::world::Origins;
 
 /// Settings and what the tuning pixels say of them.
@@ -38,6 +38,8 @@ pub struct Tuning<'a> {
     settings: Vec<Vec<f64>>,
     /// When the choice is to be made.
     until: Option<(&'a dyn Clock, f64)>,
+    /// Who is told how many settings were tried, of how many.
+    pub tell: Option<&'a dyn Watch>,
 }
 
 /// Part of the error that a dearer setting must take off.
@@ -56,8 +58,8 @@ impl<'a> Tuning<'a> {
     ) -> Self {
         let settings = knobs.iter().map(|knob| knob.with((knob.get)(&own))).collect();
         let tried = BTreeMap::new();
-        let until = None;
-        Self { studio, origins, list, reference, metric, knobs, own, tried, settings, until }
+        let (until, tell) = (None, None);
+        Self { studio, origins, list, reference, metric, knobs, own, tried, settings, until, tell }
     }
 
     /// Nothing deeper is tried, unless the scene's own setting is: of what looks deeper than the
@@ -106,6 +108,10 @@ impl<'a> Tuning<'a> {
         let cost = factors.product::<f64>() * cost(&counters) / self.list.len() as f64;
         let choice = Choice { options, cost, error };
         self.tried.insert(places.to_vec(), choice.clone());
+        if let Some(watch) = self.tell {
+            let all = self.settings.iter().map(Vec::len).sum::<usize>();
+            watch.progress(self.tried.len().min(all), all);
+        }
         Some(choice)
     }
 

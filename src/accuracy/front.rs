@@ -1,15 +1,16 @@
 //! Which settings are worth their cost: a partial order, and what it says of each.
 //!
-//! **Invariant:** [`Order::dominates`] is a strict partial order by construction: cost is ordered by
-//! one number, within a stretch by runs that stand clear of each other, and error by the product order
-//! over shared resamples; each is transitive, and so are they together. What is not proven is never
-//! taken for equal: equal is only what was the same work, or the same error to the last bit.
+//! **Invariant:** one setting is cheaper than another when its counted cost is less and, in the seconds,
+//! its middle run is shorter than the other's shortest. So no verdict goes against a column that the
+//! reader sees, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
+//! order and a product order over shared resamples are transitive, and so are they together. What is
+//! not proven is never taken for equal: equal is only what was the same work, or the same error to the
+//! last bit.
 
 use super::Span;
+use super::statistics::Estimate;
 use crate::trace::Counters;
 
-/// From so many runs on the clock is heard.
-pub const ENOUGH_RUNS: usize = 5;
 /// Less than this is no reason to pay more.
 const WORTH: f64 = 1.01;
 
@@ -20,45 +21,40 @@ pub struct Point {
     pub work: (Counters, f64),
     /// The counted work in rays of the camera.
     pub cost: f64,
-    /// CPU seconds of each run.
-    pub cpu: Vec<f64>,
-    /// The error as measured, then that of the resamples, which all points share.
-    pub errors: Vec<f64>,
+    /// CPU seconds; those that are the same work share their runs.
+    pub cpu: Span,
+    /// The error as measured, with its 95 % interval.
+    pub error: Estimate,
+    /// That of the resamples, which all points share.
+    pub resamples: Vec<f64>,
     /// Whatever is below cannot be told from nothing: of an error measured there, all that is known is
     /// that it lies between. The same for all points.
     pub resolution: f64,
 }
 
 impl Point {
-    /// Where each of its errors lies.
+    /// Where each of its errors lies: of the one measured, and of every resample, which counts no
+    /// further than the interval goes.
     fn bounds(&self) -> impl Iterator<Item = (f64, f64)> {
-        let resolved = self.errors.first().is_some_and(|&error| error >= self.resolution);
-        self.errors.iter().map(move |error| {
+        let Estimate { value, low, high } = self.error;
+        let inside = move |&resample: &f64| resample.max(low).min(high);
+        std::iter::once(value).chain(self.resamples.iter().map(inside)).map(move |error| {
             let most = error.max(self.resolution);
-            (if resolved { most } else { 0.0 }, most)
+            (if value >= self.resolution { most } else { 0.0 }, most)
         })
     }
 }
 
-/// How many times as dear something is, and who says so.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Saving {
-    /// The counters, times unit costs.
-    Work(f64),
-    /// Runs that stand clear of each other.
-    Time(f64),
-}
-
-/// What is to be said of a setting.
+/// What is to be said of a setting; how many times as long as another it takes is of the shortest runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
     /// Every cheaper setting is proven to be worse.
     Front,
-    /// Another is no dearer and no worse, and one of both it is better: this one costs `saving`
-    /// times as much (nothing where both cost the same), and that one has `error` times the error.
-    Dominated { by: usize, saving: Option<Saving>, error: f64 },
+    /// Another is no dearer and no worse, and one of both it is better: this one takes `times` as
+    /// long (nothing where both are the same work), and that one has `error` times the error.
+    Dominated { by: usize, times: Option<f64>, error: f64 },
     /// A cheaper one is not proven to be worse.
-    Unproven { over: usize, saving: Saving },
+    Unproven { over: usize, times: f64 },
     /// Neither in cost nor in error can it be told from this one.
     Tied { with: usize },
 }
@@ -66,69 +62,28 @@ pub enum Verdict {
 /// Points in order of cost and of error.
 pub struct Order {
     points: Vec<Point>,
-    /// Of each point: whatever lies in an earlier stretch is cheaper. Inside one the clock decides,
-    /// if it can.
-    stretches: Vec<usize>,
-    /// The least CPU seconds of all runs that were the same work.
-    seconds: Vec<f64>,
-    /// Seconds further apart than this factor are; infinite before there are enough runs.
-    clear: f64,
 }
 
 impl Order {
     pub fn of(points: Vec<Point>) -> Self {
-        let pooled = |point: &Point| {
-            let same = points.iter().filter(|other| other.work == point.work);
-            Span::of(&same.flat_map(|other| other.cpu.iter().copied()).collect::<Vec<_>>())
-        };
-        let spans: Vec<Span> = points.iter().map(pooled).collect();
-        let heard = points.iter().all(|point| point.cpu.len() >= ENOUGH_RUNS);
-        let spread = |span: &Span| span.median / span.min;
-        let clear = match heard && spans.iter().all(|span| span.min > 0.0) {
-            true => spans.iter().map(spread).fold(1.0, f64::max),
-            false => f64::INFINITY,
-        };
-        let seconds = spans.iter().map(|span| span.min).collect();
-        let mut order = Self { stretches: vec![0; points.len()], points, seconds, clear };
-        order.part();
-        order
-    }
-
-    /// Counted work orders the points; from the first to the last of those that the clock proves
-    /// to be the other way round, they are one stretch.
-    fn part(&mut self) {
-        let mut by_cost: Vec<usize> = (0..self.points.len()).collect();
-        by_cost.sort_by(|&a, &b| self.points[a].cost.total_cmp(&self.points[b].cost));
-        let (mut reach, mut stretch) = (0, 0);
-        for (place, &i) in by_cost.iter().enumerate() {
-            let before = place.checked_sub(1).map(|before| self.points[by_cost[before]].cost);
-            if place > reach && before.is_some_and(|before| before < self.points[i].cost) {
-                stretch += 1;
-            }
-            let contradicts = by_cost.iter().rposition(|&other| self.runs_faster(other, i));
-            reach = reach.max(place).max(contradicts.unwrap_or(0));
-            self.stretches[i] = stretch;
-        }
-    }
-
-    fn runs_faster(&self, a: usize, b: usize) -> bool {
-        self.seconds[a] * self.clear < self.seconds[b]
+        Self { points }
     }
 
     pub fn is_same_work(&self, a: usize, b: usize) -> bool {
-        self.points[a].work == self.points[b].work
+        let (a, b) = (&self.points[a], &self.points[b]);
+        a.work == b.work && a.cost == b.cost && a.cpu == b.cpu
     }
 
+    /// By what was counted, and by the clock.
     pub fn is_cheaper(&self, a: usize, b: usize) -> bool {
-        let (of_a, of_b) = (self.stretches[a], self.stretches[b]);
-        of_a < of_b || (of_a == of_b && self.runs_faster(a, b))
+        let (a, b) = (&self.points[a], &self.points[b]);
+        // A clock too coarse to see a run says nothing of it.
+        a.cost < b.cost && 0.0 < a.cpu.min && a.cpu.median < b.cpu.min
     }
 
-    /// How many times as dear as `a`, if it is dearer, `b` is.
-    pub fn saving(&self, a: usize, b: usize) -> Option<Saving> {
-        let work = Saving::Work(self.points[b].cost / self.points[a].cost);
-        let time = Saving::Time(self.seconds[b] / self.seconds[a]);
-        self.is_cheaper(a, b).then_some(if self.runs_faster(a, b) { time } else { work })
+    /// How many times as long as `a`, if it is dearer, `b` takes.
+    pub fn times(&self, a: usize, b: usize) -> Option<f64> {
+        self.is_cheaper(a, b).then(|| self.points[b].cpu.min / self.points[a].cpu.min)
     }
 
     /// Of each error the most that the one's can be, against the least that the other's can be.
@@ -138,7 +93,8 @@ impl Order {
     }
 
     fn has_same_errors(&self, a: usize, b: usize) -> bool {
-        self.points[a].errors == self.points[b].errors
+        let (a, b) = (&self.points[a], &self.points[b]);
+        a.error == b.error && a.resamples == b.resamples
     }
 
     /// In no resample is its error the larger.
@@ -147,7 +103,7 @@ impl Order {
     }
 
     /// In every resample its error is the smaller: among as many pairs as a report has, less than all
-    /// of a thousand would be seen by chance.
+    /// of a thousand would be seen by chance. Always where the intervals have nothing in common.
     fn is_better(&self, a: usize, b: usize) -> bool {
         self.each_error(a, b, |a, b| a < b)
     }
@@ -165,16 +121,10 @@ impl Order {
             && (cheaper || self.is_better(a, b))
     }
 
-    /// The points of a list from cheap to dear; of what cannot be told apart, by counted cost, or as
-    /// it came.
+    /// The points of a list by counted cost; of the same cost, as they came.
     pub fn from_cheap_to_dear(&self, list: &[usize]) -> Vec<usize> {
-        let (mut left, mut sorted) = (list.to_vec(), Vec::with_capacity(list.len()));
-        left.sort_by(|&a, &b| self.points[a].cost.total_cmp(&self.points[b].cost));
-        while !left.is_empty() {
-            let is_next = |&i: &usize| !left.iter().any(|&other| self.is_cheaper(other, i));
-            let next = left.iter().position(is_next).unwrap_or(0);
-            sorted.push(left.remove(next));
-        }
+        let mut sorted = list.to_vec();
+        sorted.sort_by(|&a, &b| self.points[a].cost.total_cmp(&self.points[b].cost));
         sorted
     }
 
@@ -194,16 +144,16 @@ impl Order {
         }
         let best = sorted.iter().filter(|&&other| self.dominates(other, i)).find(undominated);
         if let Some(&by) = best {
-            let shown = |of: usize| self.points[of].errors[0].max(self.points[of].resolution);
+            let shown = |of: usize| self.points[of].error.value.max(self.points[of].resolution);
             let error = if shown(i) > 0.0 { shown(by) / shown(i) } else { 1.0 };
-            return Verdict::Dominated { by, saving: self.saving(by, i), error };
+            return Verdict::Dominated { by, times: self.times(by, i), error };
         }
         let mut rivals = sorted.iter().filter(|&&other| other != i && !self.gains(i, other));
         let cheaper = |&&other: &&usize| self.is_cheaper(other, i);
         if let Some(&over) = rivals.clone().filter(cheaper).find(undominated)
-            && let Some(saving) = self.saving(over, i)
+            && let Some(times) = self.times(over, i)
         {
-            return Verdict::Unproven { over, saving };
+            return Verdict::Unproven { over, times };
         }
         let as_good = |&&other: &&usize| {
             !self.is_cheaper(i, other)
@@ -223,44 +173,54 @@ mod tests {
     use super::*;
     use crate::math::random::{Random, long};
 
-    /// As much work as `cost` says.
+    /// As much work as `cost` says, and an error that is sure.
     fn point(cost: f64, cpu: &[f64], error: f64) -> Point {
         let counters = Counters { camera: (cost * 1e6) as u64, ..Counters::default() };
+        let sure = Estimate { value: error, low: error, high: error };
         Point {
             work: (counters, 1.0),
             cost,
-            cpu: cpu.to_vec(),
-            errors: vec![error; 5],
+            cpu: Span::of(cpu),
+            error: sure,
+            resamples: vec![error; 4],
             resolution: 0.0,
         }
     }
 
-    /// Points of sure errors, by one run each.
-    fn verdicts(of: &[(f64, f64)]) -> Vec<Verdict> {
-        let points = of.iter().map(|&(cost, error)| point(cost, &[cost], error)).collect();
-        Order::of(points).verdicts(&(0..of.len()).collect::<Vec<_>>())
+    /// The same, of an error that is not.
+    fn unsure(cost: f64, (low, value, high): (f64, f64, f64), resamples: [f64; 4]) -> Point {
+        let error = Estimate { value, low, high };
+        Point { error, resamples: resamples.to_vec(), ..point(cost, &[cost], value) }
+    }
+
+    fn verdicts(points: &[Point]) -> Vec<Verdict> {
+        Order::of(points.to_vec()).verdicts(&(0..points.len()).collect::<Vec<_>>())
     }
 
     /// Anything: twins, near misses, clocks that contradict the counters, errors that cross.
     fn anything(random: &mut Random) -> Order {
         let count = 2 + random.below(7);
-        let runs = [1, 3, ENOUGH_RUNS, 9][random.below(4)];
+        let runs = [1, 2, 5, 9][random.below(4)];
         let noise = [0.0, 0.02, 0.3][random.below(3)];
         let resolution = [0.0, 0.0, 0.15][random.below(3)];
         let mut points: Vec<Point> = Vec::new();
         for _ in 0..count {
             let cost = [1.0, 1.0, 1.02, 1.1, 1.5, 2.0][random.below(6)];
-            let truth = cost * [1.0, 1.0, 0.7, 1.4][random.below(4)];
+            let truth = cost * [1.0, 1.0, 1.0, 0.7, 1.4, 1.0, 1.0, 0.0][random.below(8)];
             let run = |_| truth * (1.0 + random.number(0.0, noise));
             let cpu: Vec<f64> = (0..runs).map(run).collect();
-            let error = [0.1, 0.1, 0.1005, 0.2, 0.3][random.below(5)];
+            let value = [0.1, 0.1, 0.1005, 0.2, 0.3][random.below(5)];
             let spread = [0.0, 0.0, 0.01, 0.15][random.below(4)];
-            let draw = |_| error + random.number(0.0, spread);
-            let mut new = point(cost, &cpu, error);
-            new.errors = (0..4).map(draw).collect();
+            let mut new = point(cost, &cpu, value);
+            new.resamples = (0..3).map(|_| value + random.number(-spread, spread)).collect();
+            let low = value - random.number(0.0, 0.8 * spread);
+            new.error = Estimate { value, low, high: value + random.number(0.0, 0.8 * spread) };
             new.resolution = resolution;
             if random.below(3) == 0 {
                 new.work.0.shadow = random.below(2) as u64;
+            }
+            if let Some(twin) = points.iter().find(|other| other.work == new.work) {
+                new.cpu = twin.cpu;
             }
             points.push(new);
         }
@@ -288,6 +248,7 @@ mod tests {
                         follows(&|a, b| order.is_cheaper(a, b));
                         follows(&|a, b| order.is_cheaper(a, b) || order.is_same_work(a, b));
                         follows(&|a, b| order.gains(a, b));
+                        follows(&|a, b| order.is_no_worse(a, b));
                         chains += usize::from(order.dominates(a, b) && order.dominates(b, c));
                     }
                 }
@@ -296,6 +257,7 @@ mod tests {
         assert!(pairs > 5000 && chains > 1000, "{pairs} {chains}");
     }
 
+    /// Of the numbers that a table shows, none may speak against what stands beside them.
     #[test]
     fn a_verdict_claims_nothing_that_the_numbers_do_not_show() {
         let mut random = Random(12);
@@ -305,37 +267,56 @@ mod tests {
             let all: Vec<usize> = (0..order.points.len()).collect();
             let verdicts = order.verdicts(&all);
             for (i, verdict) in verdicts.iter().enumerate() {
-                let errors = |of: usize| &order.points[of].errors;
-                let no_dearer = |a: usize| order.is_cheaper(a, i) || order.is_same_work(a, i);
+                let point = |of: usize| &order.points[of];
+                let shown = |of: usize| point(of).error.value.max(point(of).resolution);
+                let cheaper = |a: usize, b: usize| {
+                    let (a, b) = (point(a), point(b));
+                    a.cost < b.cost && a.cpu.min > 0.0 && a.cpu.median < b.cpu.min
+                };
                 let place = match *verdict {
                     Verdict::Front => {
                         let cheaper = all.iter().filter(|&&other| order.is_cheaper(other, i));
                         assert!(cheaper.clone().all(|&other| order.gains(i, other)));
+                        assert!(cheaper.clone().all(|&other| shown(i) < shown(other)));
                         0
                     }
-                    Verdict::Dominated { by, saving, error } => {
-                        assert!(no_dearer(by) && error <= 1.0);
-                        let floor = order.points[i].resolution;
-                        let most = |of: usize| errors(of).iter().map(|error| error.max(floor));
-                        assert!(most(by).zip(most(i)).all(|(a, b)| a <= b));
+                    Verdict::Dominated { by, times, error } => {
+                        assert!(cheaper(by, i) || order.is_same_work(by, i));
+                        assert!(times.is_none_or(|times| times > 1.0));
+                        assert_eq!(times.is_none(), order.is_same_work(by, i));
+                        assert!(error <= 1.0 && shown(by) <= shown(i));
+                        assert!(point(by).error.low <= point(i).error.high.max(shown(i)));
                         // Two that are not resolved are not compared.
-                        assert!(errors(i)[0] >= floor || errors(i) == errors(by));
+                        let resolved = point(i).error.value >= point(i).resolution;
+                        assert!(resolved || order.has_same_errors(by, i));
                         assert!(!matches!(verdicts[by], Verdict::Dominated { .. }));
-                        assert_eq!(saving.is_none(), order.is_same_work(by, i));
                         1
                     }
-                    Verdict::Unproven { over, saving } => {
-                        assert!(order.is_cheaper(over, i) && !order.gains(i, over));
-                        assert!(matches!(saving, Saving::Work(r) | Saving::Time(r) if r > 1.0));
+                    Verdict::Unproven { over, times } => {
+                        assert!(cheaper(over, i) && !order.gains(i, over) && times > 1.0);
+                        // Where the intervals have nothing in common it would be proven.
+                        let high = point(i).error.high.max(point(i).resolution);
+                        let resolved = point(over).error.value >= point(over).resolution;
+                        assert!(!resolved || high * WORTH >= point(over).error.low);
                         2
                     }
                     Verdict::Tied { with } => {
-                        assert!(!order.is_cheaper(with, i) && !order.is_cheaper(i, with));
+                        assert!(!cheaper(with, i) && !cheaper(i, with));
                         assert!(!order.gains(with, i) && !order.gains(i, with) && with != i);
                         3
                     }
                 };
                 seen[place] += 1;
+            }
+            // Nothing lies left of and below all that is not dominated.
+            for &i in &all {
+                let point = |of: usize| &order.points[of];
+                let beats = |other: &&usize| {
+                    let (a, b) = (point(**other), point(i));
+                    a.cpu.min <= b.cpu.min && a.error.value <= b.error.value
+                };
+                let stands = |other: &usize| !matches!(verdicts[*other], Verdict::Dominated { .. });
+                assert!(all.iter().filter(beats).any(stands));
             }
         }
         assert!(seen.iter().all(|&times| times > 200), "{seen:?}");
@@ -343,60 +324,69 @@ mod tests {
 
     #[test]
     fn the_front_goes_down_as_cost_goes_up() {
-        let verdicts = verdicts(&[(1.0, 0.5), (4.0, 0.1), (2.0, 0.2), (8.0, 0.2)]);
+        let points = [(1.0, 0.5), (4.0, 0.1), (2.0, 0.2), (8.0, 0.2)];
+        let verdicts = verdicts(&points.map(|(cost, error)| point(cost, &[cost], error)));
         assert_eq!(verdicts[..3], [Verdict::Front; 3]);
         // Of those that dominate it, the cheapest.
-        let saving = Some(Saving::Work(4.0));
-        assert_eq!(verdicts[3], Verdict::Dominated { by: 2, saving, error: 1.0 });
+        let times = Some(4.0);
+        assert_eq!(verdicts[3], Verdict::Dominated { by: 2, times, error: 1.0 });
     }
 
     #[test]
-    fn the_same_work_is_tied_whatever_the_clock_says_of_it() {
-        let mut points = vec![point(1.0, &[3.0; 9], 0.5), point(1.0, &[1.0; 9], 0.5)];
-        let tied = [Verdict::Front, Verdict::Tied { with: 0 }];
-        assert_eq!(Order::of(points.clone()).verdicts(&[0, 1]), tied);
+    fn the_same_work_is_tied_or_the_worse_of_two() {
+        let mut points = [point(1.0, &[3.0; 9], 0.5), point(1.0, &[3.0; 9], 0.5)];
+        assert_eq!(verdicts(&points), [Verdict::Front, Verdict::Tied { with: 0 }]);
         // As much work, but for less error.
-        points[1].errors = vec![0.4; 5];
-        let saving = None;
-        let dominated = Verdict::Dominated { by: 1, saving, error: 0.8 };
-        assert_eq!(Order::of(points).verdicts(&[0, 1]), [dominated, Verdict::Front]);
+        points[1] = point(1.0, &[3.0; 9], 0.4);
+        let dominated = Verdict::Dominated { by: 1, times: None, error: 0.8 };
+        assert_eq!(verdicts(&points), [dominated, Verdict::Front]);
     }
 
     #[test]
-    fn few_runs_prove_nothing_against_the_counters_and_many_do_where_they_are_clear() {
-        let cheaper = |runs: usize, noise: f64| {
-            let run = |seconds: f64, i: usize| seconds * (1.0 + noise * (i % 2) as f64);
-            let cpu = |seconds| (0..runs).map(|i| run(seconds, i)).collect::<Vec<_>>();
-            // Counted in the order 0 1 2 3, timed in the order 2 0 1 3.
-            let points = [(1.0, 1.2), (2.0, 1.3), (3.0, 1.0), (4.0, 4.0)];
-            let points = points.map(|(cost, seconds)| point(cost, &cpu(seconds), 0.5));
-            let order = Order::of(points.to_vec());
-            let verdicts = order.verdicts(&[0, 1, 2, 3]);
-            assert_eq!(verdicts.iter().filter(|&&v| v == Verdict::Front).count(), 1);
-            (order.from_cheap_to_dear(&[0, 1, 2, 3]), verdicts[1])
-        };
-        let by = |by, saving| Verdict::Dominated { by, saving: Some(saving), error: 1.0 };
-        assert_eq!(cheaper(ENOUGH_RUNS - 1, 0.0), (vec![0, 1, 2, 3], by(0, Saving::Work(2.0))));
-        assert_eq!(cheaper(ENOUGH_RUNS, 0.0), (vec![2, 0, 1, 3], by(2, Saving::Time(1.3))));
-        // Runs differ by more than what they would prove.
-        assert_eq!(cheaper(8, 0.8), (vec![0, 1, 2, 3], by(0, Saving::Work(2.0))));
+    fn where_counters_and_clock_disagree_nothing_is_cheaper() {
+        let second =
+            |cpu: &[f64]| verdicts(&[point(1.0, &[1.0, 1.1, 1.3], 0.5), point(1.2, cpu, 0.5)])[1];
+        let dominated = |times| Verdict::Dominated { by: 0, times: Some(times), error: 1.0 };
+        assert_eq!(second(&[1.2, 1.2, 1.5]), dominated(1.2));
+        // Its shortest run is no longer than the other's middle one, or shorter than all.
+        assert_eq!(second(&[1.1, 1.2, 1.5]), Verdict::Tied { with: 0 });
+        assert_eq!(second(&[0.8, 0.9, 0.9]), Verdict::Tied { with: 0 });
+        // How far the runs of others lie apart is nothing to these two.
+        let noisy = point(9.0, &[9.0, 30.0, 90.0], 0.1);
+        let points = [point(1.0, &[1.0, 1.1], 0.5), point(1.2, &[1.2, 1.3], 0.5), noisy];
+        assert_eq!(verdicts(&points)[1], dominated(1.2));
+        // A clock that does not see a run cannot say how many times as long another is.
+        assert_eq!(
+            verdicts(&[point(1.0, &[0.0], 0.5), point(2.0, &[0.1], 0.5)])[1],
+            Verdict::Tied { with: 0 }
+        );
     }
 
     #[test]
     fn a_gain_that_is_not_proven_is_not_on_the_front_and_no_proof_against_it() {
-        let mut points = vec![point(1.0, &[1.0], 0.5), point(2.0, &[2.0], 0.45)];
-        // Of the resamples one is worse.
-        points[1].errors = vec![0.45, 0.44, 0.51, 0.45, 0.46];
-        let saving = Saving::Work(2.0);
-        let unproven = Verdict::Unproven { over: 0, saving };
-        assert_eq!(Order::of(points.clone()).verdicts(&[0, 1]), [Verdict::Front, unproven]);
-        // A gain below a hundredth is none.
-        points[1].errors = vec![0.498; 5];
-        assert_eq!(Order::of(points.clone()).verdicts(&[0, 1])[1], unproven);
-        points[1].errors = vec![0.55, 0.5, 0.6, 0.52, 0.5];
-        let Verdict::Dominated { by: 0, .. } = Order::of(points).verdicts(&[0, 1])[1] else {
-            panic!("no gain at all for twice the work")
+        // Of the resamples one is worse, and the intervals have something in common.
+        let second = |bounds, resamples| {
+            verdicts(&[point(1.0, &[1.0], 0.5), unsure(2.0, bounds, resamples)])[1]
         };
+        let unproven = Verdict::Unproven { over: 0, times: 2.0 };
+        assert_eq!(second((0.4, 0.45, 0.52), [0.44, 0.51, 0.45, 0.46]), unproven);
+        // A gain below a hundredth is none.
+        assert_eq!(second((0.497, 0.498, 0.499), [0.498; 4]), unproven);
+        let dominated = second((0.4, 0.55, 0.6), [0.5, 0.6, 0.52, 0.5]);
+        assert!(
+            matches!(dominated, Verdict::Dominated { by: 0, .. }),
+            "no gain at all for twice the work"
+        );
+    }
+
+    #[test]
+    fn intervals_with_nothing_in_common_prove_a_gain_whatever_a_single_resample_says() {
+        let of_first = unsure(1.0, (0.4, 0.45, 0.5), [0.3, 0.41, 0.45, 0.5]);
+        let second = |high| {
+            verdicts(&[of_first.clone(), unsure(2.0, (0.3, 0.35, high), [0.7, 0.3, 0.35, 0.4])])[1]
+        };
+        assert_eq!(second(0.39), Verdict::Front);
+        assert_eq!(second(0.41), Verdict::Unproven { over: 0, times: 2.0 });
     }
 
     #[test]
@@ -406,9 +396,9 @@ mod tests {
         points.iter_mut().for_each(|point| point.resolution = 0.05);
         // As much work as the one before, and the same picture.
         points[4] = points[2].clone();
-        let verdicts = Order::of(points.to_vec()).verdicts(&[0, 1, 2, 3, 4]);
+        let verdicts = verdicts(&points);
         assert_eq!(verdicts[..2], [Verdict::Front; 2]);
-        assert_eq!(verdicts[2], Verdict::Unproven { over: 1, saving: Saving::Work(2.0) });
+        assert_eq!(verdicts[2], Verdict::Unproven { over: 1, times: 2.0 });
         assert!(matches!(verdicts[3], Verdict::Dominated { by: 1, .. }), "{verdicts:?}");
         assert_eq!(verdicts[4], Verdict::Tied { with: 2 });
     }

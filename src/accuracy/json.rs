@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Estimate, Metric, Report, Saving, Verdict};
+use super::{Estimate, Metric, Report, Verdict};
 use crate::geometry;
 use crate::trace::Counters;
 
@@ -30,7 +30,8 @@ struct Whole<'a> {
     cut: &'a [String],
     reference_samples: u32,
     noise_floor: Numbers,
-    runs: usize,
+    /// The fewest of a row, and the most.
+    runs: [usize; 2],
     knobs: Vec<KnobJson<'a>>,
     rows: Vec<RowJson<'a>>,
 }
@@ -74,37 +75,27 @@ struct RowJson<'a> {
 }
 
 /// `front`; `tied` with another row; `unproven` over a cheaper one; or `dominated` by one whose error
-/// is `part_of_error` of this one's. This one's cost (or time, if that is what proved it) is
-/// `times_its_cost` (`times_its_time`) that of the other.
+/// is `part_of_error` of this one's. This one takes `times_as_long` as the other.
 #[derive(Serialize)]
 struct VerdictJson {
     verdict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     other: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    times_its_cost: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    times_its_time: Option<f64>,
+    times_as_long: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     part_of_error: Option<f64>,
 }
 
 impl From<Verdict> for VerdictJson {
     fn from(verdict: Verdict) -> Self {
-        let (verdict, other, saving, part_of_error) = match verdict {
+        let (verdict, other, times_as_long, part_of_error) = match verdict {
             Verdict::Front => ("front", None, None, None),
             Verdict::Tied { with } => ("tied", Some(with), None, None),
-            Verdict::Unproven { over, saving } => ("unproven", Some(over), Some(saving), None),
-            Verdict::Dominated { by, saving, error } => {
-                ("dominated", Some(by), saving, Some(error))
-            }
+            Verdict::Unproven { over, times } => ("unproven", Some(over), Some(times), None),
+            Verdict::Dominated { by, times, error } => ("dominated", Some(by), times, Some(error)),
         };
-        let (times_its_cost, times_its_time) = match saving {
-            None => (None, None),
-            Some(Saving::Work(ratio)) => (Some(ratio), None),
-            Some(Saving::Time(ratio)) => (None, Some(ratio)),
-        };
-        Self { verdict, other, times_its_cost, times_its_time, part_of_error }
+        Self { verdict, other, times_as_long, part_of_error }
     }
 }
 
@@ -190,7 +181,7 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
         cut: &report.cut,
         reference_samples: report.reference_samples,
         noise_floor: Numbers { rmse, p99, bad },
-        runs: report.runs,
+        runs: report.runs().into(),
         knobs: knobs.collect(),
         rows: rows.collect(),
     };

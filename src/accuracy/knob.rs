@@ -4,15 +4,17 @@
 //! not call for is not looked at. Unit costs are constants, so what is chosen by them is the same on
 //! every machine and run.
 
-use crate::plan::{Antialias, Effect, PlanOptions, Precision};
+use crate::geometry::Work;
+use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
 use crate::trace::Counters;
+use crate::world::World;
 
 /// A setting of the plan with its values from cheap to dear.
 #[derive(Debug, Clone, Copy)]
 pub struct Knob {
     pub name: &'static str,
-    /// Without any of them the knob does nothing.
-    pub effects: &'static [Effect],
+    /// Without it the knob does nothing.
+    pub needs: Need,
     /// From coarse to fine, rising or falling; that is from cheap to dear, but for `precision`, whose
     /// coarse setting costs more. A report has them in the order of what they cost there.
     pub settings: &'static [f64],
@@ -29,11 +31,29 @@ pub struct Knob {
     pub flag: fn(f64) -> String,
 }
 
+/// What a scene must call for.
+#[derive(Debug, Clone, Copy)]
+pub enum Need {
+    /// One of these effects.
+    Effect(&'static [Effect]),
+    /// Something that rays can meet.
+    Object,
+}
+
+impl Need {
+    pub fn is_met(self, world: &World, plan: &Plan) -> bool {
+        match self {
+            Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
+            Self::Object => !world.objects.is_empty(),
+        }
+    }
+}
+
 /// Every knob. A later effect adds its entry here.
 pub const KNOBS: &[Knob] = &[
     Knob {
         name: "antialias",
-        effects: &[Effect::Antialiasing],
+        needs: Need::Effect(&[Effect::Antialiasing]),
         settings: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0],
         between: false,
         set: |options, place| options.antialias = LADDER[place as usize % LADDER.len()],
@@ -62,7 +82,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "depth",
-        effects: &[Effect::Reflection, Effect::Transparency],
+        needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
         settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
         between: true,
         set: |options, depth| options.depth = Some(depth as u32),
@@ -74,7 +94,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "adc-bailout",
-        effects: &[Effect::Reflection, Effect::Transparency],
+        needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
         settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
         between: true,
         set: |options, weight| options.adc_bailout = Some(weight),
@@ -89,7 +109,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "precision",
-        effects: &Effect::ALL,
+        needs: Need::Object,
         settings: &[0.0, 1.0],
         between: false,
         set: |options, double| options.precision = PRECISIONS[usize::from(double > 0.0)],
@@ -102,9 +122,9 @@ pub const KNOBS: &[Knob] = &[
 ];
 
 const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
-/// What a ray costs in single precision, of what it costs in double: rounding it as seen from each
-/// shape costs more than the kernels save.
-const SINGLE: f64 = 1.3;
+/// What is counted costs in single precision, of what it costs in double: rounding a ray as seen from
+/// each shape costs more than the kernels save.
+const SINGLE: f64 = 1.09;
 
 fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }
@@ -152,10 +172,23 @@ impl Knob {
     }
 }
 
-/// What rays cost, in rays of the camera: fitted to CPU seconds of the gallery's scenes.
+/// What a ray costs beyond what it takes to find what it meets, and what that takes: in rays of the camera
+/// that meet nothing. Fitted to CPU seconds of the gallery, see `docs/accuracy.md`; a ray toward a light
+/// costs nothing beyond.
+const REFLECTION: f64 = 0.46;
+const TRANSMISSION: f64 = 4.6;
+const BOX_VISIT: f64 = 0.31;
+const ROOT_SOLVE: f64 = 0.23;
+
+/// What was counted, in rays of the camera that meet nothing.
 pub fn cost(counters: &Counters) -> f64 {
-    let Counters { camera, shadow, reflection, transmission, work: _ } = *counters;
-    camera as f64 + 0.6 * shadow as f64 + reflection as f64 + transmission as f64
+    let Counters { camera, shadow: _, reflection, transmission, work } = *counters;
+    let Work { box_visits, root_solves } = work;
+    camera as f64
+        + REFLECTION * reflection as f64
+        + TRANSMISSION * transmission as f64
+        + BOX_VISIT * box_visits as f64
+        + ROOT_SOLVE * root_solves as f64
 }
 
 #[cfg(test)]

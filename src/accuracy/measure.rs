@@ -1,12 +1,7 @@
-//! How long pictures take: interleaved runs, timed apart from what surrounds them.
-//!
-//! **Invariant:** the k-th run of one picture is made between the k-th runs of the others, so that
-//! whatever else the machine does meets all of them alike.
+//! How long pictures take: tracing is timed apart from what surrounds it.
 
 use std::sync::Mutex;
 
-use super::reference::Studio;
-use crate::plan::Plan;
 use crate::trace::Watch;
 
 /// Seconds, from wherever they are counted.
@@ -98,29 +93,6 @@ impl Watch for Elapsing<'_> {
     fn should_stop(&self) -> bool {
         self.watch.should_stop()
     }
-}
-
-/// One run of each plan, in turn; every second round backwards. `None` when stopped.
-pub fn round(
-    studio: &Studio,
-    plans: &[Plan],
-    clock: &dyn Clock,
-    watch: &dyn Watch,
-    times: &mut [Times],
-) -> Option<()> {
-    let backwards = times.first().is_some_and(|times| times.cpu.len() % 2 == 1);
-    for turn in 0..plans.len() {
-        let i = if backwards { plans.len() - 1 - turn } else { turn };
-        let timer = Timer::new(clock, watch);
-        let traced = studio.picture(&plans[i], &timer);
-        let (cpu, wall) = timer.read();
-        if !traced.complete {
-            return None;
-        }
-        times[i].cpu.push(cpu);
-        times[i].wall.push(wall);
-    }
-    Some(())
 }
 
 #[cfg(test)]

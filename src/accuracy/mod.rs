@@ -21,8 +21,8 @@ pub mod table;
 mod trial;
 
 pub use afford::LEAST as LEAST_PIXELS;
-pub use front::{ENOUGH_RUNS, Order, Saving, Verdict};
-pub use knob::{KNOBS, Knob};
+pub use front::{Order, Verdict};
+pub use knob::{KNOBS, Knob, Need};
 pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
 pub use statistics::{Estimate, Metric};
@@ -70,7 +70,6 @@ pub struct Report {
     pub reference_samples: u32,
     /// The reference's own error, in each of [`Metric::ALL`].
     pub floors: [f64; 3],
-    pub runs: usize,
     pub knobs: Vec<Tried>,
     /// The first is the picture as `render` makes it.
     pub rows: Vec<Row>,
@@ -105,6 +104,7 @@ pub struct Setting {
 pub struct Row {
     /// `depth 3`; `*` for the first.
     pub name: String,
+    /// Of all rows that are the same work: their runs are runs of each.
     pub times: Times,
     /// Of the whole picture.
     pub counters: Counters,
@@ -150,9 +150,10 @@ impl Report {
         self.rows[row].factor * knob::cost(&self.rows[row].counters)
     }
 
-    /// Whether there are enough runs for the clock to be heard.
-    pub fn is_timed(&self) -> bool {
-        self.runs >= ENOUGH_RUNS
+    /// The fewest runs of a row, and the most.
+    pub fn runs(&self) -> (usize, usize) {
+        let runs = || self.rows.iter().map(|row| row.times.cpu.len());
+        (runs().min().unwrap_or(0), runs().max().unwrap_or(0))
     }
 
     /// Puts settings in order and says what they are worth.
@@ -180,11 +181,14 @@ impl Report {
     pub fn order(&self) -> Order {
         let point = |row: usize| {
             let this = &self.rows[row];
-            let value = this.errors[self.metric as usize].value;
-            let errors = [&[value], &this.resamples[..]].concat();
-            let resolution = self.resolution(self.metric);
-            let work = (this.counters, this.factor);
-            Point { work, cost: self.cost(row), cpu: this.times.cpu.clone(), errors, resolution }
+            Point {
+                work: (this.counters, this.factor),
+                cost: self.cost(row),
+                cpu: Span::of(&this.times.cpu),
+                error: this.errors[self.metric as usize],
+                resamples: this.resamples.clone(),
+                resolution: self.resolution(self.metric),
+            }
         };
         Order::of((0..self.rows.len()).map(point).collect())
     }
@@ -223,7 +227,7 @@ fn called_for<'a>(
     knobs: &'a [Knob],
 ) -> Vec<&'a Knob> {
     let full = plan(world, origins, &dearest(own, knobs));
-    let called = |knob: &&Knob| knob.effects.iter().any(|&effect| full.simulates(effect));
+    let called = |knob: &&Knob| knob.needs.is_met(world, &full);
     knobs.iter().filter(called).collect()
 }
 
@@ -285,7 +289,7 @@ pub fn accuracy(
     let depths = Depths { origins, deepest: dearest(own, options.knobs) };
     let most_depth = depths.most();
     let bench = Bench { studio, depths, options, clock, until };
-    let Trial { reference, depth, pictures, runs } = bench.run(&candidates, &list)?;
+    let Trial { reference, depth, pictures } = bench.run(&candidates, &list)?;
 
     let mut knobs: Vec<Tried> = called
         .iter()
@@ -342,7 +346,6 @@ pub fn accuracy(
         cut,
         reference_samples: reference.samples(),
         floors,
-        runs,
         rows: rows.collect(),
         knobs,
     };
@@ -363,5 +366,7 @@ impl Watch for Quiet<'_> {
 
 #[cfg(test)]
 mod budget_tests;
+#[cfg(test)]
+mod promise_tests;
 #[cfg(test)]
 mod tests;

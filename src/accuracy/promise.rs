@@ -1,7 +1,8 @@
 //! Pictures with a promise: an error not exceeded, or a time.
 //!
 //! **Invariant:** the error reported is found on pixels that had no part in the choice of settings.
-//! [`keep`] reads no clock: the same picture and the same numbers on every run.
+//! [`keep`] reads a clock to say how long it will take, and for nothing else: the same picture and the
+//! same numbers on every run.
 
 use super::afford::{self, Deadline, Depths, LEAST};
 use super::choose::{Choice, Tuning};
@@ -13,7 +14,7 @@ use super::{Options, Quiet, called_for, dearest, own};
 use super::{audit, refine};
 use crate::film::Film;
 use crate::plan::{Antialias, PlanOptions, plan};
-use crate::trace::{Traced, Watch};
+use crate::trace::{TraceOptions, Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Part of the promised error that is aimed at: room for what chance does to the audit.
@@ -86,41 +87,49 @@ const WANTED: u32 = 2048;
 pub enum Step {
     /// Choosing settings, on a few pixels.
     Choosing,
-    /// Rendering with the settings of these flags.
-    Rendering(String),
+    /// Finding out what so many pixels look like, by so many samples of each, in about so many seconds.
+    Learning { pixels: usize, samples: u32, seconds: f64 },
+    /// Trying settings on these pixels.
+    Trying,
+    /// Rendering with the settings of these flags, which will take about so many seconds: what the same
+    /// work took on a few pixels.
+    Rendering { flags: String, seconds: f64 },
     /// Choosing better ones: the first picture did not prove the promise.
     Refining(Audit),
 }
 
 /// Renders with the cheapest settings whose error is at most `promise`, and audits. `None` when
-/// stopped before the picture was begun; `options.budget` is not used. `tell` hears of each step.
+/// stopped before the picture was begun; `options.budget` is not used. `tell` hears of each step; `watch`
+/// how far it has come.
 pub fn keep(
     world: &World,
     origins: &Origins,
     options: &Options,
     promise: f64,
-    watch: &dyn Watch,
-    tell: &dyn Fn(Step),
+    clock: &dyn Clock,
+    (watch, tell): (&dyn Watch, &dyn Fn(Step)),
 ) -> Result<Option<Kept>, TooSmall> {
     let sets = audit::sets(options.frame.region, WANTED, 3, options.seed);
     if sets.iter().any(|set| set.len() < LEAST) {
         return Err(TooSmall);
     }
-    Ok(kept((world, origins), options, promise, &sets, watch, tell))
+    Ok(kept((world, origins), (options, promise), &sets, clock, watch, tell))
 }
 
 fn kept(
     (world, origins): (&World, &Origins),
-    options: &Options,
-    promise: f64,
+    (options, promise): (&Options, f64),
     sets: &[Vec<(u32, u32)>],
+    clock: &dyn Clock,
     watch: &dyn Watch,
     tell: &dyn Fn(Step),
 ) -> Option<Kept> {
     tell(Step::Choosing);
     let geometry = Geometries::default();
     let quiet = Quiet(watch);
-    let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
+    // What is counted is what settings cost.
+    let counted = TraceOptions { count_work: true, ..options.trace };
+    let studio = Studio { world, geometry: &geometry, options: counted, watch: &quiet };
     let easel = Easel::new(world, origins, options);
     let metric = options.metric;
     let depths = Depths { origins, deepest: easel.deepest };
@@ -129,17 +138,36 @@ fn kept(
     let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
     let deep = depths.plan(&studio, depth);
     let cut = (depth < depths.most()).then_some(depth);
-    let truth = |list: &[(u32, u32)]| {
-        let mut reference =
-            Reference::new(&studio, &deep, list, options.seed, Reference::COARSEST)?;
-        reference.resolve(&studio, &deep, list, metric, promise)?;
-        Some(reference)
+    let few = &few[..few.len().min(LEAST)];
+    let began = clock.wall();
+    let rough = Reference::new(&studio, &deep, few, options.seed, Reference::ROUGH)?;
+    let a_sample = (clock.wall() - began) / f64::from(rough.samples()) / few.len() as f64;
+    // Until its own error is below a quarter of that, or it is as fine as it gets.
+    let resolved = |mut known: Option<Reference>, list: &[(u32, u32)], error: f64| {
+        loop {
+            let step = match &known {
+                None => Reference::COARSEST,
+                Some(known) if 4.0 * known.floor(metric) <= error || known.is_finest() => break,
+                Some(known) => known.step() + 1,
+            };
+            let (pixels, samples) = (list.len(), Reference::samples_at(step));
+            let seconds = a_sample * f64::from(samples) * pixels as f64;
+            tell(Step::Learning { pixels, samples, seconds });
+            match &mut known {
+                None => known = Some(Reference::new(&studio, &deep, list, options.seed, step)?),
+                Some(known) => _ = known.double(&studio, &deep, list)?,
+            }
+        }
+        known
     };
+    let truth = |list: &[(u32, u32)]| resolved(None, list, promise);
     let choose =
         |list: &[(u32, u32)], reference: &Reference, aims: &[f64], not: Option<&Choice>| {
+            tell(Step::Trying);
             let mut tuning =
                 Tuning::new(studio, origins, (list, reference), metric, &easel.knobs, easel.own);
             tuning.no_deeper_than(depth);
+            tuning.tell = Some(watch);
             let mut choice = tuning.cheapest(aims[0])?;
             for &aim in &aims[1..] {
                 if not.is_some_and(|not| not.options == choice.options) {
@@ -154,24 +182,32 @@ fn kept(
         audit: None,
         refined: false,
     };
-    let mut render = |choice: &Choice, list: &[(u32, u32)], reference: &mut Reference| {
+    let region = options.frame.region;
+    let pixels = f64::from(region.width) * f64::from(region.height);
+    let began = clock.wall();
+    let reference = truth(&sets[0])?;
+    // Of a unit of cost, by all threads together.
+    let a_unit = (clock.wall() - began) / cost(&reference.counters);
+    let asked = Studio { options: options.trace, ..studio };
+    let mut render = |choice: &Choice, list: &[(u32, u32)], reference: Reference| {
         kept.flags = easel.flags(&choice.options);
-        tell(Step::Rendering(kept.flags.clone()));
+        let seconds = a_unit * choice.cost * pixels;
+        tell(Step::Rendering { flags: kept.flags.clone(), seconds });
         kept.audit = None;
-        kept.traced = studio.picture(&plan(world, origins, &choice.options), watch);
-        if kept.traced.complete {
-            let error = audited(&kept.traced, list, reference, metric).error.value;
-            reference.resolve(&studio, &deep, list, metric, error)?;
-            let audit = audited(&kept.traced, list, reference, metric);
-            kept.audit = Some(Audit { depth: cut, ..audit });
+        kept.traced = asked.picture(&plan(world, origins, &choice.options), watch);
+        if !kept.traced.complete {
+            return None;
         }
-        kept.audit
+        let error = audited(&kept.traced, list, &reference, metric).error.value;
+        let reference = resolved(Some(reference), list, error)?;
+        let audit = audited(&kept.traced, list, &reference, metric);
+        kept.audit = Some(Audit { depth: cut, ..audit });
+        Some((audit, reference))
     };
 
-    let reference = truth(&sets[0])?;
     let choice = choose(&sets[0], &reference, &[AIM * promise], None)?;
-    let mut fresh = truth(&sets[1])?;
-    let Some(audit) = render(&choice, &sets[1], &mut fresh) else { return Some(kept) };
+    let fresh = truth(&sets[1])?;
+    let Some((audit, fresh)) = render(&choice, &sets[1], fresh) else { return Some(kept) };
     // A better picture proves no more where the reference does not look all the way.
     if audit.error.high <= promise {
         return Some(kept);
@@ -187,8 +223,8 @@ fn kept(
         return Some(kept);
     }
     let choice = better;
-    let mut fresh = truth(&sets[2])?;
-    render(&choice, &sets[2], &mut fresh);
+    let fresh = truth(&sets[2])?;
+    render(&choice, &sets[2], fresh);
     kept.refined = true;
     Some(kept)
 }
@@ -210,7 +246,9 @@ pub fn spend(
     let quiet = Quiet(watch);
     let late = |until| Deadline { clock, until, watch: &quiet };
     let in_time = late(until(None));
-    let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &in_time };
+    // Counting takes no time worth the name, and what is counted is what settings cost.
+    let counted = TraceOptions { count_work: true, ..options.trace };
+    let studio = Studio { world, geometry: &geometry, options: counted, watch: &in_time };
     let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
     let timer = Timer::new(clock, &in_time);
     let first = studio.picture(&plan(world, origins, &off), &timer);
@@ -230,13 +268,19 @@ pub fn spend(
     let in_time = late(until);
     let studio = Studio { watch: &in_time, ..studio };
     let left = until - clock.wall();
-    let render_until = until - (FOR_AUDIT * left).max(kept);
     let pixels = spent.traced.film.radiance.len() as f64;
     let a_unit = took / cost(&spent.traced.counters);
     let mut sets = audit::sets(options.frame.region, WANTED, 2, options.seed).into_iter();
     let mut next = || audit::shuffled(sets.next().unwrap_or_default(), options.seed);
     let (tuning, fresh) = (next(), next());
     let depths = Depths { origins, deepest: easel.deepest };
+
+    // The truth of the fresh pixels is found first: then all the time that is left is the picture's.
+    let known_by = clock.wall() + (FOR_AUDIT * left).max(kept);
+    let in_time = late(known_by);
+    let auditor = Studio { watch: &in_time, ..studio };
+    let fine = Reference::samples_at(usize::MAX);
+    let truth = afford::reference(&auditor, &depths, &fresh, options.seed, (clock, known_by), fine);
 
     let tuned = clock.wall() + FOR_TUNING * left;
     let samples = Reference::samples_at(Reference::COARSEST);
@@ -248,13 +292,12 @@ pub fn spend(
         let mut tuning = Tuning::new(studio, origins, (list, &known.reference), metric, knobs, own);
         tuning.no_deeper_than(known.plan.max_trace_level);
         tuning.in_time((clock, clock.wall() + FOR_TUNING * left));
-        tuning.best(PREDICTED * (render_until - clock.wall()) / (a_unit * pixels))
+        tuning.best(PREDICTED * (until - clock.wall()) / (a_unit * pixels))
     });
     // Where nothing is known of anything better, the scene's own.
     let chosen = choice.map_or(easel.own, |choice| choice.options);
     let then = PlanOptions { antialias: Antialias::Off, ..chosen };
-    let in_time = late(render_until);
-    let refiner = Studio { watch: &in_time, ..studio };
+    let refiner = Studio { options: options.trace, ..studio };
     let then_plan = plan(world, origins, &then);
     let anew = easel.dearer(&off, &then);
     let refined = refine::refine(&refiner, &then_plan, anew, &mut spent.traced.film);
@@ -262,11 +305,7 @@ pub fn spend(
     spent.then = (then != off).then(|| easel.flags_of_rays(&then));
     spent.refined = refined.pixels;
 
-    let (in_time, last) = (late(until + kept), until.max(clock.wall() + kept));
-    let auditor = Studio { watch: &in_time, ..studio };
-    let fine = Reference::samples_at(usize::MAX);
-    let known = afford::reference(&auditor, &depths, &fresh, options.seed, (clock, last), fine);
-    spent.audit = known.map(|known| {
+    spent.audit = truth.map(|known| {
         let list = &fresh[..known.reference.pixels()];
         let audit = audited(&spent.traced, list, &known.reference, options.metric);
         let deep = known.plan.max_trace_level;

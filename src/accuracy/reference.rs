@@ -107,7 +107,7 @@ pub struct Reference {
 }
 
 /// What sums of samples are rounded by, of a colour's full scale.
-const ROUNDING: f64 = 4096.0 * f64::EPSILON;
+pub const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
 impl Reference {
     /// The step of a reference that says little of a pixel, and something of many: for want of time.
@@ -182,19 +182,6 @@ impl Reference {
         *self = finer;
         self.counters += before;
         Some(true)
-    }
-
-    /// Doubles it until its own error is below a quarter of `error`, or the cap is reached.
-    pub fn resolve(
-        &mut self,
-        studio: &Studio,
-        plan: &Plan,
-        list: &[(u32, u32)],
-        metric: Metric,
-        error: f64,
-    ) -> Option<()> {
-        while 4.0 * self.floor(metric) > error && self.double(studio, plan, list)? {}
-        Some(())
     }
 
     pub fn is_finest(&self) -> bool {

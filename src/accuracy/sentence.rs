@@ -1,7 +1,8 @@
 //! One sentence a knob: what it bought, or that it buys nothing here.
 
+use super::reference::ROUNDING;
 use super::statistics::difference;
-use super::{Order, Report, Setting, Tried, table};
+use super::{Metric, Order, Report, Setting, Tried, table};
 
 /// What turning the knob did to this picture.
 pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
@@ -11,6 +12,7 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         return format!("{name}: nothing was tried.");
     };
     let audited = report.audited;
+    let floor = report.floors[Metric::Rmse as usize];
     let most = settings.iter().map(|setting| changed(report, setting, dear)).max().unwrap_or(0);
     if settings.len() < 2 {
         return format!("{name}: only {} was tried; a larger `--budget` tries more.", cheap.label);
@@ -22,9 +24,11 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         );
     }
     let best = best(order, settings);
+    let value = |setting: &&Setting| report.error(setting.row).value;
     let worse: Vec<&Setting> =
         settings.iter().filter(|setting| order.gains(best.row, setting.row)).collect();
-    if let Some(worst) = worse.last().filter(|_| best.row == cheap.row) {
+    let worst = worse.iter().copied().max_by(|a, b| value(a).total_cmp(&value(b)));
+    if let Some(worst) = worst.filter(|_| best.row == cheap.row) {
         let names: Vec<&str> = worse.iter().map(|setting| setting.label.as_str()).collect();
         return format!(
             "{name}: {}, the cheapest, is best; {} only makes it worse: an error of {} instead of {}.",
@@ -35,6 +39,18 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         );
     }
     if !order.gains(best.row, cheap.row) {
+        let change = settings.iter().map(|setting| change(report, setting, dear));
+        let most_change = change.fold(0.0, f64::max);
+        let why = match most_change {
+            ..=ROUNDING => "as sums are rounded".to_owned(),
+            _ => format!("below the noise floor of {}", table::amount(Metric::Rmse, floor)),
+        };
+        if most_change <= floor.max(ROUNDING) {
+            return format!(
+                "{name} buys nothing here: {most} of {audited} audited pixels change, by {} at most, {why}.",
+                table::amount(Metric::Rmse, most_change)
+            );
+        }
         let change = |setting: &Setting| {
             let (a, b) = (&report.rows[setting.row].resamples, &report.rows[dear.row].resamples);
             let (low, high) = difference(a, b);
@@ -73,6 +89,13 @@ fn changed(report: &Report, a: &Setting, b: &Setting) -> usize {
     a.iter().zip(b).filter(|(a, b)| a != b).count()
 }
 
+/// By how much a component of an audited pixel differs between both, at most.
+fn change(report: &Report, a: &Setting, b: &Setting) -> f64 {
+    let (a, b) = (&report.rows[a.row].colors, &report.rows[b.row].colors);
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
 /// The cheapest that no other is proven to be better than.
 fn best<'a>(order: &Order, settings: &'a [Setting]) -> &'a Setting {
     let unsurpassed =
@@ -82,5 +105,54 @@ fn best<'a>(order: &Order, settings: &'a [Setting]) -> &'a Setting {
 
 /// What the second costs beyond the first.
 fn price(order: &Order, from: &Setting, to: &Setting) -> String {
-    order.saving(from.row, to.row).map_or_else(|| "no more cost".to_owned(), table::more)
+    order.times(from.row, to.row).map_or_else(|| "no clearly longer time".to_owned(), table::more)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::svg::tests::report;
+
+    /// Of two settings, the second twice as dear: the colour of the one pixel, the error.
+    fn sentence([a, b]: [(f64, f64); 2], floor: f64) -> String {
+        let mut report = report(&[(1.0, a.1, 0.0), (2.0, b.1, 0.0)], &["knob"], floor);
+        report.rows[0].colors = vec![[0.5, 0.5, a.0]];
+        report.rows[1].colors = vec![[0.5, 0.5, b.0]];
+        report.judge();
+        report.knobs[0].sentence.clone()
+    }
+
+    #[test]
+    fn a_knob_that_changes_only_what_is_rounded_buys_nothing() {
+        let said = "knob buys nothing here: 1 of 4800 audited pixels change, by 1.0e-13 at most, as sums are rounded.";
+        // Whatever the error is: as small, or that of another knob.
+        assert_eq!(sentence([(0.3, 2e-13), (0.3 + 1e-13, 1e-13)], ROUNDING), said);
+        assert_eq!(sentence([(0.3, 0.1), (0.3 + 1e-13, 0.1)], ROUNDING), said);
+        let said = "knob buys nothing here: from own to adaptive 0.01 1×1 not one of 4800 audited pixels changes.";
+        assert_eq!(sentence([(0.3, 0.1), (0.3, 0.1)], ROUNDING), said);
+    }
+
+    #[test]
+    fn a_change_below_the_noise_floor_buys_nothing_and_one_above_is_not_proven() {
+        assert_eq!(
+            sentence([(0.3, 0.1), (0.3004, 0.1)], 0.001),
+            "knob buys nothing here: 1 of 4800 audited pixels change, by 0.00040 at most, below the noise floor of 0.00100."
+        );
+        assert_eq!(
+            sentence([(0.3, 0.1), (0.32, 0.1)], 0.001),
+            "knob has no proven effect: 1 of 4800 audited pixels change, and the error by at most 0."
+        );
+    }
+
+    #[test]
+    fn what_was_bought_is_told_and_what_only_makes_it_worse() {
+        assert_eq!(
+            sentence([(0.3, 0.1), (0.4, 0.05)], 0.001),
+            "knob bought, from own to adaptive 0.01 1×1, an error of 0.0500 instead of 0.100 (50 % of it) for 2.0× the time."
+        );
+        assert_eq!(
+            sentence([(0.3, 0.05), (0.4, 0.1)], 0.001),
+            "knob: own, the cheapest, is best; adaptive 0.01 1×1 only makes it worse: an error of 0.100 instead of 0.0500."
+        );
+    }
 }

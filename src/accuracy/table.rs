@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Estimate, Metric, Report, Saving, Setting, Span, Tried, Verdict};
+use super::{Estimate, Metric, Report, Setting, Span, Tried, Verdict};
 use crate::math::elementary::log10;
 
 /// The whole report.
@@ -32,23 +32,17 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
     writeln!(
         out,
         "seconds of {}, {}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s",
-        count(report.runs, "interleaved run"),
+        runs(report),
         count(threads, "thread")
     )?;
+    writeln!(out, "faster is less cost counted, and a middle run below the other's shortest\n")?;
     writeln!(
         out,
-        "{}\n",
-        match report.is_timed() {
-            true => "cheaper is less cost; where runs are clearly the other way round, less time",
-            false => "cheaper is less cost; so few runs prove nothing of time",
-        }
-    )?;
-    writeln!(
-        out,
-        "  {:18} {:>14} {:>14} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
+        "  {:18} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
         "setting",
         "CPU min..med",
         "wall min..med",
+        "runs",
         "rays/px",
         "boxes/px",
         "roots/px",
@@ -62,11 +56,12 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
             let row = &report.rows[setting.row];
             writeln!(
                 out,
-                "{} {:18} {:>14} {:>14} {:>8.2} {:>8.2} {:>8.2} {:>8.2}  {:>9} {:18} {}",
+                "{} {:18} {:>14} {:>14} {:>4} {:>8.2} {:>8.2} {:>8.2} {:>8.2}  {:>9} {:18} {}",
                 if setting.is_own { '*' } else { ' ' },
                 setting.label,
                 span(Span::of(&row.times.cpu)),
                 span(Span::of(&row.times.wall)),
+                row.times.cpu.len(),
                 report.a_pixel(row.counters.rays() as f64),
                 report.a_pixel(row.counters.work.box_visits as f64),
                 report.a_pixel(row.counters.work.root_solves as f64),
@@ -100,18 +95,18 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
     match verdict {
         Verdict::Front => "front".to_owned(),
         Verdict::Tied { with } => format!("tied with {}", name(with)),
-        Verdict::Unproven { over, saving } => {
-            format!("no proven gain over {}, for {}", name(over), more(saving))
+        Verdict::Unproven { over, times } => {
+            format!("no proven gain over {}, for {}", name(over), more(times))
         }
-        Verdict::Dominated { by, saving, error } => {
-            let saving = saving.map_or_else(|| "costs the same".to_owned(), less);
+        Verdict::Dominated { by, times, error } => {
+            let times = times.map_or_else(|| "is the same work".to_owned(), less);
             let below = if report.is_resolved(report.metric, by) { "" } else { "< " };
             let error = match 100.0 * error {
                 percent if percent < 99.0 => format!("with {below}{percent:.0} % of the error"),
                 percent if percent < 99.95 => format!("with {below}{percent:.1} % of the error"),
                 _ => "with no more error".to_owned(),
             };
-            format!("no: {} {saving}, {error}", name(by))
+            format!("no: {} {times}, {error}", name(by))
         }
     }
 }
@@ -119,23 +114,19 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
 /// From here on a ratio is told as one, and below as a percentage.
 const LARGE: f64 = 1.2;
 
-/// What the better of two is.
-fn less(saving: Saving) -> String {
-    match saving {
-        Saving::Work(ratio) if ratio >= LARGE => format!("is {} cheaper", times(ratio)),
-        Saving::Work(ratio) => format!("costs {} less", percent(1.0 - 1.0 / ratio)),
-        Saving::Time(ratio) if ratio >= LARGE => format!("is {} faster", times(ratio)),
-        Saving::Time(ratio) => format!("takes {} less time", percent(1.0 - 1.0 / ratio)),
+/// What the faster of two is.
+fn less(ratio: f64) -> String {
+    match ratio {
+        LARGE.. => format!("is {} faster", times(ratio)),
+        _ => format!("takes {} less time", percent(1.0 - 1.0 / ratio)),
     }
 }
 
-/// What the dearer of two takes.
-pub(super) fn more(saving: Saving) -> String {
-    match saving {
-        Saving::Work(ratio) if ratio >= LARGE => format!("{} the cost", times(ratio)),
-        Saving::Work(ratio) => format!("{} more cost", percent(ratio - 1.0)),
-        Saving::Time(ratio) if ratio >= LARGE => format!("{} the time", times(ratio)),
-        Saving::Time(ratio) => format!("{} more time", percent(ratio - 1.0)),
+/// What the slower of two takes.
+pub(super) fn more(ratio: f64) -> String {
+    match ratio {
+        LARGE.. => format!("{} the time", times(ratio)),
+        _ => format!("{} more time", percent(ratio - 1.0)),
     }
 }
 
@@ -202,6 +193,14 @@ fn seconds(s: f64) -> String {
     }
 }
 
+/// `5 interleaved runs`, or `1 to 9 interleaved runs`.
+pub(super) fn runs(report: &Report) -> String {
+    match report.runs() {
+        (least, most) if least == most => count(most, "interleaved run"),
+        (least, most) => format!("{least} to {most} interleaved runs"),
+    }
+}
+
 fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
@@ -223,20 +222,18 @@ mod tests {
 
     #[test]
     fn a_saving_is_told_however_small() {
-        let savings = [31.86, 1.857, 1.0526, 1.0004, 1.000_012].map(Saving::Work);
+        let savings = [31.86, 1.857, 1.0526, 1.0004, 1.000_012];
         assert_eq!(
             savings.map(less),
             [
-                "is 32× cheaper",
-                "is 1.9× cheaper",
-                "costs 5 % less",
-                "costs 0.04 % less",
-                "costs 0.001 % less"
+                "is 32× faster",
+                "is 1.9× faster",
+                "takes 5 % less time",
+                "takes 0.04 % less time",
+                "takes 0.001 % less time"
             ]
         );
-        assert_eq!(more(savings[1]), "1.9× the cost");
-        assert_eq!(more(savings[2]), "5 % more cost");
-        assert_eq!(less(Saving::Time(1.1)), "takes 9 % less time");
-        assert_eq!(more(Saving::Time(2.0)), "2.0× the time");
+        assert_eq!(more(savings[1]), "1.9× the time");
+        assert_eq!(more(savings[2]), "5 % more time");
     }
 }

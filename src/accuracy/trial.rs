@@ -2,28 +2,34 @@
 //!
 //! **In:** plans, pixels to audit, a time to be done by. **Out:** a [`Trial`]. **Invariant:** the time is
 //! kept: what does not fit is not in it, dear settings first, then audited pixels, samples and depth
-//! of the reference.
+//! of the reference. Runs are interleaved: the k-th of one picture stands between the k-th ones of the
+//! others that have as many, so that whatever else the machine does meets all of them alike.
 
 use super::afford::{self, Affordable, Deadline, Depths};
-use super::measure::{Clock, Span, Timer, Times, round};
+use super::measure::{Clock, Span, Timer, Times};
 use super::reference::{Reference, Studio, colors_of};
 use super::statistics::{Deviation, Metric};
 use super::{Options, Unmeasured};
-use crate::plan::Plan;
-use crate::trace::Counters;
+use crate::plan::{Plan, Precision};
+use crate::trace::{Counters, Watch};
 
 /// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then one
 /// picture of each other setting, then a finer reference.
 const FOR_OWN: f64 = 0.7;
 const FOR_REFERENCE: f64 = 0.3;
-const FOR_PICTURES: f64 = 0.5;
+const FOR_PICTURES: f64 = 0.35;
 const FOR_FINER: f64 = 0.6;
 /// Of all the time: what finding the intervals of all settings may take.
 const FOR_STATISTICS: f64 = 0.1;
 /// Of the time for pictures that is left: what one may take.
 const FOR_ONE: f64 = 0.5;
-/// The most runs of each picture.
-const MOST_ROUNDS: usize = 9;
+/// Runs that as many pictures as can be should have, cheap ones first: their middle and their shortest
+/// tell close ones apart. Then all should have more, as far as time goes.
+const ENOUGH_RUNS: usize = 5;
+const MOST_RUNS: usize = 9;
+
+/// Of the time for more runs: what the prediction may be wrong by.
+const PREDICTED: f64 = 0.8;
 
 /// A setting to be tried.
 pub struct Candidate {
@@ -53,7 +59,6 @@ pub struct Trial {
     pub depth: u32,
     /// In the order of the candidates; the first is that of the first.
     pub pictures: Vec<Picture>,
-    pub runs: usize,
 }
 
 /// What a trial is made with.
@@ -138,36 +143,62 @@ impl Bench<'_> {
                 break;
             }
         }
-        let a_round = |pictures: &[Picture]| {
-            pictures.iter().map(|picture| picture.times.wall[0]).sum::<f64>()
-        };
-        // Where there is no time to run all once more, some that were too dear may still fit.
-        if self.clock.wall() + a_round(&pictures) >= until {
-            self.others(candidates, &deep, list, until, &mut pictures)?;
-        }
+        self.more_runs(candidates, until, &mut pictures)?;
+        Ok(Trial { reference, depth: deep.max_trace_level, pictures })
+    }
 
-        let plans: Vec<Plan> =
-            pictures.iter().map(|p| candidates[p.candidate].plan.clone()).collect();
-        let mut times: Vec<Times> = pictures.iter().map(|p| p.times.clone()).collect();
-        let in_time = Deadline { clock: self.clock, until, watch: self.studio.watch };
-        let (mut runs, mut takes) = (1, a_round(&pictures));
-        // More runs, while there is time for a whole round.
-        while runs < MOST_ROUNDS && self.clock.wall() + takes < until {
-            let began = self.clock.wall();
-            if round(&self.studio, &plans, self.clock, &in_time, &mut times).is_none() {
-                break;
+    /// More runs of the pictures, while there is time. Those that are the same work share theirs.
+    fn more_runs(
+        &self,
+        candidates: &[Candidate],
+        until: f64,
+        pictures: &mut [Picture],
+    ) -> Result<(), Unmeasured> {
+        let work = |p: &Picture| (p.counters, candidates[p.candidate].plan.precision);
+        let mut runners: Vec<Runner> = Vec::new();
+        let mut runner_of = Vec::new();
+        for picture in pictures.iter() {
+            let same = runners.iter().position(|runner| runner.work == work(picture));
+            let number = same.unwrap_or(runners.len());
+            if same.is_none() {
+                let plan = &candidates[picture.candidate].plan;
+                runners.push(Runner { work: work(picture), plan, times: Times::default() });
             }
-            (runs, takes) = (runs + 1, self.clock.wall() - began);
+            runners[number].times.cpu.extend(&picture.times.cpu);
+            runners[number].times.wall.extend(&picture.times.wall);
+            runner_of.push(number);
         }
-        for (picture, mut times) in pictures.iter_mut().zip(times) {
-            times.cpu.truncate(runs);
-            times.wall.truncate(runs);
-            picture.times = times;
+        let in_time = Deadline { clock: self.clock, until, watch: self.studio.watch };
+        let mut backwards = true;
+        for enough in std::iter::once(ENOUGH_RUNS).chain(2..=MOST_RUNS) {
+            let fit = affordable(&runners, enough, until - self.clock.wall());
+            loop {
+                let lacks = |&number: &usize| runners[number].runs() < enough;
+                let mut round: Vec<usize> = fit.iter().copied().filter(lacks).collect();
+                if round.is_empty() {
+                    break;
+                }
+                if backwards {
+                    round.reverse();
+                }
+                backwards = !backwards;
+                for number in round {
+                    if !runners[number].run(&self.studio, self.clock, &in_time) {
+                        break;
+                    }
+                }
+                if in_time.should_stop() {
+                    break;
+                }
+            }
         }
-        if self.studio.watch.should_stop() {
-            return Err(Unmeasured::Stopped);
+        for (picture, number) in pictures.iter_mut().zip(runner_of) {
+            picture.times = runners[number].times.clone();
         }
-        Ok(Trial { reference, depth: deep.max_trace_level, pictures, runs })
+        match self.studio.watch.should_stop() {
+            true => Err(Unmeasured::Stopped),
+            false => Ok(()),
+        }
     }
 
     /// One picture of each other candidate that there is time for, the cheap ones first, and none that
@@ -208,6 +239,45 @@ impl Bench<'_> {
         pictures.sort_by_key(|picture| picture.candidate);
         Ok(())
     }
+}
+
+/// What is run again: one picture of all that are the same work.
+struct Runner<'a> {
+    work: (Counters, Precision),
+    plan: &'a Plan,
+    times: Times,
+}
+
+impl Runner<'_> {
+    fn runs(&self) -> usize {
+        self.times.wall.len()
+    }
+
+    /// False when it was stopped, and does not count.
+    fn run(&mut self, studio: &Studio, clock: &dyn Clock, watch: &dyn Watch) -> bool {
+        let timer = Timer::new(clock, watch);
+        let complete = studio.picture(self.plan, &timer).complete;
+        if complete {
+            let (cpu, wall) = timer.read();
+            self.times.cpu.push(cpu);
+            self.times.wall.push(wall);
+        }
+        complete
+    }
+}
+
+/// The most of them, cheap ones first, that there is time for to have `enough` runs of; in their order.
+fn affordable(runners: &[Runner], enough: usize, time: f64) -> Vec<usize> {
+    let takes = |number: usize| Span::of(&runners[number].times.wall).median;
+    let mut order: Vec<usize> = (0..runners.len()).collect();
+    order.sort_by(|&a, &b| takes(a).total_cmp(&takes(b)));
+    let mut left = PREDICTED * time;
+    order.retain(|&number| {
+        left -= enough.saturating_sub(runners[number].runs()) as f64 * takes(number);
+        left >= 0.0
+    });
+    order.sort_unstable();
+    order
 }
 
 /// Seconds that the intervals of one row take, for each audited pixel.

@@ -71,6 +71,11 @@ impl Progress {
         STOP.load(Ordering::Relaxed)
     }
 
+    /// Says something while the bar stands.
+    pub fn say(&self, text: &str) {
+        self.bar.suspend(|| messages::eprint(text));
+    }
+
     pub fn end(&self) {
         self.bar.finish_and_clear();
     }

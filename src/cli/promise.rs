@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
+use std::sync::Mutex;
 
 use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Spent, Step, TooSmall, table};
 use lucarne::film::{Depth, Film, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::plan::{Frame, PlanOptions, Region, plan};
-use lucarne::trace::{TraceOptions, Traced, trace};
+use lucarne::trace::{TraceOptions, Traced, Watch, trace};
 use lucarne::world::{Origins, World};
 
 use super::arguments::RenderArguments;
@@ -20,9 +21,10 @@ use super::stats::Stopwatch;
 const SEED: u64 = 1;
 /// Seconds to encode and write a pixel of one colour in.
 const LEAST_TO_WRITE: f64 = 2e-8;
-/// Of a picture's rows, those that are written on trial; and how much longer the final picture, which is
-/// finer, may take.
+/// Of a picture's rows one of so many is written on trial, in so many bands; and how much longer the final
+/// picture, which is finer, may take.
 const ON_TRIAL: u32 = 8;
+const BANDS: u32 = 8;
 const FINER: f64 = 1.2;
 /// Seconds to find an interval in.
 const TO_REPORT: f64 = 0.02;
@@ -54,7 +56,7 @@ pub fn make(
         trace: trace_options,
     };
     if let Some(promise) = arguments.max_error {
-        return keep(world, origins, &options, promise, progress);
+        return keep(world, origins, &options, promise, clock, progress);
     }
     if let Some(seconds) = arguments.time_budget {
         return Ok(spend(world, origins, &options, seconds, clock, progress));
@@ -69,22 +71,29 @@ fn keep(
     origins: &Origins,
     options: &Options,
     promise: f64,
+    clock: &Stopwatch,
     progress: &Progress,
 ) -> Result<Made, Failure> {
-    // On a terminal the bar shows that it works.
-    let silent = std::io::stderr().is_terminal();
+    let told = Told { progress, clock, last: Mutex::new(clock.wall()) };
     let tell = |step: Step| {
         let note = match step {
-            _ if silent => return,
+            Step::Learning { seconds, .. } if seconds < WORTH_TELLING => return,
+            Step::Learning { pixels, samples, seconds } => format!(
+                "finding out what {pixels} pixels look like, by {samples} samples of each, takes about {}",
+                duration(seconds)
+            ),
+            Step::Trying => "trying settings on them".to_owned(),
             Step::Choosing => "choosing settings on a few pixels".to_owned(),
-            Step::Rendering(flags) => format!("rendering with {flags}"),
+            Step::Rendering { flags, seconds } => {
+                format!("rendering with {flags}\nnote: that takes about {}", duration(seconds))
+            }
             Step::Refining(audit) => {
                 format!("{}: not proven, choosing better settings", error(&audit))
             }
         };
-        messages::eprint(&format!("note: {note}\n"));
+        progress.say(&format!("note: {note}\n"));
     };
-    let kept = accuracy::keep(world, origins, options, promise, progress, &tell);
+    let kept = accuracy::keep(world, origins, options, promise, clock, (&told, &tell));
     let kept = kept.map_err(|TooSmall| {
         let Frame { region, .. } = options.frame;
         let (width, height) = (region.width, region.height);
@@ -119,6 +128,54 @@ fn keep(
         kept.flags
     );
     Ok(Made { traced: kept.traced, said, exit: if proven { Exit::Done } else { Exit::Promise } })
+}
+
+/// `8 s`, `3 min`: as well as a forecast knows it.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        5400.0.. => format!("{:.1} h", seconds / 3600.0),
+        90.0.. => format!("{:.0} min", seconds / 60.0),
+        10.0.. => format!("{seconds:.0} s"),
+        _ => format!("{seconds:.1} s"),
+    }
+}
+
+/// Where no bar can be seen, a line now and then says how far it has come.
+struct Told<'a> {
+    progress: &'a Progress,
+    clock: &'a Stopwatch,
+    /// When the last line was written.
+    last: Mutex<f64>,
+}
+
+/// Seconds that one wants to be told of beforehand.
+const WORTH_TELLING: f64 = 5.0;
+/// Seconds from one line to the next.
+const NOW_AND_THEN: f64 = 10.0;
+
+impl Watch for Told<'_> {
+    fn progress(&self, done: usize, total: usize) {
+        self.progress.progress(done, total);
+        if std::io::stderr().is_terminal() {
+            return;
+        }
+        // Whoever comes while a line is written has nothing new to say.
+        let Ok(mut last) = self.last.try_lock() else { return };
+        let now = self.clock.wall();
+        if now - *last >= NOW_AND_THEN {
+            *last = now;
+            let percent = 100 * done / total.max(1);
+            messages::eprint(&format!("note: {percent} % of that, after {}\n", duration(now)));
+        }
+    }
+
+    fn built(&self) {
+        self.progress.built();
+    }
+
+    fn should_stop(&self) -> bool {
+        self.progress.should_stop()
+    }
 }
 
 fn spend(
@@ -168,16 +225,24 @@ fn spend(
     Made { traced: spent.traced, said, exit }
 }
 
-/// About how many seconds it takes to write a picture: measured on the rows in its middle.
+/// About how many seconds it takes to write a picture: measured on some of its rows, from top to bottom.
 fn to_write(film: &Film, clock: &Stopwatch) -> f64 {
-    let region = film.frame.region;
-    let height = region.height.div_ceil(ON_TRIAL);
-    let y = region.y + (region.height - height) / 2;
+    let Region { width, height, .. } = film.frame.region;
+    let row = width as usize;
+    let high = (height / (BANDS * ON_TRIAL)).max(1);
+    let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
+    for band in 0..BANDS.min(height) {
+        let top = (height - high) / BANDS.min(height) * band;
+        let rows = row * top as usize..row * (top + high) as usize;
+        some.radiance.extend(&film.radiance[rows.clone()]);
+        some.samples.extend(&film.samples[rows]);
+    }
+    some.frame.region.height = BANDS.min(height) * high;
+    let part = f64::from(some.frame.region.height) / f64::from(height);
     let began = clock.wall();
-    let rows = film.clone().crop(Region { y, height, ..region });
     // What cannot be written is told when it is.
-    drop(encode(&develop(&rows, Depth::Eight), Format::Png));
-    FINER * (clock.wall() - began) * f64::from(region.height) / f64::from(height)
+    drop(encode(&develop(&some, Depth::Eight), Format::Png));
+    FINER * (clock.wall() - began) / part
 }
 
 /// What was done: `one ray a pixel (--depth 5 …), then 4 samples in 20 % of the pixels, 16 in 7 %`.

@@ -67,8 +67,8 @@ struct Diagram<'a> {
     top: f64,
     /// What the markers mean, each with its place.
     legend: Vec<(Key, (f64, f64))>,
-    /// The rows on the front, by their time.
-    front: Vec<usize>,
+    /// The rows that none dominates, by their time.
+    standing: Vec<usize>,
 }
 
 /// What is explained in the legend.
@@ -100,11 +100,15 @@ impl<'a> Diagram<'a> {
         let ends =
             errors.flat_map(|error| [error.value, error.low.max(error.value / 10.0), error.high]);
         let y = Axis::around(ends, BOTTOM, top);
-        let mut front: Vec<usize> =
-            rows().filter(|&row| report.rows[row].verdict == Verdict::Front).collect();
+        let stands = |row: &usize| !matches!(report.rows[*row].verdict, Verdict::Dominated { .. });
+        let mut standing: Vec<usize> = rows().filter(stands).collect();
         let time = |row: usize| Span::of(&report.rows[row].times.cpu).min;
-        front.sort_by(|&a, &b| time(a).total_cmp(&time(b)));
-        Self { report, x, y, top, legend, front }
+        standing.sort_by(|&a, &b| time(a).total_cmp(&time(b)));
+        Self { report, x, y, top, legend, standing }
+    }
+
+    fn is_on_front(&self, row: usize) -> bool {
+        self.report.rows[row].verdict == Verdict::Front
     }
 
     fn write(&self, out: &mut String, file: &str, host: &Host) -> Result {
@@ -159,11 +163,10 @@ impl<'a> Diagram<'a> {
         writeln!(out, "{}", words("big", Start, (LEFT, 26.0), &(file + &size)))?;
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         let about = format!(
-            "{} audited pixels, reference of {} samples; {} run{}, {} thread{}; lucarne {}; {}",
+            "{} audited pixels, reference of {} samples; {}, {} thread{}; lucarne {}; {}",
             report.audited,
             report.reference_samples,
-            report.runs,
-            plural(report.runs),
+            table::runs(report),
             host.threads,
             plural(host.threads),
             host.version,
@@ -215,10 +218,11 @@ impl<'a> Diagram<'a> {
         (self.x.at(time), self.y.at(self.report.error(row).value))
     }
 
-    /// The least error so far, as time goes on: what is paid first, then what it buys.
+    /// The least error so far, as time goes on: what is paid first, then what it buys. Nothing lies left
+    /// of it and below: what another dominates takes longer than that, and is no better.
     fn path(&self) -> Vec<(f64, f64)> {
         let mut path: Vec<(f64, f64)> = Vec::new();
-        for (x, y) in self.front.iter().map(|&row| self.place(row)) {
+        for (x, y) in self.standing.iter().map(|&row| self.place(row)) {
             match path.last() {
                 Some(&(_, last)) if y <= last => (),
                 Some(&(_, last)) => path.extend([(x, last), (x, y)]),
@@ -240,7 +244,7 @@ impl<'a> Diagram<'a> {
         for (number, knob) in self.report.knobs.iter().enumerate() {
             for setting in &knob.settings {
                 let row = setting.row;
-                let rest = if self.front.contains(&row) { "" } else { " rest" };
+                let rest = if self.is_on_front(row) { "" } else { " rest" };
                 let (x, y) = self.place(row);
                 let [interval, runs] = self.bars(row).map(|bar| line("bar", bar));
                 writeln!(
@@ -294,7 +298,7 @@ impl<'a> Diagram<'a> {
                 )?;
             }
         }
-        for &row in &self.front {
+        for &row in self.standing.iter().filter(|&&row| self.is_on_front(row)) {
             let named = self.report.knobs.iter().find_map(|knob| {
                 let setting = knob.settings.iter().find(|setting| setting.row == row)?;
                 Some(format!("{} {}", knob.name, setting.label))
@@ -327,7 +331,7 @@ impl Key {
         match self {
             Self::Knob(number) => report.knobs[number].name,
             Self::Own => "as rendered",
-            Self::Front => "proven front",
+            Self::Front => "front; pale is not proven",
         }
     }
 }

@@ -104,7 +104,11 @@ fn named(svg: &str) -> usize {
 }
 
 /// A report of some knobs whose rows are as given: seconds, error, half its interval.
-fn report(rows: &[(f64, f64, f64)], knobs: &[&'static str], floor: f64) -> Report {
+pub(in crate::accuracy) fn report(
+    rows: &[(f64, f64, f64)],
+    knobs: &[&'static str],
+    floor: f64,
+) -> Report {
     let rows: Vec<Row> = rows
         .iter()
         .enumerate()
@@ -149,7 +153,6 @@ fn report(rows: &[(f64, f64, f64)], knobs: &[&'static str], floor: f64) -> Repor
         cut: Vec::new(),
         reference_samples: 512,
         floors: [floor; 3],
-        runs: 3,
         knobs,
         rows,
     };
@@ -230,11 +233,31 @@ fn the_path_goes_down_as_time_goes_on_and_its_points_are_the_front() {
         [(1.0, 0.1, 0.0), (2.0, 0.2, 0.0), (4.0, 0.05, 0.0), (5.0, 0.05, 0.0), (9.0, 0.01, 0.0)];
     let report = report(&rows, &FOUR[..2], 0.0);
     let diagram = Diagram::new(&report);
-    assert_eq!(diagram.front, [0, 2, 4]);
+    assert_eq!(diagram.standing, [0, 2, 4]);
     let path = diagram.path();
     assert_eq!(path.len(), 5);
     assert!(path.windows(2).all(|ends| ends[0].0 <= ends[1].0 && ends[0].1 <= ends[1].1));
-    assert!(diagram.front.iter().all(|&row| path.contains(&diagram.place(row))));
+    assert!(diagram.standing.iter().all(|&row| path.contains(&diagram.place(row))));
+}
+
+#[test]
+fn no_point_lies_left_of_the_path_and_below_whatever_clock_and_counters_say() {
+    let mut random = Random(23);
+    for _ in 0..200 * long() {
+        let mut some = |least: f64, most: f64| random.number(least, most);
+        let rows: Vec<_> =
+            (0..12).map(|_| (some(1.0, 2.0), some(0.01, 0.02), some(0.0, 0.004))).collect();
+        let mut report = report(&rows, &FOUR, 0.0);
+        report.rows.iter_mut().for_each(|row| row.counters.camera = some(1e6, 2e6) as u64);
+        report.judge();
+        let diagram = Diagram::new(&report);
+        let path = diagram.path();
+        for row in 0..rows.len() {
+            let (x, y) = diagram.place(row);
+            let below = path.iter().all(|&(at, least)| at > x || least < y);
+            assert!(!below, "{row} at {x} {y}: {path:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,134 @@
+//! Promises, held against what every pixel says: of errors on scenes that people look at, and of times.
+
+use super::tests::{BALLS, Ticking, Truth, asked, compiled};
+use super::*;
+use crate::math::random::long;
+use crate::trace::Unwatched;
+
+/// Neither watches nor hears.
+const NOBODY: (&dyn Watch, &dyn Fn(Step)) = (&Unwatched, &|_| ());
+
+/// Of the gallery and the examples: mirrors, glass, beams, patterns, crowds.
+const SCENES: [(&str, &str); 20] = [
+    ("gallery/first", include_str!("../../scenes/gallery/first.scene")),
+    ("gallery/city", include_str!("../../scenes/gallery/city.scene")),
+    ("gallery/sponge", include_str!("../../scenes/gallery/sponge.scene")),
+    ("gallery/sunflower", include_str!("../../scenes/gallery/sunflower.scene")),
+    ("gallery/sphereflake", include_str!("../../scenes/gallery/sphereflake.scene")),
+    ("gallery/chess", include_str!("../../scenes/gallery/chess.scene")),
+    ("finishes/reflection", include_str!("../../scenes/finishes/reflection.scene")),
+    ("finishes/phong", include_str!("../../scenes/finishes/phong.scene")),
+    ("finishes/metallic", include_str!("../../scenes/finishes/metallic.scene")),
+    ("lights/spotlight", include_str!("../../scenes/lights/spotlight.scene")),
+    ("lights/fade_distance", include_str!("../../scenes/lights/fade_distance.scene")),
+    ("lights/parallel", include_str!("../../scenes/lights/parallel.scene")),
+    ("textures/gradient", include_str!("../../scenes/textures/gradient.scene")),
+    ("textures/transmit", include_str!("../../scenes/textures/transmit.scene")),
+    ("textures/color_map", include_str!("../../scenes/textures/color_map.scene")),
+    ("shapes/box", include_str!("../../scenes/shapes/box.scene")),
+    ("shapes/inverse", include_str!("../../scenes/shapes/inverse.scene")),
+    ("atmosphere/sky_sphere", include_str!("../../scenes/atmosphere/sky_sphere.scene")),
+    ("cameras/orthographic", include_str!("../../scenes/cameras/orthographic.scene")),
+    ("transforms/matrix", include_str!("../../scenes/transforms/matrix.scene")),
+];
+
+#[test]
+fn a_promised_error_is_kept_for_95_of_100_pictures_and_errors() {
+    let pairs = if long() > 1 { 100 } else { 20 };
+    let errors = [0.05, 0.03, 0.02, 0.015, 0.01];
+    let mut broken = Vec::new();
+    for pair in 0..pairs {
+        let (name, text) = SCENES[pair % SCENES.len()];
+        let promise = errors[(pair + pair / SCENES.len()) % errors.len()];
+        let (world, origins) = compiled(text, 0.0);
+        let options = Options { seed: pair as u64, ..asked(48, 36) };
+        let kept = keep(&world, &origins, &options, promise, &Ticking::new(1.0), NOBODY);
+        let kept = kept.expect("large enough").expect("not stopped");
+        let truth = Truth::new(&world, &origins, options.frame, 1);
+        let exact = Metric::Rmse.of(&truth.deviations(&kept.traced));
+        let audit = kept.audit.expect("not interrupted");
+        if !audit.proves(promise) || exact > promise {
+            broken.push((name, promise, exact, audit, kept.refined));
+        }
+    }
+    println!("{} of {pairs} broken: {broken:#?}", broken.len());
+    assert!(20 * broken.len() <= pairs, "{broken:#?}");
+}
+
+#[test]
+fn a_promise_is_kept_by_the_same_picture_on_every_run() {
+    let (world, origins) = compiled(BALLS, 0.2);
+    let picture = |threads| {
+        let trace = TraceOptions::on_threads(threads);
+        let options = Options { trace, ..asked(48, 36) };
+        keep(&world, &origins, &options, 0.03, &Ticking::new(1.0), NOBODY)
+    };
+    assert_eq!(picture(1), picture(4));
+    let tiny = asked(6, 4);
+    assert_eq!(keep(&world, &origins, &tiny, 0.03, &Ticking::new(1.0), NOBODY), Err(TooSmall));
+}
+
+#[test]
+fn a_promised_error_is_sought_deeper_than_the_scene_says_where_it_must_be() {
+    let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
+    let (world, origins) = compiled(&flat, 0.2);
+    let kept = keep(&world, &origins, &asked(48, 36), 0.05, &Ticking::new(1.0), NOBODY);
+    let kept = kept.expect("large enough").expect("not stopped");
+    assert!(kept.audit.expect("done").proves(0.05), "{}", kept.flags);
+    assert!(
+        kept.flags.contains("--depth ") && !kept.flags.contains("--depth 1 "),
+        "{}",
+        kept.flags
+    );
+}
+
+#[test]
+fn a_promise_that_the_dearest_settings_miss_is_missed_in_one_picture() {
+    let (world, origins) = compiled(BALLS, 0.2);
+    // Two settings, and both are poor.
+    let poor = Knob { settings: &[0.0, 5.0], ..KNOBS[0] };
+    let options = Options { knobs: &[poor], ..asked(40, 30) };
+    let kept = keep(&world, &origins, &options, 1e-3, &Ticking::new(1.0), NOBODY);
+    let kept = kept.expect("large enough").expect("not stopped");
+    // Another would be the same.
+    assert!(!kept.refined && !kept.audit.expect("done").proves(1e-3));
+    assert_eq!(kept.flags, "--antialias 2");
+}
+
+#[test]
+fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let frame = Frame::whole(160, 120);
+    let truth = Truth::new(&world, &origins, frame, 0);
+    let mut last = f64::INFINITY;
+    // A tick is a row of a tile: the first pass takes about 600.
+    for time in [1500.0, 6000.0, 40_000.0] {
+        let clock = Ticking::new(1.0);
+        let options = asked(160, 120);
+        let spent = spend(&world, &origins, &options, &|_| time, &clock, &Unwatched);
+        assert!(spent.traced.complete && clock.wall() <= 1.05 * time);
+        assert!(spent.audit.is_some());
+        let error = Metric::Rmse.of(&truth.deviations(&spent.traced));
+        assert!(error <= last, "{error} {last}");
+        last = error;
+    }
+    let clock = Ticking::new(1.0);
+    let spent = spend(&world, &origins, &asked(160, 120), &|_| 300.0, &clock, &Unwatched);
+    assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 315.0);
+    let done = spent.traced.film.samples.iter().filter(|&&samples| samples == 1).count();
+    assert!(done > 0 && done < 160 * 120);
+}
+
+#[test]
+fn whenever_the_picture_is_whole_its_error_is_told() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let mut whole = 0;
+    for time in (300..1500).step_by(60).map(f64::from) {
+        let clock = Ticking::new(1.0);
+        let spent = spend(&world, &origins, &asked(160, 120), &|_| time, &clock, &Unwatched);
+        assert_eq!(spent.traced.complete, spent.audit.is_some(), "{time}");
+        assert!(clock.wall() <= 1.05 * time, "{} {time}", clock.wall());
+        whole += usize::from(spent.traced.complete);
+    }
+    assert!(whole > 0);
+}
