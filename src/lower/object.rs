@@ -8,7 +8,7 @@ use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, NO_SIZE, shape};
 use crate::diagnostic::Code;
-use crate::scene::{InteriorId, ModifierKind, ObjectId, ObjectKind, Root, TextureId};
+use crate::scene::{Dialect, InteriorId, ModifierKind, ObjectId, ObjectKind, Root, TextureId};
 use crate::shape::Shape;
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
@@ -308,6 +308,10 @@ impl<'s> Lowering<'s, '_> {
         let map = &here.world_from_here;
         if !map.is_finite() {
             return Err(Fault::not_finite("this solid's place"));
+        }
+        // Told where it is written, and left out.
+        if self.scene.dialect == Dialect::Pov && shape::is_sizeless(kind) {
+            return Ok(());
         }
         match *kind {
             ObjectKind::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {

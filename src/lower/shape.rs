@@ -9,6 +9,7 @@ use crate::diagnostic::Code;
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Placement;
 use crate::math::{UnitVector, Vector};
+use crate::scene::ObjectKind;
 use crate::shape::{Box_, Ellipsoid, Plane, Sphere};
 
 /// What a sphere becomes.
@@ -161,6 +162,20 @@ fn in_canonical_order(mut sides: Vec<Side>, bound: f64) -> [Side; 3] {
             false => side,
         }
     })
+}
+
+/// A sphere of radius 0, or a box that is a line or a point.
+pub fn is_sizeless(kind: &ObjectKind) -> bool {
+    match kind {
+        ObjectKind::Sphere { radius, .. } => *radius == 0.0,
+        ObjectKind::Box { corners: [first, second] } => {
+            (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
+        }
+        ObjectKind::Plane { .. }
+        | ObjectKind::Union(_)
+        | ObjectKind::Use(_)
+        | ObjectKind::LightSource(_) => false,
+    }
 }
 
 const FLAT: &str = "the transforms leave this solid no volume";

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind};
+use crate::scene::{Dialect, Modifier, ModifierKind, Object, ObjectId, ObjectKind};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -204,7 +204,7 @@ impl Evaluator<'_> {
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
             self.scene.sizeless.push(("sphere", token.here.site(token.span)));
-            let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
+            let diagnostic = Diagnostic::new(self.sizeless(), "a sphere of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
             let diagnostic = match self.comma_after(radius.span) {
                 Some((span, number)) => diagnostic
@@ -212,12 +212,24 @@ impl Evaluator<'_> {
                     .fix(span, number),
                 None => diagnostic,
             };
-            return Err(self.report(&radius.here, diagnostic));
+            let reported = self.report(&radius.here, diagnostic);
+            if self.options.dialect == Dialect::Scene {
+                return Err(reported);
+            }
         }
         if radius.value < 0.0 {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
         Ok(ObjectKind::Sphere { centre: centre.value, radius: radius.value })
+    }
+
+    /// What a shape without size is: POV-Ray draws a scene that has one, as films do whose shapes grow from
+    /// nothing.
+    fn sizeless(&self) -> Code {
+        match self.options.dialect {
+            Dialect::Scene => Code::ZeroSize,
+            Dialect::Pov => Code::DegenerateShape,
+        }
     }
 
     fn plane(&mut self, token: &Token) -> Outcome<ObjectKind> {
@@ -240,12 +252,15 @@ impl Evaluator<'_> {
         if flat >= 2 {
             self.scene.sizeless.push(("box", token.here.site(token.span)));
             let diagnostic = Diagnostic::new(
-                Code::ZeroSize,
+                self.sizeless(),
                 "a box whose corners differ along less than two axes is nothing",
             )
             .at(second.span, "expected the opposite corner")
             .also(first.span, "the first corner");
-            return Err(self.report(&second.here, diagnostic));
+            let reported = self.report(&second.here, diagnostic);
+            if self.options.dialect == Dialect::Scene {
+                return Err(reported);
+            }
         }
         Ok(ObjectKind::Box { corners: [first.value, second.value] })
     }
