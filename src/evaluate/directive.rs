@@ -193,13 +193,7 @@ impl Evaluator<'_> {
     }
 
     /// `#declare Name = …`: the value is what the next items leave.
-    fn declare(
-        &mut self,
-        here: &Here,
-        head: Span,
-        local: bool,
-        target: &Target,
-    ) -> Outcome<()> {
+    fn declare(&mut self, here: &Here, head: Span, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
         let indices = self.target_indices(here, target);

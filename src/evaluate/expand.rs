@@ -10,7 +10,8 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, ExpansionKind, ExpansionName, Span};
 use crate::syntax::ast::{
-    Argument, Arguments, BinaryOperator, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
+    Argument, Arguments, BinaryOperator, Body, Callee, ExpressionId, ExpressionKind, Items, NameId,
+    Parameter,
 };
 
 use crate::vocabulary::Word;
@@ -210,7 +211,7 @@ impl Evaluator<'_> {
                     bound.extend([first, second].map(|value| Bound::Value(value.clone())));
                 }
                 _ => {
-                    let optional = definition.parameters[i.min(definition.parameters.len() - 1)].1;
+                    let optional = definition.parameters[bound.len()].1;
                     bound.push(self.bound(here, argument, optional, span));
                 }
             }
