@@ -206,14 +206,15 @@ impl Evaluator<'_> {
         // Kept from call to call; an argument that calls a macro itself makes do with another.
         let mut bound = std::mem::take(&mut self.bound);
         for (i, argument) in list.iter().enumerate() {
-            match split {
-                Some((at, [ref first, ref second])) if at == i => {
-                    bound.extend([first, second].map(|value| Bound::Value(value.clone())));
-                }
-                _ => {
-                    let optional = definition.parameters[bound.len()].1;
-                    bound.push(self.bound(here, argument, optional, span));
-                }
+            if let Some((at, values)) = &split
+                && *at == i
+            {
+                let keep =
+                    |value: &Value| Bound { slot: self.scopes.keep(value.clone()), own: true };
+                bound.extend(values.iter().map(keep));
+            } else {
+                let optional = definition.parameters[bound.len()].1;
+                bound.push(self.bound(here, argument, optional, span));
             }
         }
         bound.resize(definition.parameters.len(), Bound::NOTHING);
@@ -246,8 +247,7 @@ impl Evaluator<'_> {
         definition: &Macro,
         list: &[Argument],
     ) -> Outcome<Option<(usize, [Value; 2])>> {
-        let required = definition.parameters.iter().filter(|(_, optional)| !optional).count();
-        if list.len() + 1 != required {
+        if list.len() + 1 != definition.required {
             return Ok(None);
         }
         for (i, argument) in list.iter().enumerate() {
