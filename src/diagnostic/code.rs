@@ -75,6 +75,7 @@ codes! {
     UnknownWord "unknown-word" error "a word is not known in this place";
     UndeclaredName "undeclared-name" error "a name is used and was never declared";
     ReservedName "reserved-name" error "a word of the language cannot be declared";
+    RedeclaredFunction "redeclared-function" error "a function is declared again without `#undef`";
     NotSupportedYet "not-supported-yet" error "the language has this word, and this version does not build it yet";
     ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
     UnknownDirective "unknown-directive" error "the word after `#` is not a directive";

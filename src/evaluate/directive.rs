@@ -18,7 +18,9 @@ impl Evaluator<'_> {
     pub(super) fn directive(&mut self, here: &Here, id: DirectiveId) -> Outcome<()> {
         let directive = here.unit.ast.directive(id);
         match &directive.kind {
-            DirectiveKind::Declare { local, target } => self.declare(here, *local, target),
+            DirectiveKind::Declare { local, target } => {
+                self.declare(here, directive.head, *local, target)
+            }
             DirectiveKind::Undef(target) => {
                 let symbol = here.symbol(target.name);
                 self.scopes.mark_used(symbol);
@@ -196,13 +198,16 @@ impl Evaluator<'_> {
     }
 
     /// `#declare Name = …`: the value is what the next items leave.
-    fn declare(&mut self, here: &Here, local: bool, target: &Target) -> Outcome<()> {
+    fn declare(&mut self, here: &Here, head: Span, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
         let indices = self.target_indices(here, target);
         let value = self.declared_value(here, target);
         if !target.indices.is_empty() {
             return self.assign_element(here, target, indices, value);
+        }
+        if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
+            self.redeclared(here, head, target);
         }
         let owner = match in_main {
             true => Owner::Main,
@@ -212,6 +217,20 @@ impl Evaluator<'_> {
         self.scopes.note_declaration(symbol, here.site(target.span), owner);
         self.scopes.assign_in(home, symbol, value.unwrap_or(Value::Broken));
         Ok(())
+    }
+
+    /// POV-Ray takes no other value for the name of a function, either; the new one is used.
+    fn redeclared(&mut self, here: &Here, head: Span, target: &Target) {
+        let name = self.sources.text(target.span).to_owned();
+        let before = Span { end: head.start, ..head };
+        let diagnostic = Diagnostic::new(
+            Code::RedeclaredFunction,
+            format!("`{name}` is a function, and is declared again"),
+        )
+        .at(target.span, "the name is taken")
+        .help(format!("a function is taken back first: `#undef {name}`"))
+        .fix(before, format!("#undef {name}\n"));
+        self.report(here, diagnostic);
     }
 
     /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a

@@ -10,14 +10,15 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, ExpansionKind, ExpansionName, Span};
 use crate::syntax::ast::{
-    Argument, Arguments, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
+    Argument, Arguments, BinaryOperator, Body, Callee, ExpressionId, ExpressionKind, Items, NameId,
+    Parameter,
 };
 
 use crate::vocabulary::Word;
 
 use super::report::count;
 use super::scope::{MacroId, Owner, Slot, Symbol};
-use super::value::Value;
+use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
 /// How many brackets may stand around each of the macros that call each other, on average.
@@ -114,9 +115,8 @@ impl Evaluator<'_> {
         };
         let span = here.unit.expression(id).span;
         let definition = self.macros[macro_id.0 as usize].clone();
-        let MacroBody::Items(body) = definition.body else {
-            return Err(self.raw_macro(here, span));
-        };
+        // Its value is what it lacks.
+        let MacroBody::Items(body) = definition.body else { return Ok(false) };
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.push_macro(&definition.unit, expansion, body);
         Ok(true)
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
     ) -> Outcome<Value> {
         let definition = self.macros[id.0 as usize].clone();
         let MacroBody::Items(body) = definition.body else {
-            return Err(self.raw_macro(here, span));
+            return Ok(Value::Poison(Poison { word: Word::Macro, site: here.site(span) }));
         };
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.macro_depth += 1;
@@ -167,15 +167,6 @@ impl Evaluator<'_> {
         self.report_in(expansion.parent, diagnostic.help(help))
     }
 
-    fn raw_macro(&mut self, here: &Here, span: Span) -> Reported {
-        let diagnostic = Diagnostic::new(
-            Code::NotSupportedYet,
-            "a macro whose parentheses do not pair is not supported yet",
-        )
-        .at(span, "a parenthesis of its body is closed only where it is run");
-        self.report(here, diagnostic)
-    }
-
     /// Evaluates the arguments, then opens the macro's table with its parameters bound.
     fn enter_macro(
         &mut self,
@@ -193,7 +184,10 @@ impl Evaluator<'_> {
             }
             list => list,
         };
-        self.check_arguments(here, definition, list, span)?;
+        let split = self.split(here, definition, list)?;
+        if split.is_none() {
+            self.check_arguments(here, definition, list, span)?;
+        }
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
@@ -211,8 +205,17 @@ impl Evaluator<'_> {
         }
         // Kept from call to call; an argument that calls a macro itself makes do with another.
         let mut bound = std::mem::take(&mut self.bound);
-        for (argument, &(_, optional)) in list.iter().zip(&definition.parameters) {
-            bound.push(self.bound(here, argument, optional, span));
+        for (i, argument) in list.iter().enumerate() {
+            if let Some((at, values)) = &split
+                && *at == i
+            {
+                let keep =
+                    |value: &Value| Bound { slot: self.scopes.keep(value.clone()), own: true };
+                bound.extend(values.iter().map(keep));
+            } else {
+                let optional = definition.parameters[bound.len()].1;
+                bound.push(self.bound(here, argument, optional, span));
+            }
         }
         bound.resize(definition.parameters.len(), Bound::NOTHING);
         let expansion = self.scene.expansions.add(
@@ -234,6 +237,47 @@ impl Evaluator<'_> {
         bound.clear();
         self.bound = bound;
         Ok(expansion)
+    }
+
+    /// An object and a signed value without a comma between them, where one argument is missing: the index of
+    /// both, and what they are. POV-Ray reads `Align(Ball() -y, 0)` so.
+    fn split(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        list: &[Argument],
+    ) -> Outcome<Option<(usize, [Value; 2])>> {
+        if list.len() + 1 != definition.required {
+            return Ok(None);
+        }
+        for (i, argument) in list.iter().enumerate() {
+            let Argument::Expression(id) = *argument else { continue };
+            let ExpressionKind::Binary(
+                sign @ (BinaryOperator::Add | BinaryOperator::Subtract),
+                first,
+                second,
+            ) = here.unit.expression(id).kind
+            else {
+                continue;
+            };
+            let ExpressionKind::Call(Callee::Name(..), _) = here.unit.expression(first).kind else {
+                continue;
+            };
+            let first = self.expression(here, first)?;
+            if let Value::Object(_) | Value::Poison(_) = first {
+                let second = self.expression(here, second)?;
+                let second = match (sign, &second) {
+                    (BinaryOperator::Subtract, Value::Number(number)) => Value::Number(-number),
+                    (BinaryOperator::Subtract, Value::Vector(vector)) => {
+                        let negated: Vec<f64> = vector.as_slice().iter().map(|c| -c).collect();
+                        Components::new(&negated).map_or(Value::Broken, Value::Vector)
+                    }
+                    _ => second,
+                };
+                return Ok(Some((i, [first, second])));
+            }
+        }
+        Ok(None)
     }
 
     /// As many arguments as parameters; the optional ones may be left out.

@@ -313,6 +313,7 @@ fn what_is_not_built(word: Word) -> String {
         Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),
         Word::Object => "the pattern `object` is".to_owned(),
+        Word::Macro => "a macro whose parentheses do not pair is".to_owned(),
         Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
         _ if word.family() == Family::Pattern && word.is_built() => {
             format!("a `{name}` of textures is")

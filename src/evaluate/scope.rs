@@ -198,6 +198,13 @@ impl Scopes {
         found.map_or(if local { self.tables.len() as u32 - 1 } else { 0 }, |&(depth, _)| depth)
     }
 
+    /// What the table that [`Self::home`] has named holds of a name.
+    pub fn held_in(&self, depth: u32, symbol: Symbol) -> Option<&Value> {
+        let bindings = &self.states[symbol.0 as usize].bindings;
+        let &(_, slot) = bindings.iter().rev().find(|&&(other, _)| other == depth)?;
+        self.value(slot)
+    }
+
     /// Assigns in the table that [`Self::home`] has named, or in the newest if that has closed.
     pub fn assign_in(&mut self, depth: u32, symbol: Symbol, value: Value) {
         let depth = depth.min(self.tables.len() as u32 - 1);

@@ -339,8 +339,8 @@ fn what_bounds_an_object_may_be_of_a_kind_that_is_not_built() {
         "`pigment` cannot stand in `bounded_by`"
     );
     assert_eq!(
-        said("sphere { 0, 1 bounded_by { sphere { 0, 0 } } }"),
-        "a sphere of radius 0 is nothing"
+        said("sphere { 0, 1 bounded_by { sphere { 0, \"1\" } } }"),
+        "expected a number for the radius, found a string"
     );
 }
 

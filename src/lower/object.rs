@@ -9,7 +9,7 @@ use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, NO_SIZE, body, shape};
 use crate::diagnostic::Code;
-use crate::scene::{InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
+use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{NearSingular, Object};
@@ -219,6 +219,10 @@ impl<'s> Lowering<'s, '_> {
         let map = &here.world_from_here;
         if !map.is_finite() {
             return Err(Fault::not_finite("this solid's place"));
+        }
+        // Told where it is written, and left out.
+        if self.scene.dialect == Dialect::Pov && solid.is_sizeless() {
+            return Ok(());
         }
         match *solid {
             Solid::Sphere { centre, radius } => match shape::sphere(centre, radius, map)? {

@@ -40,6 +40,18 @@ impl Solid {
             Self::Cylinder { .. } => Word::Cylinder,
         }
     }
+
+    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar without length or width.
+    pub fn is_sizeless(&self) -> bool {
+        match self {
+            Self::Sphere { radius, .. } => *radius == 0.0,
+            Self::Plane { .. } => false,
+            Self::Box { corners: [first, second] } => {
+                (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
+            }
+            Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
+        }
+    }
 }
 
 /// Its word and its numbers.

@@ -18,6 +18,7 @@ texts![
     "arrays.inc",
     "colors.inc",
     "consts.inc",
+    "debug.inc",
     "finish.inc",
     "functions.inc",
     "glass.inc",
@@ -26,9 +27,20 @@ texts![
     "metals.inc",
     "rand.inc",
     "shapes.inc",
+    "shapes2.inc",
+    "shapes_old.inc",
+    "skies.inc",
+    "stars.inc",
     "stdinc.inc",
+    "stoneold.inc",
+    "stones.inc",
+    "stones1.inc",
+    "stones2.inc",
     "strings.inc",
+    "textures.inc",
     "transforms.inc",
+    "woodmaps.inc",
+    "woods.inc",
 ];
 
 /// What messages and `check --where` call them: no file has such a name.

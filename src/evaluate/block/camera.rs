@@ -103,6 +103,13 @@ impl Evaluator<'_> {
         if given.value <= 0.0 {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
         }
+        // A spherical camera has one across, and one from top to bottom.
+        if self.poison.is_some_and(|poison| poison.word == Word::Spherical)
+            && let Some(Token { kind: TokenKind::Comma, .. }) = self.peek()
+        {
+            self.skip_commas();
+            self.number_after(token, "degrees from top to bottom")?;
+        }
         if given.value >= 180.0 && kind == CameraKind::Perspective && self.poison.is_none() {
             return Err(self.out_of_range(
                 &given,

@@ -139,9 +139,10 @@ impl Evaluator<'_> {
         };
         let inner = self.poison.take();
         self.poison = outer;
-        match (value, inner) {
-            (Ok(_), Some(poison)) => Ok(Value::Poison(poison)),
-            (value, _) => value,
+        // What ended for want of something not built has told nothing: that is told where it is needed.
+        match inner {
+            Some(poison) => Ok(Value::Poison(poison)),
+            None => value,
         }
     }
 

@@ -178,6 +178,9 @@ impl Evaluator<'_> {
                         let color = self.color_components(color)?;
                         self.color_of(pigment, color, token);
                     }
+                    // Not an error: what it lacks is told where it is needed.
+                    Value::Poison(poison) => self.set_poison(poison),
+                    Value::Broken => return Err(Reported),
                     _ => {
                         self.unexpected(token, Place::PIGMENT);
                         return Err(Reported);

@@ -2,11 +2,11 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::scene::Solid;
+use crate::scene::{Dialect, Solid};
 use crate::vocabulary::Word;
 
-use super::super::stream::Token;
-use super::super::{Evaluator, Outcome};
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Here, Outcome};
 
 impl Evaluator<'_> {
     /// How to read the block of a solid; `None` for other words, and what is not built.
@@ -20,13 +20,33 @@ impl Evaluator<'_> {
         })
     }
 
+    /// What a shape without size is: POV-Ray draws a scene that has one, as films do whose shapes grow from
+    /// nothing.
+    fn sizeless(&self) -> Code {
+        match self.options.dialect {
+            Dialect::Scene => Code::ZeroSize,
+            Dialect::Pov => Code::DegenerateShape,
+        }
+    }
+
+    /// Says that a shape has no size; it is left out.
+    fn nothing(&mut self, shape: &Token, here: &Here, diagnostic: Diagnostic) -> Outcome<()> {
+        if let TokenKind::Word(word) = shape.kind {
+            self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
+        }
+        let reported = self.report(here, diagnostic);
+        match self.options.dialect {
+            Dialect::Scene => Err(reported),
+            Dialect::Pov => Ok(()),
+        }
+    }
+
     fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
         let (centre, radius) = self.vector_and_number(token, WANTED);
         let (centre, radius) = (centre?, radius?);
         if radius.value == 0.0 {
-            self.scene.sizeless.push(("sphere", token.here.site(token.span)));
-            let diagnostic = Diagnostic::new(Code::ZeroSize, "a sphere of radius 0 is nothing")
+            let diagnostic = Diagnostic::new(self.sizeless(), "a sphere of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
             let diagnostic = match self.comma_after(radius.span) {
                 Some((span, number)) => diagnostic
@@ -34,7 +54,7 @@ impl Evaluator<'_> {
                     .fix(span, number),
                 None => diagnostic,
             };
-            return Err(self.report(&radius.here, diagnostic));
+            self.nothing(token, &radius.here, diagnostic)?;
         }
         if radius.value < 0.0 {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
@@ -60,14 +80,13 @@ impl Evaluator<'_> {
         let size: Vector = (second.value - first.value).abs();
         let flat = size.to_array().iter().filter(|side| **side == 0.0).count();
         if flat >= 2 {
-            self.scene.sizeless.push(("box", token.here.site(token.span)));
             let diagnostic = Diagnostic::new(
-                Code::ZeroSize,
+                self.sizeless(),
                 "a box whose corners differ along less than two axes is nothing",
             )
             .at(second.span, "expected the opposite corner")
             .also(first.span, "the first corner");
-            return Err(self.report(&second.here, diagnostic));
+            self.nothing(token, &second.here, diagnostic)?;
         }
         Ok(Solid::Box { corners: [first.value, second.value] })
     }
@@ -81,20 +100,18 @@ impl Evaluator<'_> {
         let radius = self.number_after(token, "a number for the radius");
         let (base, cap, radius) = (base?, cap?, radius?);
         if base.value == cap.value {
-            self.scene.sizeless.push(("cylinder", token.here.site(token.span)));
             let diagnostic = Diagnostic::new(
-                Code::ZeroSize,
+                self.sizeless(),
                 "a cylinder whose ends are in one place is nothing",
             )
             .at(cap.span, "expected another place")
             .also(base.span, "the base");
-            return Err(self.report(&cap.here, diagnostic));
+            self.nothing(token, &cap.here, diagnostic)?;
         }
         if radius.value == 0.0 {
-            self.scene.sizeless.push(("cylinder", token.here.site(token.span)));
-            let diagnostic = Diagnostic::new(Code::ZeroSize, "a cylinder of radius 0 is nothing")
+            let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
-            return Err(self.report(&radius.here, diagnostic));
+            self.nothing(token, &radius.here, diagnostic)?;
         }
         let open = self.take_word(Word::Open).is_some();
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
