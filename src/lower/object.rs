@@ -60,18 +60,6 @@ struct Modified {
     calls: Calls,
 }
 
-impl Modified {
-    /// What was undone calls for nothing.
-    fn settle(&mut self) {
-        if !(self.flags.no_image || self.flags.no_reflection) {
-            self.calls.hidden.clear();
-        }
-        if !self.flags.double_illuminate {
-            self.calls.double_illuminate.clear();
-        }
-    }
-}
-
 /// What an object is that most are not.
 #[derive(Debug, Clone, Copy, Default)]
 struct Flags {
@@ -104,8 +92,17 @@ impl Flags {
 /// none.
 #[derive(Debug, Clone, Default)]
 struct Calls {
-    hidden: Vec<Site>,
+    no_image: Vec<Site>,
+    no_reflection: Vec<Site>,
     double_illuminate: Vec<Site>,
+}
+
+/// What was undone calls for nothing, even where it is done again: then only that does.
+fn call(calls: &mut Vec<Site>, on: bool, site: Site) {
+    match on {
+        true => calls.push(site),
+        false => calls.clear(),
+    }
 }
 
 struct Frame<'s> {
@@ -186,7 +183,6 @@ impl<'s> Lowering<'s, '_> {
             own = own.or(scene.objects[id.index()].item);
             self.modify(&mut modified, id, default_texture)?;
         }
-        modified.settle();
         let above = &inherited.world_from_here;
         let flags = modified.flags.under(inherited.flags);
         let by_both = flags.hide().then_some(id);
@@ -273,15 +269,15 @@ impl<'s> Lowering<'s, '_> {
                 ModifierKind::NoShadow => flags.no_shadow = true,
                 ModifierKind::NoImage(on) => {
                     flags.no_image = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
+                    call(&mut calls.no_image, on, modifier.site);
                 }
                 ModifierKind::NoReflection(on) => {
                     flags.no_reflection = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
+                    call(&mut calls.no_reflection, on, modifier.site);
                 }
                 ModifierKind::DoubleIlluminate(on) => {
                     flags.double_illuminate = on;
-                    calls.double_illuminate.extend(on.then_some(modifier.site));
+                    call(&mut calls.double_illuminate, on, modifier.site);
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
             }
@@ -372,6 +368,9 @@ impl<'s> Lowering<'s, '_> {
             faces => self.faces(surface, material, faces)?,
         };
         self.note_near_singular(here, site);
+        if object.casts_shadow {
+            self.note_filter(material, surface.pigment);
+        }
         let interior = self.interior(here.interior, surface.finish, site);
         self.world.objects.push(Object { material, texture_from_world, faces, interior, ..object });
         self.origins.objects.push(site);
@@ -394,7 +393,8 @@ impl Lowering<'_, '_> {
     /// Notes modifiers that hold for solids made since there were `before`.
     fn note_calls(&mut self, calls: Calls, before: usize) {
         if self.world.objects.len() > before {
-            self.origins.hidden.extend(calls.hidden);
+            self.origins.hidden.extend(calls.no_image);
+            self.origins.hidden.extend(calls.no_reflection);
             self.origins.double_illuminate.extend(calls.double_illuminate);
         }
     }
