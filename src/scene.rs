@@ -154,18 +154,21 @@ pub struct LightSource {
     pub shadowless: bool,
     /// `None`: as bright at any distance.
     pub fade: Option<Fade>,
+    /// Parts of its colour without which it is black; none where it takes all of the light.
+    pub color_sites: Vec<Site>,
     /// Each word that makes a beam of it (`spotlight`, `cylinder`), as a piece that can be taken out of the
     /// text.
-    pub beam_sites: Vec<Site>,
-    /// Each word that makes it fade, and its number, likewise.
+    pub beam_sites: Vec<(Word, Site)>,
+    /// Each `fade_distance`, without which it does not fade, likewise.
     pub fade_sites: Vec<Site>,
 }
 
 impl LightSource {
     /// Without further words.
     pub fn new(kind: LightKind, color: Rgb) -> Self {
-        let (beam_sites, fade_sites) = (Vec::new(), Vec::new());
-        Self { color, kind, shadowless: false, fade: None, beam_sites, fade_sites }
+        let (color_sites, beam_sites, fade_sites) = (Vec::new(), Vec::new(), Vec::new());
+        let (shadowless, fade) = (false, None);
+        Self { color, kind, shadowless, fade, color_sites, beam_sites, fade_sites }
     }
 }
 
@@ -232,10 +235,10 @@ pub struct Pigment {
     pub kind: PigmentKind,
     pub transforms: Vec<TransformId>,
     pub site: Site,
-    /// What gave it its pattern, each as a piece that can be taken out of the text; also what that
-    /// overrides, since it would show again.
+    /// What has to be taken out of the text for it to have no pattern, each the smallest such piece; also
+    /// what those override, where it would show again.
     pub pattern: Vec<Site>,
-    /// Likewise, what gave it colours that let light through.
+    /// Likewise, for no light to go through it.
     pub clear: Vec<Site>,
 }
 
@@ -257,6 +260,14 @@ pub enum PigmentKind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColorMap(pub Vec<(f64, Color)>);
 
+impl ColorMap {
+    /// The only colour of a map; black where it has none at all.
+    pub fn lone_color(&self) -> Option<Color> {
+        let first = self.0.first().map_or(Color::BLACK, |(_, color)| *color);
+        self.0.iter().all(|(_, color)| *color == first).then_some(first)
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finish {
     /// The seed's formula (`kd ks phong_exponent`).
@@ -265,18 +276,21 @@ pub enum Finish {
     Classic(ClassicFinish),
 }
 
-/// Where a finish was written. Each site is a piece that can be taken out of the text, such as
-/// `phong 0.4`; what it overrides is listed too, since it would show again.
+/// Where a finish was written. Each site is the smallest piece that can be taken out of the text, such as
+/// `phong 0.4`; what it overrides is listed too where it would show again.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FinishOrigin {
     /// The word `finish`.
     pub site: Option<Site>,
-    pub highlights: Vec<Site>,
+    /// With the word that it is about.
+    pub highlights: Vec<(Word, Site)>,
     pub reflection: Vec<Site>,
     /// The old place of the index of refraction.
     pub ior: Vec<Site>,
     /// Words whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
+    /// Without what is listed none of the seed's words is left.
+    pub all_of_seed: bool,
     /// The first word of the seed's, and of POV-Ray's.
     pub seed: Option<(Word, Site)>,
     pub classic: Option<(Word, Site)>,

@@ -101,6 +101,8 @@ pub struct Origins {
     pub objects: Vec<Site>,
     /// All of each, as a piece that can be taken out of the text.
     pub lights: Vec<Site>,
+    /// What has to be taken out for each not to shine: mostly all of it.
+    pub light_pieces: Vec<Vec<Site>>,
     /// Each word that makes a light less than its colour somewhere, likewise.
     pub attenuation: Vec<Site>,
     pub materials: Vec<MaterialOrigin>,
@@ -133,6 +135,8 @@ pub struct MaterialOrigin {
     pub reflection: Vec<Site>,
     /// Of colours that let light through.
     pub clear: Vec<Site>,
+    /// Of those on objects that cast shadows.
+    pub filter: Vec<Site>,
 }
 
 /// Where the sky was written.

@@ -17,6 +17,8 @@ use lucarne::world::{Origins, World};
 
 #[path = "effects/dropped.rs"]
 mod dropped;
+#[path = "effects/quotes.rs"]
+mod quotes;
 
 const OPTIONS: PlanOptions = PlanOptions {
     frame: Frame::whole(40, 30),
@@ -109,34 +111,6 @@ fn without(spans: &[Span], sources: &Sources) -> Changed {
 
 fn traced(world: &World, plan: &Plan) -> Traced {
     trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
-}
-
-#[test]
-fn without_the_places_that_a_line_quotes_the_effect_is_gone_and_the_scene_whole() {
-    let mut quoted = 0;
-    let mut called_for = BTreeSet::from([Effect::Antialiasing]);
-    for name in scenes() {
-        let seen = see(&name, &Changed::default());
-        assert_eq!(seen.errors, "", "{name}");
-        for called in seen.plan.effects.iter().filter(|c| c.effect != Effect::Antialiasing) {
-            let spans: Vec<Span> = called.by.iter().map(|site| site.span).collect();
-            assert!(!spans.is_empty(), "{name}: nobody called for {:?}", called.effect);
-            quoted += spans.len();
-            called_for.insert(called.effect);
-            let text = |span: &Span| seen.sources.text(*span).to_owned();
-            let pieces: Vec<String> = spans.iter().map(text).collect();
-            let rest = see(&name, &without(&spans, &seen.sources));
-            assert_eq!(rest.errors, "", "{name}, {:?} without {pieces:#?}", called.effect);
-            let gone = !rest.plan.simulates(called.effect);
-            assert!(gone, "{name}, {:?} without {pieces:#?}", called.effect);
-            for (span, piece) in spans.iter().zip(&pieces) {
-                let rest = see(&name, &without(&[*span], &seen.sources));
-                assert_eq!(rest.errors, "", "{name}, {:?} without {piece}", called.effect);
-            }
-        }
-    }
-    assert!(quoted > 300, "{quoted} places");
-    assert_eq!(called_for, BTreeSet::from(Effect::ALL), "each effect in some scene");
 }
 
 #[test]
@@ -294,7 +268,7 @@ sphere { 0, 1 no_shadow }";
             BARE,
             "plane { y, 0 pigment { checker rgb 1 rgb 0 } finish { diffuse 0 } }",
             Effect::Patterns,
-            "checker rgb 1 rgb 0",
+            "checker",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),
@@ -320,7 +294,7 @@ sphere { 0, 1 no_shadow }";
             LIT,
             "plane { y, 0 pigment { gradient y scale 2 color_map { [0 rgb 0] [1 rgb 1] } } }",
             Effect::Patterns,
-            "gradient y scale 2 color_map { [0 rgb 0] [1 rgb 1] }",
+            "[1 rgb 1]",
         ),
     ];
     for (scene, object, effect, quote) in cases {
@@ -342,143 +316,6 @@ sphere { 0, 1 no_shadow }";
         };
         assert_eq!(others(&after), others(&before), "{object}");
     }
-}
-
-#[test]
-fn what_is_quoted_is_the_smallest_item() {
-    let quoted = |text: &str, effect| quotes(&format!("{LIT}{text}"), effect);
-    let beam = "light_source { 9, rgb 1 spotlight radius 9 falloff 20 point_at 0
-fade_distance 3 fade_power 2 }";
-    let words = ["spotlight", "fade_distance 3", "fade_power 2"];
-    assert_eq!(quoted(beam, Effect::Attenuation), words);
-    let again = "#declare L = light_source { 9, rgb 1 spotlight }; light_source { L cylinder }";
-    assert_eq!(quoted(again, Effect::Attenuation), ["spotlight", "cylinder"]);
-    let glass = "#declare Glass = interior { ior 1.3 };
-sphere { x, 1 pigment { rgbt 1 } interior { Glass ior 1.5 } } sphere { x, 1 interior { ior 1 } }";
-    assert_eq!(quoted(glass, Effect::Refraction), ["ior 1.3", "ior 1.5"]);
-    let old = "sphere { x, 1 pigment { rgbt 1 } finish { ior 1.5 } }";
-    assert_eq!(quoted(old, Effect::Refraction), ["ior 1.5"]);
-    let skies = "sky_sphere { pigment { rgb 1 } pigment { gradient y } rotate x }";
-    assert_eq!(quoted(skies, Effect::Sky), ["pigment { rgb 1 }", "pigment { gradient y }"]);
-    let panes = "plane { y, 0 pigment { checker rgb 1, rgbt <1, 0, 0, 1> } }
-plane { x, 0 pigment { checker rgbf <1, 1, 1, 0.5> pigment { rgb 1 transmit 0.5 } } }
-plane { z, 0 pigment { gradient z color_map { [0 rgbt 1] [1 rgb 1] } } }";
-    let colors = [
-        "rgbt <1, 0, 0, 1>",
-        "rgbf <1, 1, 1, 0.5>",
-        "rgb 1 transmit 0.5",
-        "gradient z color_map { [0 rgbt 1] [1 rgb 1] }",
-    ];
-    assert_eq!(quoted(panes, Effect::Transparency), colors);
-    assert_eq!(quoted(panes, Effect::ColoredShadows), colors);
-}
-
-/// What an effect's line quotes: pieces without each of which the scene is whole.
-fn quotes(text: &str, effect: Effect) -> Vec<String> {
-    let seen = see_text(text);
-    for span in seen.plan.called(effect).into_iter().flat_map(|c| &c.by).map(|site| site.span) {
-        let rest = see("a.scene", &without(&[span], &seen.sources));
-        assert_eq!(rest.errors, "", "{text} without {}", seen.sources.text(span));
-    }
-    quotes_together(text, effect)
-}
-
-/// What an effect's line quotes: pieces without all of which the scene is whole and the effect gone.
-fn quotes_together(text: &str, effect: Effect) -> Vec<String> {
-    let seen = see_text(text);
-    assert_eq!(seen.errors, "", "{text}");
-    let spans: Vec<Span> =
-        seen.plan.called(effect).into_iter().flat_map(|c| &c.by).map(|site| site.span).collect();
-    let rest = see("a.scene", &without(&spans, &seen.sources));
-    assert!(rest.errors.is_empty() && !rest.plan.simulates(effect), "{text}");
-    spans.iter().map(|&span| seen.sources.text(span).to_owned()).collect()
-}
-
-#[test]
-fn a_light_is_quoted_as_what_could_be_taken_out() {
-    let shadows = |text: &str| quotes(&format!("sphere {{ 0, 1 }} {text}"), Effect::Shadows);
-    let lamp = "light_source { 9, rgb 1 }";
-    assert_eq!(shadows(lamp), [lamp]);
-    assert_eq!(shadows(&format!("#declare L = {lamp} object {{ L }}")), ["object { L }"]);
-    let moved = "light_source { L translate x }";
-    assert_eq!(shadows(&format!("#declare L = {lamp} {moved}")), [moved]);
-    let shared = format!("#declare U = union {{ {lamp} }} object {{ U }} object {{ U scale 2 }}");
-    assert_eq!(shadows(&shared), [lamp]);
-    let inner = format!("object {{ {lamp} translate y }}");
-    assert_eq!(shadows(&inner), [inner.as_str()]);
-    assert_eq!(shadows(&format!("#macro M() {lamp} #end M() M()")), [lamp]);
-    let value = format!("#macro M() {lamp} #end object {{ M() }}");
-    assert_eq!(shadows(&value), ["object { M() }"]);
-    assert_eq!(shadows(&format!("#for (I, 1, 3) {lamp} #end")), [lamp]);
-    assert_eq!(shadows(&format!("{lamp} light_source {{ 5, rgb 0 }}")), [lamp]);
-    let opened = "#macro Open() light_source { #end #macro Close() } #end Open() 9, rgb 1 Close()";
-    assert_eq!(shadows(opened), ["Open() 9, rgb 1 Close()"]);
-    let switched = "light_source { 9, #if (1) rgb 1 #else rgb 2 #end }";
-    assert_eq!(shadows(switched), [switched]);
-}
-
-#[test]
-fn what_hides_an_object_is_quoted_where_it_holds_for_one() {
-    let hidden = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Hiding);
-    let both = "sphere { x, 1 no_image no_reflection }";
-    assert_eq!(hidden(both), ["no_image", "no_reflection"]);
-    let twice = "#declare S = sphere { x, 1 no_image }; object { S no_image off no_image on }";
-    assert_eq!(hidden(twice), ["no_image", "no_image on"]);
-    let nested = "union { union { sphere { x, 1 no_image } } no_image }";
-    assert_eq!(hidden(nested), ["no_image", "no_image"]);
-    for nothing in [
-        "union { light_source { 9, rgb 1 } no_image }",
-        "union { no_image }",
-        "#declare S = sphere { x, 1 no_image }; object { S no_image off }",
-        "sphere { x, 1 no_image no_image off }",
-    ] {
-        let seen = see_text(&format!("{LIT}{nothing}"));
-        assert_eq!(seen.errors, "", "{nothing}");
-        assert!(!seen.plan.simulates(Effect::Hiding), "{nothing}");
-    }
-}
-
-#[test]
-fn what_would_show_again_is_quoted_too() {
-    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
-    let over = "#declare F = finish { reflection 0.3 }
-sphere { x, 1 finish { F reflection 0.5 } }";
-    assert_eq!(mirrored(over), ["reflection 0.3", "reflection 0.5"]);
-    let default = "#default { finish { reflection 0.1 } } sphere { 0, 1 finish { phong 1 } }";
-    assert_eq!(mirrored(default), ["reflection 0.1"]);
-    let erased = "#declare F = finish { reflection 0.3 }
-sphere { x, 1 finish { F reflection 0 } } sphere { y, 1 finish { reflection 0.7 } }";
-    assert_eq!(mirrored(erased), ["reflection 0.7"]);
-    // Equal finishes are one material, and are quoted wherever they stand.
-    let twice =
-        "sphere { x, 1 finish { reflection 0.5 } } sphere { y, 1 finish { reflection 1/2 } }";
-    assert_eq!(mirrored(twice), ["reflection 0.5", "reflection 1/2"]);
-    let skies = "sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }";
-    assert_eq!(quotes(skies, Effect::Sky), ["pigment { rgb 0.5 }"], "the last sky counts");
-}
-
-#[test]
-fn the_seeds_words_are_quoted_together_or_where_one_is_changed() {
-    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
-    let three = "kd 0.5 ks 0.6 phong_exponent 60";
-    assert_eq!(mirrored(&format!("sphere {{ x, 1 finish {{ {three} }} }}")), [three]);
-    let changed =
-        format!("#declare F = finish {{ {three} }} sphere {{ x, 1 finish {{ F ks 0.2 }} }}");
-    // A lone `ks` needs the other two, so only both pieces can be taken out.
-    let changed = quotes_together(&format!("{LIT}{changed}"), Effect::Reflection);
-    assert_eq!(changed, [three, "ks 0.2"]);
-}
-
-#[test]
-fn a_directive_amid_an_item_makes_the_blocks_inside_the_item() {
-    let mirrored = |text: &str| quotes(&format!("{LIT}{text}"), Effect::Reflection);
-    let amid = "sphere { x, 1 finish { reflection #if (1) 0.3 #else 0.5 #end } }";
-    assert_eq!(mirrored(amid), [" reflection #if (1) 0.3 #else 0.5 #end "]);
-    let around = "sphere { x, 1 finish { #if (1) reflection 0.3 #else reflection 0.5 #end } }";
-    assert_eq!(mirrored(around), ["reflection 0.3"]);
-    let macros = "#macro Word() reflection #end #macro Weight() 0.25 #end
-sphere { x, 1 finish { Word() Weight()*2 } } sphere { y, 1 finish { reflection Weight() } }";
-    assert_eq!(mirrored(macros), ["Word() Weight()*2", "reflection Weight()"]);
 }
 
 #[test]

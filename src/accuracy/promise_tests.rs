@@ -26,7 +26,7 @@ const SCENES: [(&str, &str); 20] = [
     ("textures/transmit", include_str!("../../scenes/textures/transmit.scene")),
     ("textures/color_map", include_str!("../../scenes/textures/color_map.scene")),
     ("shapes/box", include_str!("../../scenes/shapes/box.scene")),
-    ("shapes/inverse", include_str!("../../scenes/shapes/inverse.scene")),
+    ("csg/inverse", include_str!("../../scenes/csg/inverse.scene")),
     ("atmosphere/sky_sphere", include_str!("../../scenes/atmosphere/sky_sphere.scene")),
     ("cameras/orthographic", include_str!("../../scenes/cameras/orthographic.scene")),
     ("transforms/matrix", include_str!("../../scenes/transforms/matrix.scene")),

@@ -9,12 +9,13 @@ use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
-use crate::scene::{ColorMap, FinishId, InteriorId, ObjectId, PigmentId, TextureId, TransformId};
+use crate::scene::{FinishId, InteriorId, ObjectId, PigmentId, TextureId, TransformId};
 use crate::source::Site;
 use crate::syntax::ast::{BinaryOperator, UnaryOperator};
 use crate::vocabulary::Word;
 
 use super::array::Array;
+use super::block::WrittenMap;
 use super::file::FileHandle;
 use super::function::FunctionId;
 use super::spline::SplineValue;
@@ -77,7 +78,7 @@ pub enum Value {
     Finish(FinishId),
     Interior(InteriorId),
     Material(Material),
-    ColorMap(Arc<ColorMap>),
+    ColorMap(Arc<WrittenMap>),
     Object(ObjectId),
     Camera(Arc<crate::scene::Camera>),
     Array(Arc<Array>),
@@ -124,7 +125,7 @@ impl Value {
     pub fn bytes(&self) -> u64 {
         match self {
             Self::String(text) => text.len() as u64,
-            Self::ColorMap(map) => size_of_val(&map.0[..]) as u64,
+            Self::ColorMap(map) => size_of_val(&map.map.0[..]) as u64,
             Self::Array(array) => size_of_val(array.elements()) as u64,
             Self::Spline(spline) => size_of_val(spline.spline.knots()) as u64,
             _ => 0,

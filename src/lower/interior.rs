@@ -3,10 +3,15 @@
 //! **Invariant:** pruning is exact. An interior goes only when no ray can come into it, or when all
 //! of the scene is filled alike.
 
+use std::collections::HashSet;
+
 use super::{Fault, Lowering};
-use crate::scene::{Finish, FinishId, InteriorId};
+use crate::scene::{ClassicFinish, Finish, FinishId, InteriorId};
 use crate::source::Site;
 use crate::world::{CameraKind, Interior, Object, World};
+
+/// What says how an object is filled: its interior, and its finish.
+pub type Filling = (Option<InteriorId>, FinishId);
 
 impl Lowering<'_, '_> {
     /// The World's index of an object's interior. A finish with the old `ior` has the last word.
@@ -23,11 +28,7 @@ impl Lowering<'_, '_> {
             Finish::Seed { .. } => None,
         };
         let ior = old.or(written.map(|interior| interior.ior))?;
-        let sites = match (old, written) {
-            (None, Some(interior)) => interior.sites.clone(),
-            _ => scene.finish_origins.get(finish.index()).map_or(vec![], |o| o.ior.clone()),
-        };
-        let site = sites.first().copied().unwrap_or(object);
+        let site = self.interior_sites((interior, finish)).first().copied().unwrap_or(object);
         if !ior.is_finite() {
             self.reporter.fault(Fault::not_finite("this interior"), site);
             return None;
@@ -36,47 +37,78 @@ impl Lowering<'_, '_> {
         let known = interiors.iter().position(|interior| interior.ior == ior);
         let index = known.unwrap_or_else(|| {
             interiors.push(Interior { ior });
-            self.origins.interiors.push(Vec::new());
             interiors.len() - 1
         });
-        let called = &mut self.origins.interiors[index];
-        for site in sites {
-            if self.noted_interiors.insert((index, site.span)) {
-                called.push(site);
-            }
-        }
+        self.fillings.push((interior, finish));
         Some(index as u32)
+    }
+
+    /// What called for an interior: for one other than the air, what has to be taken out for it to be
+    /// like that.
+    fn interior_sites(&self, (interior, finish): Filling) -> Vec<Site> {
+        let written = interior.map(|id| &self.scene.interiors[id.index()]);
+        let of_interior = || written.map_or(vec![], |interior| interior.sites.clone());
+        let Finish::Classic(ClassicFinish { ior: Some(old), .. }) =
+            self.scene.finishes[finish.index()]
+        else {
+            return of_interior();
+        };
+        let origin = self.scene.finish_origins.get(finish.index());
+        let mut sites = origin.map_or(vec![], |origin| origin.ior.clone());
+        // Without it the interior's own shows again.
+        if old != 1.0 && written.is_some_and(|interior| interior.ior != 1.0) {
+            sites.extend(of_interior());
+        }
+        sites
     }
 
     /// Drops the interiors that nothing can show, and tells so.
     pub(super) fn prune_interiors(&mut self) {
-        let bends = self.world.interiors.iter().any(|interior| interior.ior != 1.0);
+        let bent = |object: &Object| {
+            let ior = object.interior.map(|index| self.world.interiors[index as usize].ior);
+            ior.is_some_and(|ior| ior != 1.0) && is_entered(&self.world, object)
+        };
+        let bends = self.world.objects.iter().any(bent);
         let asked = self.world.objects.iter().any(|object| asks(&self.world, object));
-        let kept: Vec<bool> = (self.world.objects.iter())
-            .map(|object| bends && asked && is_entered(&self.world, object))
-            .collect();
-        for (object, kept) in self.world.objects.iter_mut().zip(kept) {
-            if !kept {
-                object.interior = None;
-            }
-        }
+        let objects = self.world.objects.iter().enumerate();
+        let filled = objects.filter_map(|(i, object)| {
+            let kept = bends && asked && is_entered(&self.world, object);
+            Some((i, object.interior?, kept))
+        });
+        let filled: Vec<(usize, u32, bool)> = filled.collect();
+        let fillings = std::mem::take(&mut self.fillings);
         let old = std::mem::take(&mut self.world.interiors);
-        let sites = std::mem::take(&mut self.origins.interiors);
         let mut renamed: Vec<Option<u32>> = vec![None; old.len()];
-        for object in &mut self.world.objects {
-            let Some(index) = object.interior else { continue };
-            object.interior = Some(*renamed[index as usize].get_or_insert_with(|| {
-                self.world.interiors.push(old[index as usize]);
-                self.origins.interiors.push(sites[index as usize].clone());
+        for (_, index, _) in filled.iter().filter(|(.., kept)| *kept) {
+            renamed[*index as usize].get_or_insert_with(|| {
+                self.world.interiors.push(old[*index as usize]);
+                self.origins.interiors.push(Vec::new());
                 self.world.interiors.len() as u32 - 1
-            }));
+            });
         }
-        for (interior, sites) in sites.iter().enumerate().filter(|(i, _)| renamed[*i].is_none()) {
-            let why = match old[interior].ior == 1.0 && !bends {
-                true => "an `ior` of 1 bends no light",
-                false => "no light goes into what it fills",
-            };
-            sites.iter().for_each(|&site| self.drop_part(site, "interior", why));
+        let (mut noted, mut listed) = (HashSet::new(), HashSet::new());
+        for ((object, index, kept), filling) in filled.into_iter().zip(fillings) {
+            let new = renamed[index as usize];
+            self.world.objects[object].interior = new.filter(|_| kept);
+            // One and the same, time and again.
+            if !noted.insert((filling, kept)) {
+                continue;
+            }
+            let sites = self.interior_sites(filling);
+            match new {
+                Some(new) if kept => {
+                    let called = &mut self.origins.interiors[new as usize];
+                    called.extend(sites.into_iter().filter(|s| listed.insert((new, s.span))));
+                }
+                Some(_) => {}
+                None => {
+                    let why = match old[index as usize].ior == 1.0 && !bends {
+                        true => "an `ior` of 1 bends no light",
+                        false => "no light goes into what it fills",
+                    };
+                    sites.into_iter().for_each(|site| self.drop_part(site, "interior", why));
+                }
+            }
         }
     }
 }

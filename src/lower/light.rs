@@ -18,15 +18,17 @@ impl Lowering<'_, '_> {
         if matches!(light.kind, LightKind::Cylinder { beam, .. } if beam.falloff <= 0.0) {
             return self.drop_part(site, "light_source", "its cylinder has no width");
         }
-        let LightSource { beam_sites, fade_sites, .. } = light;
+        let LightSource { color_sites, beam_sites, fade_sites, .. } = light;
         let Some(light) = self.reporter.made(spend(light, map), site) else { return };
         if let Some(Attenuation { beam, fade }) = light.attenuation {
-            let beam = beam_sites.iter().filter(|_| beam.is_some());
+            let beam = beam_sites.iter().map(|(_, site)| site).filter(|_| beam.is_some());
             let fade = fade_sites.iter().filter(|_| fade.is_some());
             self.origins.attenuation.extend(beam.chain(fade));
         }
         self.world.lights.push(light);
         self.origins.lights.push(item);
+        let pieces = if color_sites.is_empty() { vec![item] } else { color_sites.clone() };
+        self.origins.light_pieces.push(pieces);
     }
 }
 

@@ -56,7 +56,7 @@ pub fn lower(
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         dropped: HashSet::new(),
-        noted_interiors: HashSet::new(),
+        fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         building: None,
         scene: &scene,
@@ -86,8 +86,8 @@ struct Lowering<'s, 'd> {
     transforms: transform::Transforms<'s>,
     /// What was left out so far: a place says it once, however often it is gone through.
     dropped: HashSet<(&'static str, Span)>,
-    /// What called for each interior so far.
-    noted_interiors: HashSet<(usize, Span)>,
+    /// Of each object that has an interior, in order.
+    fillings: Vec<interior::Filling>,
     /// Where solids stand that have no pigment and do not mirror.
     unpainted: BTreeMap<Span, Site>,
     /// The solid made of others that is under way.

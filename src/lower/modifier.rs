@@ -26,18 +26,6 @@ pub(super) struct Modified {
     pub clips: Vec<(ObjectId, Affine)>,
 }
 
-impl Modified {
-    /// What was undone calls for nothing.
-    pub fn settle(&mut self) {
-        if !(self.flags.no_image || self.flags.no_reflection) {
-            self.calls.hidden.clear();
-        }
-        if !self.flags.double_illuminate {
-            self.calls.double_illuminate.clear();
-        }
-    }
-}
-
 /// What an object is that most are not.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Flags {
@@ -70,8 +58,17 @@ impl Flags {
 /// none.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Calls {
-    pub hidden: Vec<Site>,
+    pub no_image: Vec<Site>,
+    pub no_reflection: Vec<Site>,
     pub double_illuminate: Vec<Site>,
+}
+
+/// What was undone calls for nothing, even where it is done again: then only that does.
+fn call(calls: &mut Vec<Site>, on: bool, site: Site) {
+    match on {
+        true => calls.push(site),
+        false => calls.clear(),
+    }
 }
 
 impl Lowering<'_, '_> {
@@ -116,15 +113,15 @@ impl Lowering<'_, '_> {
                 ModifierKind::NoShadow => flags.no_shadow = true,
                 ModifierKind::NoImage(on) => {
                     flags.no_image = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
+                    call(&mut calls.no_image, on, modifier.site);
                 }
                 ModifierKind::NoReflection(on) => {
                     flags.no_reflection = on;
-                    calls.hidden.extend(on.then_some(modifier.site));
+                    call(&mut calls.no_reflection, on, modifier.site);
                 }
                 ModifierKind::DoubleIlluminate(on) => {
                     flags.double_illuminate = on;
-                    calls.double_illuminate.extend(on.then_some(modifier.site));
+                    call(&mut calls.double_illuminate, on, modifier.site);
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
                 ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),

@@ -139,7 +139,6 @@ impl<'s> Lowering<'s, '_> {
                 return;
             }
         }
-        modified.settle();
         let above = &inherited.world_from_here;
         let flags = modified.flags.under(inherited.flags);
         let by_both = flags.hide().then_some(id);
@@ -302,6 +301,9 @@ impl<'s> Lowering<'s, '_> {
             faces => self.faces(surface, material, faces)?,
         };
         self.note_near_singular(here, site);
+        if object.casts_shadow {
+            self.note_filter(material, surface.pigment);
+        }
         let interior = self.interior(here.interior, surface.finish, site);
         let whole = self.leaf(inverse);
         let object = Object { material, texture_from_world, faces, interior, whole, ..object };
@@ -344,7 +346,8 @@ impl Lowering<'_, '_> {
     /// Notes modifiers that hold for solids made since there were `before`.
     fn note_calls(&mut self, calls: Calls, before: usize) {
         if self.world.objects.len() > before {
-            self.origins.hidden.extend(calls.hidden);
+            self.origins.hidden.extend(calls.no_image);
+            self.origins.hidden.extend(calls.no_reflection);
             self.origins.double_illuminate.extend(calls.double_illuminate);
         }
     }

@@ -40,6 +40,7 @@ enum Part {
     Highlights,
     Reflection,
     Clear,
+    Filter,
 }
 
 /// A surface on its way down the tree.
@@ -174,17 +175,26 @@ impl Lowering<'_, '_> {
         note(Part::Pattern, &mut origin.pattern, &pigment.pattern);
         note(Part::Clear, &mut origin.clear, &pigment.clear);
         let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
-        note(Part::Highlights, &mut origin.highlights, &finish.highlights);
+        let highlights: Vec<Site> = finish.highlights.iter().map(|(_, site)| *site).collect();
+        note(Part::Highlights, &mut origin.highlights, &highlights);
         note(Part::Reflection, &mut origin.reflection, &finish.reflection);
         for &(word, site) in &finish.zeros {
             self.drop_part(site, word.name(), "its weight is zero");
         }
     }
 
+    /// An object of the material `index` casts a shadow, into which its `pigment` may let light.
+    pub(super) fn note_filter(&mut self, index: u32, pigment: PigmentId) {
+        let noted = &mut self.materials.noted;
+        let clear = self.scene.pigments[pigment.index()].clear.iter();
+        let new = clear.filter(|site| noted.insert((index, Part::Filter, site.span)));
+        self.origins.materials[index as usize].filter.extend(new);
+    }
+
     /// A pattern whose colours are all the same is none.
     fn note_folded(&mut self, pigment: &scene::Pigment) {
         let PigmentKind::Patterned { pattern, map } = &pigment.kind else { return };
-        if lone_color(&map.0).is_none() {
+        if map.lone_color().is_none() {
             return;
         }
         let what = match pattern {
@@ -252,10 +262,16 @@ impl Lowering<'_, '_> {
         });
         let pigments: Vec<_> = pigments.collect();
         self.world.sky = (!pigments.is_empty()).then_some(Sky { pigments });
-        let pattern = sky.pigments.iter().flat_map(|id| &scene.pigments[id.index()].pattern);
+        let written = sky.pigments.iter().map(|id| &scene.pigments[id.index()]);
+        let pattern = written.filter(|written| is_pattern(&written.kind)).flat_map(|p| &p.pattern);
         let (site, items, pattern) = (sky.site, sky.items.clone(), pattern.copied().collect());
         self.origins.sky = Some(SkyOrigin { site, items, pattern });
     }
+}
+
+/// Whether more than one colour is written.
+fn is_pattern(kind: &PigmentKind) -> bool {
+    matches!(kind, PigmentKind::Patterned { map, .. } if map.lone_color().is_none())
 }
 
 fn is_patterned(world: &World, material: u32) -> bool {
@@ -295,17 +311,11 @@ fn lower_pattern(pattern: Pattern) -> Pattern {
     }
 }
 
-/// The only colour of a map.
-fn lone_color(map: &[(f64, Color)]) -> Option<Color> {
-    let first = map.first().map_or(Color::BLACK, |(_, color)| *color);
-    map.iter().all(|(_, color)| *color == first).then_some(first)
-}
-
 /// A pigment all of one colour has no pattern.
 pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(*color),
-        PigmentKind::Patterned { pattern, map: colors } => match lone_color(&colors.0) {
+        PigmentKind::Patterned { pattern, map: colors } => match colors.lone_color() {
             Some(color) => Pigment::Color(color),
             None => Pigment::Patterned {
                 pattern: lower_pattern(*pattern),

@@ -192,7 +192,7 @@ impl Census<'_> {
             filters[material] = is_clear(&self.world.materials[material]);
         }
         let calling = self.origins.materials.iter().zip(&filters).filter(|(_, filters)| **filters);
-        let by: Vec<Site> = calling.flat_map(|(origin, _)| &origin.clear).copied().collect();
+        let by: Vec<Site> = calling.flat_map(|(origin, _)| &origin.filter).copied().collect();
         if !filters.contains(&true) {
             return because("no clear object casts a shadow", None);
         }
@@ -235,10 +235,11 @@ impl Census<'_> {
         }
     }
 
-    /// Where the lights that call stand.
+    /// What makes the lights shine that call.
     fn lights(&self, calls: impl Fn(&Light) -> bool) -> Vec<Site> {
-        let lights = self.world.lights.iter().zip(&self.origins.lights);
-        lights.filter(|(light, _)| calls(light)).map(|(_, &site)| site).collect()
+        let lights = self.world.lights.iter().zip(&self.origins.light_pieces);
+        let calling = lights.filter(|(light, _)| calls(light));
+        calling.flat_map(|(_, pieces)| pieces).copied().collect()
     }
 
     /// What gave the materials that call one of their parts.

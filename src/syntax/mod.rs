@@ -4,6 +4,7 @@
 //! **Invariant:** never fails, never panics, and takes time in proportion to the text; a grammar reads
 //! the tokens (`grammar/lucarne.pest`), Rust pairs and nests them on explicit stacks.
 
+mod around;
 pub mod ast;
 mod balance;
 mod bracket;

@@ -4,48 +4,52 @@
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
 use super::Given;
+use super::pieces::WrittenColor;
 
 impl Evaluator<'_> {
     /// The colour that starts with `token`, a word of the colour family.
-    pub(super) fn color_from(&mut self, token: &Token) -> Outcome<Color> {
+    pub(super) fn color_from(&mut self, token: &Token) -> Outcome<WrittenColor> {
         let TokenKind::Word(word) = token.kind else {
-            return self.color_after(token, "a colour").map(|given| given.value);
+            return self.written_color_after(token, "a colour").map(|given| given.value);
         };
-        let color = match word {
+        let (color, piece) = match word {
             Word::Color => match self.peek().map(|next| &next.kind) {
                 Some(TokenKind::Word(next)) if is_component(*next) => {
                     let first = self.peek().cloned();
                     let first = first.as_ref().unwrap_or(token);
-                    return self.color_of_components(first, Color::BLACK);
+                    return self.color_of_components(first, WrittenColor::of_components());
                 }
                 Some(TokenKind::Word(next)) if next.family() == Family::Color => {
                     return match self.next() {
                         Some(next) => self.color_from(&next),
-                        None => Ok(Color::BLACK),
+                        None => Ok(WrittenColor::new(Color::BLACK, None)),
                     };
                 }
                 _ => {
                     let given = self.given(token, "a colour")?;
                     self.bare_components(token, &given)?;
-                    self.plain_color(&given, "a colour")?
+                    (self.plain_color(&given, "a colour")?, given.site())
                 }
             },
-            whole if is_whole(whole) => self.color_vector(token, whole)?,
+            whole if is_whole(whole) => {
+                let color = self.color_vector(token, whole)?;
+                (color, self.whole(token))
+            }
             component if is_component(component) => {
-                let mut color = Color::BLACK;
+                let mut color = WrittenColor::of_components();
                 self.color_component(token, component, &mut color)?;
                 return self.color_of_components(token, color);
             }
             _ => return Err(self.word_not_built(token, word)),
         };
-        self.color_components(color)
+        self.color_components(color, piece)
     }
 
     /// A value that stands for a colour without a word before it.
@@ -154,7 +158,11 @@ impl Evaluator<'_> {
     }
 
     /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
-    pub(super) fn color_components(&mut self, mut color: Color) -> Outcome<Color> {
+    pub(super) fn color_components(&mut self, base: Color, piece: Site) -> Outcome<WrittenColor> {
+        self.more_components(WrittenColor::new(base, Some(piece)))
+    }
+
+    fn more_components(&mut self, mut color: WrittenColor) -> Outcome<WrittenColor> {
         while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on() {
             let word = *word;
             if !is_component(word) {
@@ -168,13 +176,18 @@ impl Evaluator<'_> {
     }
 
     /// A colour that is written by its components alone.
-    fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
-        let color = self.color_components(color)?;
-        self.lint_color_range(&first.here, first.span, color.rgb);
+    fn color_of_components(&mut self, first: &Token, color: WrittenColor) -> Outcome<WrittenColor> {
+        let color = self.more_components(color)?;
+        self.lint_color_range(&first.here, first.span, color.color().rgb);
         Ok(color)
     }
 
-    fn color_component(&mut self, token: &Token, word: Word, color: &mut Color) -> Outcome<()> {
+    fn color_component(
+        &mut self,
+        token: &Token,
+        word: Word,
+        color: &mut WrittenColor,
+    ) -> Outcome<()> {
         if matches!(word, Word::Red | Word::Green | Word::Blue) && self.peek().is_none() {
             let name = word.name();
             let diagnostic =
@@ -184,13 +197,7 @@ impl Evaluator<'_> {
             return Err(self.report(&token.here, diagnostic));
         }
         let number = self.number_after(token, "a number")?.value;
-        match word {
-            Word::Red => color.rgb.red = number,
-            Word::Green => color.rgb.green = number,
-            Word::Blue => color.rgb.blue = number,
-            Word::Filter => color.filter = number,
-            _ => color.transmit = number,
-        }
+        color.set(word, number, self.whole(token));
         Ok(())
     }
 

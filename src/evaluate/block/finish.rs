@@ -12,6 +12,7 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
+use super::pieces::WrittenColor;
 use super::{Given, Place};
 use whole::Written;
 
@@ -51,6 +52,10 @@ impl Evaluator<'_> {
             if failed && written.classic.is_none() {
                 return Err(Reported);
             }
+            let before = match finish {
+                Finish::Seed { ks, .. } => Some(ks),
+                Finish::Classic(_) => None,
+            };
             evaluator.whole_finish(&opener, &mut finish, &written)?;
             if let Some(ambient) = &written.ambient {
                 evaluator.lint_ambient(ambient, &finish);
@@ -58,15 +63,8 @@ impl Evaluator<'_> {
             if let Finish::Classic(classic) = &mut finish {
                 written.albedo.spend(classic);
             }
-            if let (Finish::Seed { ks, .. }, Some(item)) = (&finish, written.seed_item) {
-                written.origin.zeros.clear();
-                match *ks == 0.0 {
-                    true => written.origin.zeros.push((Word::Ks, item)),
-                    false => {
-                        list_once(&mut written.origin.highlights, item);
-                        list_once(&mut written.origin.reflection, item);
-                    }
-                }
+            if let Finish::Seed { ks, .. } = finish {
+                written.weigh_seed(ks, before);
             }
             let here = |word: (Word, Span)| (word.0, opener.here.site(word.1));
             written.origin.seed = written.origin.seed.or(written.seed.map(here));
@@ -130,13 +128,16 @@ impl Evaluator<'_> {
         match word {
             Word::Kd | Word::Ks | Word::PhongExponent => {
                 written.seed.get_or_insert((word, token.span));
-                let number = Some(self.at_least_zero(token, word)?);
-                match word {
-                    Word::Kd => written.kd = number,
-                    Word::Ks => written.ks = number,
-                    _ => written.phong_exponent = number,
-                }
+                let number = self.at_least_zero(token, word)?;
                 let item = self.whole(token);
+                match word {
+                    Word::Kd => written.kd = Some(number),
+                    Word::Ks => {
+                        written.ks = Some(number);
+                        written.ks_items.push((number, item));
+                    }
+                    _ => written.phong_exponent = Some(number),
+                }
                 written.seed_item =
                     Some(written.seed_item.map_or(item, |first| self.joined(first, item)));
                 return Ok(());
@@ -148,6 +149,7 @@ impl Evaluator<'_> {
             // POV-Ray's words replace a seed's finish that came by default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
+        written.pieces = None;
         let known = self.classic_item(token, word, &mut classic, written)?;
         if known {
             written.classic.get_or_insert((word, token.span));
@@ -162,7 +164,8 @@ impl Evaluator<'_> {
                 _ => None,
             };
             if let Some(weightless) = weightless {
-                written.weigh(word, weightless, self.whole(token));
+                let pieces = written.pieces.take();
+                written.weigh(word, weightless, self.whole(token), pieces);
             }
             if written.seed.is_none() {
                 *finish = Finish::Classic(classic);
@@ -206,11 +209,17 @@ impl Evaluator<'_> {
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
             Word::Reflection => {
                 let before = finish.reflection.take();
-                finish.reflection = Some(self.reflection(token, before)?);
+                let (reflection, pieces) = self.reflection(token, before)?;
+                finish.reflection = Some(reflection);
+                written.pieces = pieces;
             }
             Word::ConserveEnergy => finish.conserve_energy = true,
             Word::Ior => {
-                finish.ior = Some(self.more_than_zero(token, word)?);
+                let before = finish.ior.replace(self.more_than_zero(token, word)?);
+                // What is as the air hides what was before it.
+                if before == Some(1.0) || finish.ior == Some(1.0) {
+                    written.origin.ior.clear();
+                }
                 let help = "write `interior { ior … }` beside the texture";
                 self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
             }
@@ -225,12 +234,17 @@ impl Evaluator<'_> {
 
     /// A colour of light, or a number for white light.
     fn intensity_after(&mut self, token: &Token) -> Outcome<Given<Rgb>> {
-        let given = self.color_after(token, "a number or a colour")?;
-        if let TokenKind::Word(word) = token.kind {
-            self.lint_strength(&given.here, given.span, word, given.value.rgb);
-        }
-        let light = given.value.rgb;
+        let given = self.written_intensity_after(token)?;
+        let light = given.value.color().rgb;
         Ok(given.with(light))
+    }
+
+    fn written_intensity_after(&mut self, token: &Token) -> Outcome<Given<WrittenColor>> {
+        let given = self.written_color_after(token, "a number or a colour")?;
+        if let TokenKind::Word(word) = token.kind {
+            self.lint_strength(&given.here, given.span, word, given.value.color().rgb);
+        }
+        Ok(given)
     }
 
     /// `diffuse front, back`: light from behind is not built yet, but for none.

@@ -27,7 +27,12 @@ impl Evaluator<'_> {
     fn interior_item(&mut self, token: &Token, interior: &mut Interior) -> Outcome<()> {
         match token.kind {
             TokenKind::Word(Word::Ior) => {
+                let before = interior.ior;
                 interior.ior = self.more_than_zero(token, Word::Ior)?;
+                // What is as the air hides what was before it.
+                if before == 1.0 || interior.ior == 1.0 {
+                    interior.sites.clear();
+                }
                 list_once(&mut interior.sites, self.whole(token));
             }
             TokenKind::Expression(id) => match self.declared(token, id) {

@@ -5,6 +5,7 @@
 
 mod camera;
 mod color;
+mod color_map;
 mod finish;
 mod habit;
 mod inert;
@@ -14,6 +15,7 @@ mod modifier;
 mod object;
 mod part;
 mod pattern;
+mod pieces;
 mod pigment;
 mod place;
 mod settings;
@@ -37,6 +39,7 @@ use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 pub(in crate::evaluate) use object::Made;
 pub(in crate::evaluate) use part::Given;
+pub use pieces::WrittenMap;
 pub(in crate::evaluate) use place::Place;
 
 impl Evaluator<'_> {
@@ -161,7 +164,9 @@ impl Evaluator<'_> {
             Word::Spline => self.spline(token),
             Word::Function => self.function(token),
             Word::SkySphere => self.sky_sphere(token),
-            _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
+            _ if word.family() == Family::Color => {
+                self.color_from(token).map(|color| Value::Color(color.color()))
+            }
             _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
                 self.object(token, word)
             }

@@ -11,6 +11,7 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome, Reported};
+use super::pieces::WrittenColor;
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
@@ -34,7 +35,7 @@ impl<T> Given<T> {
 
 impl Evaluator<'_> {
     /// All of what `opener` opened and what was taken last ends, as a piece that can be taken out of the
-    /// text. Where a directive stands between the two, it is all that the block around it holds.
+    /// text. Where a directive stands between the two, it is all of the items that hold both.
     pub(super) fn whole(&self, opener: &Token) -> Site {
         let opener = opener.here.site(opener.span);
         self.joined(opener, self.taken.unwrap_or(opener))
@@ -45,7 +46,14 @@ impl Evaluator<'_> {
         let [a, b] = self.scene.expansions.side_by_side(a, b);
         let between = Span { end: b.span.start, ..a.span };
         if a.span.file != b.span.file || self.sources.text(between).contains('#') {
-            return self.within_block().unwrap_or(a);
+            let all = a.span.to(b.span);
+            // A macro may have been left while looking ahead; what is written in its file is not.
+            let unit = self.frames.iter().rev().map(|frame| &frame.here.unit);
+            let unit = unit.into_iter().find(|unit| unit.ast.file == all.file);
+            return match unit.and_then(|unit| unit.ast.around(all)) {
+                Some(span) if a.span.file == b.span.file => Site { span, ..a },
+                _ => self.within_block().unwrap_or(a),
+            };
         }
         Site { span: a.span.to(b.span), ..a }
     }
@@ -272,6 +280,17 @@ impl Evaluator<'_> {
 
     /// A colour, with or without `color` and its kin.
     pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
+        let given = self.written_color_after(after, wanted)?;
+        let color = given.value.color();
+        Ok(given.with(color))
+    }
+
+    /// As [`Self::color_after`], as it is written.
+    pub(super) fn written_color_after(
+        &mut self,
+        after: &Token,
+        wanted: &str,
+    ) -> Outcome<Given<WrittenColor>> {
         self.skip_commas();
         if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
             && word.family() == crate::vocabulary::Family::Color
@@ -290,7 +309,9 @@ impl Evaluator<'_> {
         }
         let given = self.given(after, wanted)?;
         let color = self.plain_color(&given, wanted)?;
-        let color = self.color_components(color)?;
+        let bare = !matches!(given.value, Value::Color(_));
+        let mut color = self.color_components(color, given.site())?;
+        color.bare = bare;
         Ok(given.with(color))
     }
 

@@ -1,4 +1,4 @@
-//! `pigment` and `color_map`.
+//! `pigment`.
 
 use std::sync::Arc;
 
@@ -10,23 +10,35 @@ use crate::source::Site;
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
-use super::super::lint::Rise;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::finish::list_once;
+use super::pieces::{WrittenColor, WrittenMap};
 use super::{Given, Place};
 
-/// Entries of one map: more are a mistake, and soon more than memory holds.
-const MOST_ENTRIES: usize = 1 << 20;
-
-/// What was written in one block: its last pattern, and its last map.
+/// What was written in one block: its last pattern, with what gave the pigment one before, and its last map.
 #[derive(Default)]
 struct Written {
-    pattern: Option<Site>,
-    /// A colour of its map is clear.
-    clear: bool,
-    map: Option<(ColorMap, Token, Site)>,
+    pattern: Option<(Site, Vec<Site>)>,
+    map: Option<(Arc<WrittenMap>, Token, Site)>,
+}
+
+/// What gave a pigment its pattern, if that has more than one colour.
+fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
+    match &pigment.kind {
+        PigmentKind::Patterned { map, .. } if map.lone_color().is_none() => {
+            std::mem::take(&mut pigment.pattern)
+        }
+        PigmentKind::Patterned { .. } | PigmentKind::Color(_) => Vec::new(),
+    }
+}
+
+/// The colours of `checker`, what makes them clear, and what makes them two, if that is not all of it.
+struct Pair {
+    colors: [Color; 2],
+    clear: Vec<Site>,
+    pattern: Option<Vec<Site>>,
 }
 
 impl Evaluator<'_> {
@@ -52,20 +64,9 @@ impl Evaluator<'_> {
             if let Some((given, token, item)) = written.map
                 && !failed
             {
-                let is_clear = given.0.iter().any(|(_, color)| color.is_clear());
-                failed |= evaluator.paint(&mut pigment, given, &token) == Err(Reported);
-                // Without its pattern the map would be a mistake.
-                written.pattern = Some(match written.pattern {
-                    Some(pattern) => evaluator.joined(pattern, item),
-                    None => item,
-                });
-                written.clear = is_clear;
-            }
-            if let Some(item) = written.pattern {
-                list_once(&mut pigment.pattern, item);
-                if written.clear {
-                    list_once(&mut pigment.clear, item);
-                }
+                evaluator.note_map(&mut pigment, &given, item, written.pattern);
+                let painted = evaluator.paint(&mut pigment, given.map.clone(), &token);
+                failed |= painted == Err(Reported);
             }
             if failed { Err(Reported) } else { Ok(pigment) }
         })?;
@@ -93,12 +94,61 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The item that `token` began gives the pigment one colour.
-    fn color_of(&self, pigment: &mut Pigment, color: Color, token: &Token) {
-        pigment.kind = PigmentKind::Color(color);
-        if color.is_clear() {
-            list_once(&mut pigment.clear, self.whole(token));
+    /// What calls for an effect in a pigment with the map `given`, which is all of `item`.
+    fn note_map(
+        &self,
+        pigment: &mut Pigment,
+        given: &WrittenMap,
+        item: Site,
+        pattern: Option<(Site, Vec<Site>)>,
+    ) {
+        match &given.clear {
+            Some(pieces) => pigment.clear.clone_from(pieces),
+            // The pattern's own colours show again.
+            None => list_once(&mut pigment.clear, item),
         }
+        match (&given.pattern, pattern) {
+            (Some(pieces), _) if !pieces.is_empty() => pigment.pattern.clone_from(pieces),
+            // Without its pattern the map would be a mistake.
+            (_, Some((pattern, before))) => {
+                pigment.pattern = before;
+                list_once(&mut pigment.pattern, self.joined(pattern, item));
+            }
+            (_, None) => {
+                pigment.pattern = called_pattern(pigment);
+                list_once(&mut pigment.pattern, item);
+            }
+        }
+    }
+
+    /// The item that `token` began gives the pigment one colour.
+    fn color_of(&self, pigment: &mut Pigment, color: &WrittenColor, token: &Token) {
+        pigment.kind = PigmentKind::Color(color.color());
+        pigment.pattern.clear();
+        match color.without_clear() {
+            Some(pieces) => pigment.clear = pieces,
+            None => list_once(&mut pigment.clear, self.whole(token)),
+        }
+    }
+
+    /// The item that `token` began gives the pigment a pattern; `pieces` of it are enough.
+    fn pattern_of(
+        &self,
+        pigment: &mut Pigment,
+        written: &mut Written,
+        token: &Token,
+        pieces: Option<Vec<Site>>,
+    ) {
+        let before = called_pattern(pigment);
+        let item = self.whole(token);
+        match pieces {
+            Some(pieces) => pigment.pattern = pieces,
+            None => {
+                pigment.pattern.clone_from(&before);
+                list_once(&mut pigment.pattern, item);
+            }
+        }
+        written.pattern = Some((item, before));
     }
 
     pub(super) fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
@@ -125,27 +175,28 @@ impl Evaluator<'_> {
         }
         match &token.kind {
             TokenKind::Word(Word::Checker) => {
-                let (first, second) = self.color_pair(token, &mut pigment.clear)?;
+                let Pair { colors: [first, second], clear, pattern } = self.color_pair(token)?;
+                let pattern = pattern.filter(|_| first != second);
+                self.pattern_of(pigment, written, token, pattern);
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
                 pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
-                let item = written.pattern.replace(self.whole(token));
-                item.into_iter().for_each(|item| list_once(&mut pigment.pattern, item));
+                pigment.clear = clear;
             }
             TokenKind::Word(Word::Gradient) => {
                 let direction = self.direction_after(token, "the gradient's direction")?.value;
+                self.pattern_of(pigment, written, token, None);
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
                 pigment.kind =
                     PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
-                let item = written.pattern.replace(self.whole(token));
-                item.into_iter().for_each(|item| list_once(&mut pigment.pattern, item));
+                pigment.clear.clear();
             }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
-                written.map = Some((given.as_ref().clone(), token.clone(), self.whole(token)));
+                written.map = Some((given, token.clone(), self.whole(token)));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 let color = self.color_from(token)?;
-                self.color_of(pigment, color, token);
+                self.color_of(pigment, &color, token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -175,8 +226,8 @@ impl Evaluator<'_> {
                         let (span, here) = (token.span, token.here.clone());
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
-                        let color = self.color_components(color)?;
-                        self.color_of(pigment, color, token);
+                        let color = self.color_components(color, given.site())?;
+                        self.color_of(pigment, &color, token);
                     }
                     // Not an error: what it lacks is told where it is needed.
                     Value::Poison(poison) => self.set_poison(poison),
@@ -216,18 +267,23 @@ impl Evaluator<'_> {
     }
 
     /// The two colours of `checker`; blue and green where they are missing.
-    fn color_pair(&mut self, token: &Token, clear: &mut Vec<Site>) -> Outcome<(Color, Color)> {
+    fn color_pair(&mut self, token: &Token) -> Outcome<Pair> {
         let mut colors =
             [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
+        let mut clear = Vec::new();
+        let mut said: Vec<WrittenColor> = Vec::new();
         let mut given = 0;
         for color in &mut colors {
             self.skip_commas();
             if self.at_color() {
                 let first = self.peek().cloned();
-                *color = self.color_after(token, "a colour")?.value;
-                if let Some(first) = first.filter(|_| color.is_clear()) {
-                    list_once(clear, self.whole(&first));
+                let written = self.written_color_after(token, "a colour")?.value;
+                *color = written.color();
+                if let Some(first) = first {
+                    let pieces = written.without_clear().unwrap_or(vec![self.whole(&first)]);
+                    pieces.into_iter().for_each(|piece| list_once(&mut clear, piece));
                 }
+                said.push(written);
                 given += 1;
             } else if let Some(Token {
                 kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)),
@@ -244,7 +300,7 @@ impl Evaluator<'_> {
                         &self.scene.pigments[id.index()]
                     {
                         *color = *plain;
-                        inner.iter().for_each(|&item| list_once(clear, item));
+                        inner.iter().for_each(|&item| list_once(&mut clear, item));
                         continue;
                     }
                 } else {
@@ -261,117 +317,17 @@ impl Evaluator<'_> {
         if given == 1 && self.poison.is_none() {
             self.lint_missing_color(token);
         }
-        Ok((colors[0], colors[1]))
-    }
-
-    /// `color_map { [value color] … }` or `color_map { Name }`.
-    pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
-        let mut entries: Vec<(f64, Color)> = Vec::new();
-        let mut rise = Rise::default();
-        let opener = token.clone();
-        self.block(token, Word::ColorMap, |evaluator| {
-            let mut failed = false;
-            while let Some(token) = evaluator.next() {
-                match &token.kind {
-                    TokenKind::Entry(items) => {
-                        let here = token.here.clone();
-                        let read = evaluator.inside(&here, *items, |evaluator| {
-                            evaluator.map_entry(&token, &mut rise)
-                        });
-                        match read {
-                            Ok(read) => entries.extend(read),
-                            Err(Reported) => failed = true,
-                        }
-                    }
-                    TokenKind::Expression(id) => match evaluator.declared(&token, *id) {
-                        Some(Value::Broken) => failed = true,
-                        Some(Value::ColorMap(map))
-                            if entries.len() + map.0.len() > MOST_ENTRIES =>
-                        {
-                            let message = format!("this map has more than {MOST_ENTRIES} entries");
-                            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
-                                .at(token.span, "these are too many");
-                            return Err(evaluator.report(&token.here, diagnostic));
-                        }
-                        Some(Value::ColorMap(map)) => {
-                            rise.named(&map, token.here.site(token.span));
-                            entries.extend(map.0.iter().copied());
-                        }
-                        Some(Value::Poison(poison)) => evaluator.set_poison(poison),
-                        _ => {
-                            evaluator.unexpected(&token, Place::COLOR_MAP);
-                            failed = true;
-                        }
-                    },
-                    _ => evaluator.unexpected(&token, Place::COLOR_MAP),
-                }
+        let pattern = match said.as_slice() {
+            // They are pigments by themselves.
+            [_, ..] if said.len() == given && !said.iter().any(|color| color.bare) => {
+                Some(vec![token.here.site(token.span)])
             }
-            if failed {
-                return Err(Reported);
+            [first, second] => {
+                let like = |color: Color| move |other: Color| other == color;
+                second.without(like(colors[0])).or_else(|| first.without(like(colors[1])))
             }
-            if entries.is_empty() {
-                if evaluator.poison.is_some() {
-                    return Err(Reported);
-                }
-                let diagnostic = Diagnostic::new(Code::MissingPart, "this `color_map` is empty")
-                    .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
-                return Err(evaluator.report(&opener.here, diagnostic));
-            }
-            evaluator.lint_map(rise);
-            // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
-            entries.sort_by(|a, b| a.0.total_cmp(&b.0));
-            Ok(Value::ColorMap(Arc::new(ColorMap(entries))))
-        })
-    }
-
-    /// `[value color]`, or the old `[from, to color a color b]`.
-    fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<Vec<(f64, Color)>> {
-        let given = self.number_after(token, "a number and a colour")?;
-        let from = given.value;
-        rise.entry(given, self.sources);
-        self.skip_commas();
-        let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
-        if starts_color {
-            let color = self.color_after(token, "a colour")?.value;
-            self.end_of_entry(token)?;
-            return Ok(vec![(from, color)]);
-        }
-        let second = self.given(token, "a colour")?;
-        let entries = match second.value {
-            Value::Number(to) => {
-                rise.entry(second.with(to), self.sources);
-                let first = self.color_after(token, "a colour")?.value;
-                let last = self.color_after(token, "a second colour")?.value;
-                self.lint_legacy(
-                    &token.here,
-                    token.span,
-                    "an entry with two values is an old form",
-                    "write two entries, one for each value",
-                );
-                vec![(from, first), (to, last)]
-            }
-            _ => {
-                let color = self.plain_color(&second, "a colour")?;
-                vec![(from, self.color_components(color)?)]
-            }
+            _ => None,
         };
-        self.end_of_entry(token)?;
-        Ok(entries)
-    }
-
-    fn end_of_entry(&mut self, entry: &Token) -> Outcome<()> {
-        self.skip_commas();
-        match self.next() {
-            None => Ok(()),
-            Some(extra) => {
-                let diagnostic = Diagnostic::new(
-                    Code::ExtraPart,
-                    "an entry of a `color_map` is one number and one colour",
-                )
-                .at(extra.span_head(), "this is more")
-                .also(entry.span_head(), "in this entry");
-                Err(self.report(&extra.here, diagnostic))
-            }
-        }
+        Ok(Pair { colors, clear, pattern })
     }
 }

@@ -22,7 +22,11 @@ pub(super) struct Written {
     pub seed: Option<(Word, Span)>,
     /// All of the seed's words, from the first to the last.
     pub seed_item: Option<Site>,
+    /// Each `ks`.
+    pub ks_items: Vec<(f64, Site)>,
     pub classic: Option<(Word, Span)>,
+    /// Enough of the last item for it to weigh nothing, where not all of it is.
+    pub pieces: Option<Vec<Site>>,
     pub albedo: Albedo,
     /// The last `ambient`.
     pub ambient: Option<Given<Rgb>>,
@@ -31,15 +35,64 @@ pub(super) struct Written {
 }
 
 impl Written {
-    /// An item set the weight of `word`.
-    pub fn weigh(&mut self, word: Word, weightless: bool, item: Site) {
+    /// An item set the weight of `word`; where `pieces` of it make that zero, the rest still hides what
+    /// was set before.
+    pub fn weigh(&mut self, word: Word, weightless: bool, item: Site, pieces: Option<Vec<Site>>) {
         let Self { origin, .. } = self;
         origin.zeros.retain(|(other, _)| *other != word);
-        match word {
-            Word::Ior => list_once(&mut origin.ior, item),
-            _ if weightless => origin.zeros.push((word, item)),
-            Word::Reflection => list_once(&mut origin.reflection, item),
-            _ => list_once(&mut origin.highlights, item),
+        if weightless || pieces.is_some() {
+            match word {
+                Word::Ior => origin.ior.clear(),
+                Word::Reflection => origin.reflection.clear(),
+                _ => origin.highlights.retain(|(other, _)| *other != word),
+            }
+        }
+        let pieces = match weightless {
+            true => {
+                origin.zeros.push((word, item));
+                Vec::new()
+            }
+            false => pieces.unwrap_or(vec![item]),
+        };
+        for piece in pieces {
+            match word {
+                Word::Ior => list_once(&mut origin.ior, piece),
+                Word::Reflection => list_once(&mut origin.reflection, piece),
+                _ => origin.list_highlight(word, piece),
+            }
+        }
+    }
+
+    /// The seed's words made a whole finish of weight `ks`, of one with the weight `before`.
+    pub fn weigh_seed(&mut self, ks: f64, before: Option<f64>) {
+        let Self { origin, .. } = self;
+        let Some(item) = self.seed_item else { return };
+        origin.zeros.clear();
+        let zero = self.ks_items.iter().rposition(|(weight, _)| *weight == 0.0);
+        if ks == 0.0 || before == Some(0.0) || (before.is_some() && zero.is_some()) {
+            // What was before stays hidden, or is nothing.
+            origin.highlights.clear();
+            origin.reflection.clear();
+            origin.all_of_seed = false;
+        }
+        let pieces: Vec<Site> = match before {
+            _ if ks == 0.0 => {
+                origin.zeros.push((Word::Ks, item));
+                return;
+            }
+            Some(_) if !origin.all_of_seed => {
+                let since = self.ks_items.iter().skip(zero.map_or(0, |zero| zero + 1));
+                since.map(|(_, item)| *item).collect()
+            }
+            // All of them, or some would be left alone.
+            _ => {
+                origin.all_of_seed = true;
+                vec![item]
+            }
+        };
+        for piece in pieces {
+            origin.list_highlight(Word::Ks, piece);
+            list_once(&mut origin.reflection, piece);
         }
     }
 
@@ -58,6 +111,14 @@ impl Written {
             None => diagnostic.at(seed_span, of_seed).also(classic_span, of_classic),
         };
         Some(diagnostic.help("`kd`, `ks` and `phong_exponent` stand alone; else use `diffuse`, `specular`, `reflection` and their kin"))
+    }
+}
+
+impl FinishOrigin {
+    fn list_highlight(&mut self, word: Word, item: Site) {
+        if self.highlights.iter().all(|(_, site)| site.span != item.span) {
+            self.highlights.push((word, item));
+        }
     }
 }
 

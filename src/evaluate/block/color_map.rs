@@ -1,0 +1,148 @@
+//! `color_map`: colours over the values of a pattern.
+
+use std::sync::Arc;
+
+use crate::color::Color;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::ColorMap;
+use crate::source::Site;
+use crate::vocabulary::Word;
+
+use super::super::lint::Rise;
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+use super::pieces::{self, WrittenColor, WrittenMap};
+
+/// The values and colours of an entry.
+type Entries = Vec<(f64, WrittenColor)>;
+
+/// Entries of one map: more are a mistake, and soon more than memory holds.
+const MOST_ENTRIES: usize = 1 << 20;
+
+impl Evaluator<'_> {
+    /// `color_map { [value color] … }` or `color_map { Name }`.
+    pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
+        let mut entries: Vec<(f64, Color)> = Vec::new();
+        let mut parts: Vec<pieces::Part> = Vec::new();
+        let mut rise = Rise::default();
+        let opener = token.clone();
+        self.block(token, Word::ColorMap, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                match &token.kind {
+                    TokenKind::Entry(items) => {
+                        let here = token.here.clone();
+                        let read = evaluator.inside(&here, *items, |evaluator| {
+                            evaluator.map_entry(&token, &mut rise)
+                        });
+                        match read {
+                            Ok((read, first)) => {
+                                entries.extend(read.iter().map(|(at, color)| (*at, color.color())));
+                                let colors = read.into_iter().map(|(_, color)| color).collect();
+                                let item = here.site(token.span);
+                                parts.push(pieces::Part::entry(item, colors, first));
+                            }
+                            Err(Reported) => failed = true,
+                        }
+                    }
+                    TokenKind::Expression(id) => match evaluator.declared(&token, *id) {
+                        Some(Value::Broken) => failed = true,
+                        Some(Value::ColorMap(map))
+                            if entries.len() + map.map.0.len() > MOST_ENTRIES =>
+                        {
+                            let message = format!("this map has more than {MOST_ENTRIES} entries");
+                            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                                .at(token.span, "these are too many");
+                            return Err(evaluator.report(&token.here, diagnostic));
+                        }
+                        Some(Value::ColorMap(map)) => {
+                            let site = token.here.site(token.span);
+                            rise.named(&map.map, site);
+                            entries.extend(map.map.0.iter().copied());
+                            parts.push(pieces::Part::name(site, &map));
+                        }
+                        Some(Value::Poison(poison)) => evaluator.set_poison(poison),
+                        _ => {
+                            evaluator.unexpected(&token, Place::COLOR_MAP);
+                            failed = true;
+                        }
+                    },
+                    _ => evaluator.unexpected(&token, Place::COLOR_MAP),
+                }
+            }
+            if failed {
+                return Err(Reported);
+            }
+            if entries.is_empty() {
+                if evaluator.poison.is_some() {
+                    return Err(Reported);
+                }
+                let diagnostic = Diagnostic::new(Code::MissingPart, "this `color_map` is empty")
+                    .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
+                return Err(evaluator.report(&opener.here, diagnostic));
+            }
+            evaluator.lint_map(rise);
+            // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
+            entries.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let clear = pieces::without_clear(&parts);
+            let pattern = pieces::without_pattern(&parts);
+            Ok(Value::ColorMap(Arc::new(WrittenMap { map: ColorMap(entries), clear, pattern })))
+        })
+    }
+
+    /// `[value color]`, or the old `[from, to color a color b]`, and of that `to color a` where it can go.
+    fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
+        let given = self.number_after(token, "a number and a colour")?;
+        let from = given.value;
+        rise.entry(given, self.sources);
+        self.skip_commas();
+        let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
+        if starts_color {
+            let color = self.written_color_after(token, "a colour")?.value;
+            self.end_of_entry(token)?;
+            return Ok((vec![(from, color)], None));
+        }
+        let second = self.given(token, "a colour")?;
+        let entries = match second.value {
+            Value::Number(to) => {
+                let number = second.site();
+                rise.entry(second.with(to), self.sources);
+                let first = self.written_color_after(token, "a colour")?.value;
+                let piece = self.joined(number, self.taken.unwrap_or(number));
+                let last = self.written_color_after(token, "a second colour")?.value;
+                self.lint_legacy(
+                    &token.here,
+                    token.span,
+                    "an entry with two values is an old form",
+                    "write two entries, one for each value",
+                );
+                let piece = Some(piece).filter(|_| !last.bare);
+                (vec![(from, first), (to, last)], piece)
+            }
+            _ => {
+                let color = self.plain_color(&second, "a colour")?;
+                (vec![(from, self.color_components(color, second.site())?)], None)
+            }
+        };
+        self.end_of_entry(token)?;
+        Ok(entries)
+    }
+
+    fn end_of_entry(&mut self, entry: &Token) -> Outcome<()> {
+        self.skip_commas();
+        match self.next() {
+            None => Ok(()),
+            Some(extra) => {
+                let diagnostic = Diagnostic::new(
+                    Code::ExtraPart,
+                    "an entry of a `color_map` is one number and one colour",
+                )
+                .at(extra.span_head(), "this is more")
+                .also(entry.span_head(), "in this entry");
+                Err(self.report(&extra.here, diagnostic))
+            }
+        }
+    }
+}
