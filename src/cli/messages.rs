@@ -104,6 +104,17 @@ impl Messages {
         }
     }
 
+    /// Says why a file could not be had, in the form of the other messages.
+    pub fn fail(&mut self, failure: &Failure) -> Result<(), Failure> {
+        if self.format != Format::Json {
+            fail(failure);
+            return Ok(());
+        }
+        let told = Diagnostic::new(Code::UnreadableFile, failure.sentence.as_str());
+        let told = failure.help.iter().fold(told, |told, help| told.help(help.as_str()));
+        self.print(std::iter::once(&told), &Sources::default())
+    }
+
     /// `2 errors, 1 warning`, where people read it.
     pub fn summarize(&self) {
         let summary = render::summary(self.errors + self.limits, self.warnings);
