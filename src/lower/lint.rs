@@ -10,7 +10,7 @@ use crate::source::Site;
 use crate::world::Pigment;
 
 /// What a white surface gives off by default: it tells shapes apart from black, and no more.
-const DEFAULT_AMBIENT: f64 = 0.1;
+pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
 /// What the sum of two decimals may be off by.
 const ROUNDING: f64 = 1e-9;
 /// How far from square a pixel may be, relative: POV-Ray's own `right 1.33*x` stands for 4:3.
@@ -62,7 +62,7 @@ impl Lowering<'_, '_> {
             }
             self.reporter.diagnostics.push(diagnostic);
         } else {
-            if !telescope {
+            if !telescope && !self.lint_inside() {
                 self.lint_view();
             }
             self.lint_pigment();

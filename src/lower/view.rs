@@ -5,12 +5,13 @@
 //! reaches everywhere is always in view.
 
 use super::Lowering;
+use super::lint::DEFAULT_AMBIENT;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::math::{Matrix, Vector};
 use crate::scene::CameraItemKind;
 use crate::shape::Bounds;
-use crate::world::{Camera, CameraKind};
+use crate::world::{Camera, CameraKind, Light, LightKind, Object};
 
 /// Where objects are that are not in view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +66,45 @@ impl Lowering<'_, '_> {
         )
         .help(format!("write degrees, or `degrees({written})`, which is {meant:.1}"))
         .traced(site, self.reporter.expansions);
+        self.reporter.diagnostics.push(diagnostic);
+        true
+    }
+
+    /// A camera inside of a solid that neither light nor anything else comes into. Whether it is told.
+    pub(super) fn lint_inside(&mut self) -> bool {
+        // Without one, that is what is said.
+        let Some(camera) = self.origins.camera else { return false };
+        let world = &self.world;
+        let here = world.camera.location;
+        let is_shut = |(i, object): &(usize, &Object)| {
+            let material = world.materials.get(object.material as usize);
+            let dark = material.is_some_and(|m| {
+                !m.pigment.is_clear() && m.finish.glow.largest() <= DEFAULT_AMBIENT
+            });
+            dark && object.in_image
+                && object.casts_shadow
+                && !object.inverse
+                && !object.double_illuminate
+                && bounds(world, *i as u32).is_some()
+                && world.contains(object, here)
+        };
+        let comes_in = |object: &Object, light: &Light| match light.kind {
+            _ if !light.casts_shadows => true,
+            LightKind::Point { position } => world.contains(object, position),
+            LightKind::Directional { .. } | LightKind::Parallel { .. } => false,
+        };
+        let around = world.objects.iter().enumerate().find(|shut| {
+            is_shut(shut) && !world.lights.iter().any(|light| comes_in(shut.1, light))
+        });
+        let Some(site) = around.and_then(|(i, _)| self.origins.objects.get(i)).copied() else {
+            return false;
+        };
+        let diagnostic =
+            Diagnostic::new(Code::NothingInView, "the camera is inside an object, in the dark")
+                .at(site.span, "the camera stands in this, and no light does")
+                .also(camera.span, "the camera")
+                .help("move the camera's `location` out of it, or a light in");
+        let diagnostic = diagnostic.traced(site, self.reporter.expansions);
         self.reporter.diagnostics.push(diagnostic);
         true
     }
