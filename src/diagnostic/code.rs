@@ -128,6 +128,7 @@ codes! {
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";
     ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
+    ForeignFile "foreign-file" error "a file is another program's, and no scene";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";

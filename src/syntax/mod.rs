@@ -13,10 +13,12 @@ mod control;
 mod directive;
 mod dump;
 mod expression;
+mod foreign;
 mod format;
 mod habits;
 mod head;
 mod layout;
+mod leftover;
 mod legacy;
 mod list;
 mod loose;
@@ -65,9 +67,17 @@ pub fn parse(
     options: &ParseOptions,
     diagnostics: &mut Diagnostics,
 ) -> Ast {
+    if let Some(told) = foreign::foreign(&source.text, file) {
+        diagnostics.push(told);
+        // Nothing in it is a mistake of its own.
+        let mut nothing = Diagnostics::new(true);
+        let quiet = comment::quiet("", file, &mut nothing);
+        return nest::nest(&quiet, 0, file, &[], true, options, &mut nothing);
+    }
     let mut found = Diagnostics::new(true);
     let mut quiet = comment::quiet(&source.text, file, &mut found);
     quiet.text = control::blank(quiet.text, file, &mut found);
+    quiet.text = leftover::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
     let tokens = habits::translate(tokens, &quiet.text, file, &mut found);

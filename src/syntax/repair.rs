@@ -113,6 +113,7 @@ impl Repair<'_> {
             }
         }
         let end = self.tokens.len();
+        self.cut_off(end);
         while let Some(open) = self.open.pop() {
             self.never_closed(open, end);
         }

@@ -35,6 +35,65 @@ impl Reader<'_> {
         fits
     }
 
+    /// `return a*2`: a body is its value.
+    pub(super) fn returns(&mut self) -> bool {
+        let begins = match self.kind(1) {
+            Some(TokenKind::Name | TokenKind::Number | TokenKind::Word(_)) => true,
+            Some(TokenKind::Mark(mark)) => {
+                matches!(mark, Mark::Open(Bracket::Round) | Mark::Less | Mark::Minus)
+            }
+            _ => false,
+        };
+        if self.slice(0) != "return" || !begins {
+            return false;
+        }
+        let span = self.span(0, 0);
+        let gap = Span { start: span.end, end: self.span(1, 1).start, ..span };
+        let diagnostic =
+            Diagnostic::new(Code::UnknownWord, "`return` is not a word of the language")
+                .at(span, "a function's body is its value, and a macro's is what is left of it")
+                .help("leave it out")
+                .fix(span.to(gap), "");
+        self.diagnostics.push(diagnostic);
+        // `return a*2;`
+        let ends = (1..).take_while(|ahead| {
+            !matches!(self.kind(*ahead), None | Some(TokenKind::Directive(_)))
+                && !self.is(*ahead, Mark::Close(Bracket::Brace))
+        });
+        if let Some(last) = ends.last().filter(|last| self.is(*last, Mark::Semicolon))
+            && self.is(last + 1, Mark::Close(Bracket::Brace))
+        {
+            self.dropped.insert(self.at + last, false);
+        }
+        self.at += 1;
+        true
+    }
+
+    /// `a^2`.
+    pub(super) fn power(&mut self, meant: &mut Vec<Token>) -> bool {
+        let ends = matches!(
+            meant.last().map(|token| token.kind),
+            Some(
+                TokenKind::Name
+                    | TokenKind::Number
+                    | TokenKind::Word(_)
+                    | TokenKind::Mark(Mark::Close(Bracket::Round))
+            )
+        );
+        if self.slice(0) != "^" || !ends {
+            return false;
+        }
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "the character `^` has no meaning here")
+                .at(self.span(0, 0), "an operator of another language")
+                .help("a power is written `pow(a, b)`");
+        self.diagnostics.push(diagnostic);
+        // An operator, so that what stands on both sides is read.
+        meant.push(Token { kind: TokenKind::Mark(Mark::Star), ..self.tokens[self.at] });
+        self.at += 1;
+        true
+    }
+
     /// `$fn = 50;`: a name with a sign of another language, and its value.
     pub(super) fn dollar(&mut self, meant: &mut Vec<Token>) -> bool {
         let named = self.slice(0) == "$"

@@ -24,8 +24,45 @@ impl Reader<'_> {
             Head::Else => self.body(head, meant),
             Head::Unknown => self.hash_comment(),
             Head::Declare | Head::Local => self.value(head, meant),
+            Head::Default => self.default_case(meant),
             _ => false,
         }
+    }
+
+    /// `#default` in a `#switch`, where `#else` is meant.
+    fn default_case(&mut self, meant: &mut Vec<Token>) -> bool {
+        if self.is(1, Mark::Open(Bracket::Brace)) {
+            return false;
+        }
+        let mut ended = 0;
+        let innermost = meant.iter().rev().find_map(|token| match token.kind {
+            TokenKind::Directive(Head::End) => {
+                ended += 1;
+                None
+            }
+            TokenKind::Directive(head) if head.opens() && ended > 0 => {
+                ended -= 1;
+                None
+            }
+            TokenKind::Directive(head) if head.opens() => Some(head),
+            _ => None,
+        });
+        if innermost != Some(Head::Switch) {
+            return false;
+        }
+        let colon = usize::from(self.is(1, Mark::Colon));
+        let span = self.span(0, colon);
+        let diagnostic = Diagnostic::new(
+            Code::UnknownDirective,
+            "in a `#switch` it is `#else` that takes the rest",
+        )
+        .at(span, "`#default` sets the textures of objects")
+        .help("replace it with `#else`")
+        .fix(span, "#else");
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Directive(Head::Else), ..self.tokens[self.at] });
+        self.at += 1 + colon;
+        true
     }
 
     /// Where the line, or what can be an expression on it, ends.

@@ -1,6 +1,6 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the parts of
-//! blocks (`part.rs`) and maps (`map.rs`) as other languages write them.
+//! count (`counting.rs`, `sample.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the
+//! parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them, templates (`template.rs`).
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -16,6 +16,7 @@ mod map;
 mod part;
 mod sample;
 mod sign;
+mod template;
 mod web;
 
 use self::letter::Foreign;
@@ -147,12 +148,15 @@ impl Reader<'_> {
         }
         match kind {
             TokenKind::Word(word) => {
-                self.head_without_hash(word, meant)
+                (word == Word::Int && self.declarer(meant))
+                    || self.head_without_hash(word, meant)
                     || self.empty_parentheses(word, meant)
                     || self.part(meant)
             }
             TokenKind::Name => {
-                self.declarer(meant)
+                self.suffix(meant)
+                    || self.declarer(meant)
+                    || self.returns()
                     || self.changes(meant)
                     || self.logic(meant)
                     || self.vector(meant)
@@ -163,10 +167,14 @@ impl Reader<'_> {
             TokenKind::Stray => {
                 self.web_color(meant)
                     || self.dollar(meant)
+                    || self.template(meant)
+                    || self.percent(meant)
+                    || self.power(meant)
                     || self.single_quotes(meant)
                     || (!self.ascii && self.sign(meant))
             }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Brace)) => self.template(meant),
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),

@@ -4,7 +4,7 @@ use super::{Open, Repair};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::balance::{Opener, Turn, turn};
-use crate::syntax::token::TokenKind;
+use crate::syntax::token::{Bracket, Mark, TokenKind};
 use crate::vocabulary::Word;
 
 impl Repair<'_> {
@@ -39,13 +39,51 @@ impl Repair<'_> {
             _ if ends_file => found,
             // "expected `}` before `}`" would tell nobody whose it is.
             Some(outer) if expected == format!("`{found}`") => {
-                format!("this closes {}", self.shown(outer))
+                format!("this closes {}: a {expected} is missing before it", self.shown(outer))
             }
             Some(_) | None => format!("expected {expected} before `{found}`"),
         };
         let diagnostic = Diagnostic::new(code, message)
             .at(self.span(open.token), "opened here")
             .also(place, label);
+        self.tell(diagnostic);
+    }
+
+    /// A text that ends in the middle of a vector or of parentheses, inside blocks: it was cut off, and
+    /// that is one mistake.
+    pub(super) fn cut_off(&mut self, end: usize) {
+        let vector = self.vector_before(end);
+        let inside = self.open.last().is_some_and(|open| {
+            matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square))
+        });
+        let blocks = self.open.len() - usize::from(inside && vector.is_none());
+        // What looks ended, or should have been closed before, is a mistake of its own.
+        let inside_blocks = self.open[..blocks]
+            .iter()
+            .all(|open| !matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square)));
+        let ended = self.open.iter().any(|open| open.outside.is_some_and(|o| o.certain));
+        if !inside_blocks || ended {
+            return;
+        }
+        let innermost = vector.or(self.open.last().map(|open| open.token));
+        let (Some(innermost), true) = (innermost, blocks > 0 && (inside || vector.is_some()))
+        else {
+            return;
+        };
+        if vector.is_some() {
+            self.inserted.push((end, TokenKind::Mark(Mark::Greater)));
+        }
+        let message = format!("the file ends in the middle of {}", self.shown(innermost));
+        let mut diagnostic = Diagnostic::new(Code::UnclosedBlock, message)
+            .at(self.span(innermost), "opened here, and never closed")
+            .help("it seems to have been cut off: is it whole?");
+        while let Some(open) = self.open.pop() {
+            if open.token != innermost && diagnostic.labels.len() < 4 {
+                let text = format!("{} is never closed either", self.shown(open.token));
+                diagnostic = diagnostic.also(self.span(open.token), text);
+            }
+            self.insert_closer(&Open { outside: None, ..open }, end);
+        }
         self.tell(diagnostic);
     }
 
