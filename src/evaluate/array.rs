@@ -162,9 +162,19 @@ impl Evaluator<'_> {
 
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {
         if dimensions.is_empty() {
-            let diagnostic = Diagnostic::new(Code::MissingPart, "this array has no size")
-                .at(token.span, "expected its size in brackets")
-                .help("`array[3]` has three elements, `array[2][3]` two rows of three");
+            let round = self.next_if(|kind| matches!(kind, TokenKind::Expression(_)));
+            let size = round.as_ref().map(|round| self.sources.text(round.span));
+            let size = size.and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
+            let diagnostic = Diagnostic::new(Code::MissingPart, "this array has no size");
+            let diagnostic = match (size, &round) {
+                (Some(size), Some(round)) => diagnostic
+                    .at(round.span, "its size stands in square brackets")
+                    .help(format!("write `array[{size}]`"))
+                    .fix(round.span, format!("[{size}]")),
+                _ => diagnostic
+                    .at(token.span, "expected its size in brackets")
+                    .help("`array[3]` has three elements, `array[2][3]` two rows of three"),
+            };
             return Err(self.report(&token.here, diagnostic));
         }
         if dimensions.len() > MOST_DIMENSIONS {
@@ -192,12 +202,13 @@ impl Evaluator<'_> {
     ) -> Outcome<Option<Value>> {
         let size = array.dimensions[dimension] as usize;
         let last = dimension + 1 == array.dimensions.len();
-        let (mut found, mut poison) = (0, None);
+        let (mut found, mut poison, mut surplus) = (0, None, None);
         loop {
             self.skip_commas();
             let Some(token) = self.next() else { break };
             found += 1;
             if found > size {
+                surplus = surplus.or(Some(token.span));
                 continue;
             }
             match token.kind {
@@ -230,7 +241,7 @@ impl Evaluator<'_> {
         let (wanted, found) = (count(&(size..=size), what), count(&(found..=found), what));
         let message = format!("the array has {wanted} here, and is given {found}");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
-            .at(span, format!("expected {wanted}"))
+            .at(surplus.unwrap_or(span), format!("expected {wanted}"))
             .help("without braces the elements may be set one by one");
         Err(self.report(here, diagnostic))
     }

@@ -6,7 +6,7 @@
 use std::rc::Rc;
 
 use crate::diagnostic::suggest::closest;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
 use crate::standard;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
@@ -24,12 +24,15 @@ impl Evaluator<'_> {
                 Some(name) => name,
                 None => {
                     self.lacks_include = true;
+                    let name = self.sources.text(span).lines().next().unwrap_or("");
+                    self.unread.push(name.trim_matches(['"', ' ']).to_owned());
                     return Err(Reported);
                 }
             },
             _ => match self.bare_path(span) {
                 Some(path) => {
                     self.lacks_include = true;
+                    self.unread.push(path.clone());
                     let quoted = format!("\"{path}\"");
                     let diagnostic =
                         Diagnostic::new(Code::WrongType, "the name of a file stands in quotes")
@@ -70,13 +73,14 @@ impl Evaluator<'_> {
                             diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
                         };
                         self.lacks_include = true;
+                        self.unread.push(name);
                         return Err(self.report(here, diagnostic));
                     }
                 };
                 self.found.insert((name.clone(), head.file), found.name.clone());
                 let unit = match self.parsed.get(&found.name) {
                     Some(unit) => unit.clone(),
-                    None => self.read_unit(here, span, &found.name, found.bytes),
+                    None => self.read_unit(here, [head, span], &found.name, found.bytes),
                 };
                 (found.name, unit)
             }
@@ -99,7 +103,13 @@ impl Evaluator<'_> {
         (known && is_path(name)).then(|| text.to_owned())
     }
 
-    fn read_unit(&mut self, here: &Here, span: Span, name: &str, bytes: Vec<u8>) -> Rc<Unit> {
+    fn read_unit(
+        &mut self,
+        here: &Here,
+        [head, span]: [Span; 2],
+        name: &str,
+        bytes: Vec<u8>,
+    ) -> Rc<Unit> {
         let (text, foreign) = decode(bytes);
         let id = self.sources.add(Source::new(name, text));
         if foreign && self.options.dialect == crate::scene::Dialect::Scene {
@@ -114,7 +124,18 @@ impl Evaluator<'_> {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
         };
-        let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
+        let mut told = Diagnostics::new(true);
+        let ast = syntax::parse(self.sources.get(id), id, &options, &mut told);
+        // How it came to be read, from the main file on.
+        if !told.is_empty() {
+            let (expansions, kind) = (&mut self.scene.expansions, ExpansionKind::Include);
+            let named = expansions.named(name);
+            let included = expansions.add(here.expansion, head.to(span), kind, named);
+            for told in told.iter().cloned() {
+                self.lacks_include |= told.code == Code::ForeignFile;
+                self.report_in(included, told);
+            }
+        }
         let unit = self.unit(ast);
         self.parsed.insert(name.to_owned(), unit.clone());
         unit

@@ -258,6 +258,8 @@ struct Evaluator<'a> {
     lacks_include: bool,
     /// The standard includes of which it was told that an included file takes them for granted.
     lacking: BTreeSet<String>,
+    /// The names of such includes, as they were written.
+    unread: Vec<String>,
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
@@ -369,6 +371,7 @@ impl<'a> Evaluator<'a> {
             beside: BTreeMap::new(),
             lacks_include: false,
             lacking: BTreeSet::new(),
+            unread: Vec::new(),
             missing_at: None,
             bounds: Vec::new(),
             halted: false,

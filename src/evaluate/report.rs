@@ -63,8 +63,8 @@ impl Evaluator<'_> {
         found: &Value,
         help: Option<String>,
     ) -> Reported {
-        let text = self.sources.text(span);
-        let name = self.scopes.symbol(text);
+        let text = self.sources.text(span).to_owned();
+        let name = self.scopes.symbol(&text);
         let subject = if name.is_some() { format!("`{text}`") } else { "this".to_owned() };
         let diagnostic = match found {
             Value::Broken => return Reported,
@@ -76,6 +76,10 @@ impl Evaluator<'_> {
             .at(span, format!("{subject} is {}", found.kind())),
         };
         let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
+        if let Value::Spline(_) = found {
+            let help = format!("a spline has a value at a time: `{text}(0.5)`");
+            diagnostic = diagnostic.help(help);
+        }
         if let Value::String(found) = found
             && let Some(shown) = color_of_string(found)
             && let Some(color) = match wanted {

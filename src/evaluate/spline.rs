@@ -62,6 +62,10 @@ impl Evaluator<'_> {
                 kind = named;
                 continue;
             }
+            if let Some(named) = self.short_kind(&token) {
+                kind = named;
+                continue;
+            }
             match self.value_of(&token)? {
                 Value::Spline(other) if knots.is_empty() => {
                     kind = other.spline.kind();
@@ -106,6 +110,26 @@ impl Evaluator<'_> {
                 Err(self.report(&opener.here, diagnostic))
             }
         }
+    }
+
+    /// `cubic` for `cubic_spline`.
+    fn short_kind(&mut self, token: &Token) -> Option<SplineKind> {
+        let is_name = match token.kind {
+            TokenKind::Word(_) => true,
+            TokenKind::Expression(id) => self.unknown_name(&token.here, id).is_some(),
+            _ => false,
+        };
+        let text = self.sources.text(token.span).to_owned();
+        let word = Word::from_name(&format!("{text}_spline")).filter(|_| is_name)?;
+        let kind = kind_of(word)?;
+        let meant = word.name();
+        let diagnostic =
+            Diagnostic::new(Code::UnknownWord, format!("`{text}` is not a kind of spline"))
+                .at(token.span, format!("did you mean `{meant}`?"))
+                .help(format!("replace it with `{meant}`"))
+                .fix(token.span, meant);
+        self.report(&token.here, diagnostic);
+        Some(kind)
     }
 
     /// `S(time)` or `S(time, natural_spline)`.

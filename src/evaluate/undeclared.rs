@@ -33,6 +33,8 @@ impl Evaluator<'_> {
         }
         let mut diagnostic =
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
+        let rest = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
+        let is_called = rest.trim_start().starts_with('(');
         let standard = self.lacking_include(&name);
         // What the files that the main file includes lack of another one is one mistake.
         if let Some(include) = &standard
@@ -45,15 +47,26 @@ impl Evaluator<'_> {
         let close = suggest::closest(&name, self.scopes.visible())
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(&name))
             .map(str::to_owned);
+        if let Some(include) = standard.as_deref()
+            && self
+                .unread
+                .iter()
+                .any(|unread| unread == include || suggest::closest(unread, [include]).is_some())
+        {
+            // The include that was not read would have declared it.
+            self.scopes.assign(symbol, Value::Broken);
+            return Reported;
+        }
         let later = here.unit.declaration_of(symbol);
         let was = self.scopes.declared(symbol).copied();
         if let Some(was) = was {
             diagnostic = diagnostic.at(span, "not declared any more");
             diagnostic = match was.undone {
                 Some(undone) => diagnostic.also(undone.span, "forgotten here, by `#undef`"),
-                None => diagnostic
-                    .also(was.site.span, "declared here")
-                    .help("a `#local` name ends with the macro or the include that it stands in"),
+                None => diagnostic.also(was.site.span, "declared here").help(
+                    "a `#local` name ends with the macro or the include that it stands in; one of \
+                         `#declare` stays",
+                ),
             };
         } else if let Some(later) = later.filter(|later| later.start > span.start) {
             diagnostic = diagnostic
@@ -85,11 +98,17 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
+        } else if is_no_number(&name) {
+            diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
+                .at(span, "the program that wrote this had no number here");
         } else if let Some((close, include)) = self.lacking_near(&name) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
-        } else if let Some(word) = word_like(&name, fits) {
+        } else if let Some(word) = word_like(&name, |word| {
+            // A function without its arguments is rarely meant.
+            fits(word) && (is_called || !matches!(word.role(), Role::Function { .. }))
+        }) {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
@@ -205,6 +224,12 @@ impl Call {
 const MAIN: FileId = FileId(0);
 /// The include whose names are used most, and misspelt.
 const COLORS: &str = "colors.inc";
+
+/// What programs write where a calculation gave nothing.
+fn is_no_number(name: &str) -> bool {
+    const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];
+    NONE.contains(&name.to_ascii_lowercase().as_str())
+}
 
 /// The word of the language that an author who wrote `name` most likely meant.
 pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {

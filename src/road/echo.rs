@@ -52,7 +52,19 @@ pub(super) fn drop_echoes(
     if faults.is_empty() {
         return;
     }
+    // Words that were declared as names: what is then missing after one was not meant as the word.
+    let declared: Vec<&str> = diagnostics
+        .iter()
+        .take(parsed)
+        .filter(|fault| fault.code == Code::ReservedName)
+        .filter_map(|fault| Some(sources.text(fault.primary()?.span)))
+        .collect();
     let keep = |later: &Diagnostic| {
+        if later.code == Code::MissingPart
+            && later.primary().is_some_and(|label| declared.contains(&sources.text(label.span)))
+        {
+            return false;
+        }
         if !later.code.is_about_place() {
             return true;
         }

@@ -192,8 +192,18 @@ impl Evaluator<'_> {
             let name = word.name();
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, format!("`{name}` is a part of a colour"))
-                    .at(token.span, "its number is missing")
-                    .help(format!("write `{name} 1`, or all three as in `rgb <1, 0, 0>`"));
+                    .at(token.span, "its number is missing");
+            let capital = format!("{}{}", name[..1].to_uppercase(), &name[1..]);
+            let declared = self.scopes.symbol(&capital).and_then(|s| self.scopes.declared(s));
+            let diagnostic = match declared.map(|declared| declared.site.span) {
+                Some(span) => diagnostic
+                    .also(span, format!("`{capital}` is declared here"))
+                    .help(format!("did you mean `{capital}`?"))
+                    .fix(token.span, capital),
+                None => {
+                    diagnostic.help(format!("write `{name} 1`, or all three as in `rgb <1, 0, 0>`"))
+                }
+            };
             return Err(self.report(&token.here, diagnostic));
         }
         let number = self.number_after(token, "a number")?.value;

@@ -23,6 +23,7 @@ mod skip;
 mod solid;
 mod texture;
 mod transform;
+mod unbuilt;
 mod unexpected;
 mod unknown;
 
@@ -31,7 +32,7 @@ pub(super) use habit::color_of_string;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
-use crate::syntax::ast::ExpressionKind;
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::stream::{Token, TokenKind};
@@ -99,10 +100,33 @@ impl Evaluator<'_> {
                 }
                 Ok(())
             }
+            TokenKind::Expression(id) if self.options.dialect == Dialect::Pov => {
+                if let Some(object) = self.lone_object(token, id) {
+                    self.place(object, token);
+                    return Ok(());
+                }
+                self.unexpected(token, Place::SCENE);
+                self.needs_poison()
+            }
             _ => {
                 self.unexpected(token, Place::SCENE);
                 self.needs_poison()
             }
+        }
+    }
+
+    /// `Ball`, as POV-Ray takes it for `object { Ball }`; nothing may follow that belongs to it.
+    fn lone_object(&mut self, token: &Token, id: ExpressionId) -> Option<ObjectId> {
+        let follows = match self.peek_on().map(|next| &next.kind) {
+            Some(TokenKind::Block(_)) => true,
+            Some(TokenKind::Word(word)) => !place::is_at_top_level(*word),
+            _ => false,
+        };
+        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return None };
+        let symbol = token.here.symbol(name);
+        match self.scopes.read(symbol) {
+            Some(Value::Object(object)) if !follows => Some(*object),
+            _ => None,
         }
     }
 
@@ -136,6 +160,15 @@ impl Evaluator<'_> {
             },
             TokenKind::Literal(value) => Ok(value.as_ref().clone()),
             TokenKind::Word(word) => self.word_block(token, *word),
+            TokenKind::Block(_) | TokenKind::Entry(_) if self.list_meant(token).is_some() => {
+                let help = self.list_meant(token).unwrap_or_default();
+                let opener = Span { end: token.span.start + 1, ..token.span };
+                let diagnostic =
+                    Diagnostic::new(Code::ExpectedExpression, "a list of values is an `array`")
+                        .at(opener, "brackets alone make no value")
+                        .help(help);
+                Err(self.report(&token.here, diagnostic))
+            }
             TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
                 Err(self.expected("a value", Some(token), (&token.here, token.span)))
             }
@@ -147,6 +180,25 @@ impl Evaluator<'_> {
             Some(poison) => Ok(Value::Poison(poison)),
             None => value,
         }
+    }
+
+    /// `[1, 2, 3]` or `{ "a", "b" }`: how the list is written here.
+    fn list_meant(&self, token: &Token) -> Option<String> {
+        let text = self.sources.text(token.span);
+        let inside = text.get(1..text.len().checked_sub(1)?)?.trim();
+        let plain = !inside.is_empty() && !inside.contains(['{', '[', '(', '\n']);
+        let mut depth = 0;
+        let parts = inside.split(|c| {
+            depth += i32::from(c == '<') - i32::from(c == '>');
+            c == ',' && depth == 0
+        });
+        let count = parts.count();
+        let numbers = !inside.contains(['<', '"']);
+        let vector = match text.starts_with('[') && numbers && (2..=5).contains(&count) {
+            true => format!(", or a vector `<{inside}>`"),
+            false => String::new(),
+        };
+        (plain && count > 1).then(|| format!("write `array[{count}] {{ {inside} }}`{vector}"))
     }
 
     /// A value that a word opens: `sphere { … }`, `rgb <…>`, `texture { … }`.

@@ -5,7 +5,7 @@ use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, Operati
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::{Poison, Value};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::is_object_word;
 
@@ -42,11 +42,7 @@ impl Evaluator<'_> {
                 Some(parts) => self.shape(token, word, |evaluator, token| {
                     parts(evaluator, token).map(ObjectKind::Solid)
                 }),
-                None => {
-                    self.set_poison(Poison { word, site: token.here.site(token.span) });
-                    self.skip_arguments(word);
-                    Err(Reported)
-                }
+                None => Err(self.shape_not_built(token, word)),
             },
         };
         match (std::mem::replace(&mut self.poison, outer), built) {

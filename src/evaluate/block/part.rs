@@ -120,7 +120,11 @@ impl Evaluator<'_> {
         }
         let Some(token) = self.next() else { return Err(Reported) };
         let (value, expression) = match &token.kind {
-            TokenKind::Expression(id) => (self.expression(&token.here, *id)?, Some(*id)),
+            TokenKind::Expression(id) => match self.misspelt_block(&token, *id) {
+                // `sphere { 0 pigmant { … } }`
+                Some(reported) => return Err(reported),
+                None => (self.expression(&token.here, *id)?, Some(*id)),
+            },
             TokenKind::Literal(value) => (value.as_ref().clone(), None),
             _ => return Err(Reported),
         };
@@ -304,7 +308,7 @@ impl Evaluator<'_> {
                 expression: None,
             });
         }
-        if let Some(reported) = self.misspelt_color() {
+        if let Some(reported) = self.misspelt_color(after) {
             return Err(reported);
         }
         let given = self.given(after, wanted)?;

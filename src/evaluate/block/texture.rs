@@ -57,6 +57,9 @@ impl Evaluator<'_> {
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
+                // As in POV-Ray, their words may be left out here.
+                Some(Value::Pigment(id)) => texture.pigment = id,
+                Some(Value::Finish(id)) => texture.finish = id,
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {
                     self.unexpected(token, Place::TEXTURE);

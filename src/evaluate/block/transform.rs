@@ -64,6 +64,16 @@ impl Evaluator<'_> {
                         "a scale of zero flattens everything to nothing",
                     )
                     .at(given.span, "expected factors other than zero");
+                    if let Some((whole, number)) = self.comma_after(given.span) {
+                        let message = format!("`{}` is no number", self.sources.text(whole));
+                        diagnostic = Diagnostic::new(Code::MalformedNumber, message)
+                            .at(whole, "a comma parts two numbers")
+                            .help(format!("a fraction is written with a point: `{number}`"))
+                            .fix(whole, number);
+                        let reported = self.report(&given.here, diagnostic);
+                        self.skip_values();
+                        return Err(reported);
+                    }
                     if !uniform {
                         let [x, y, z] = factors.to_array().map(|f| if f == 0.0 { 1.0 } else { f });
                         diagnostic = diagnostic.help(format!(

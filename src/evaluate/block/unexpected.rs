@@ -169,6 +169,12 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .help(format!("a fraction is written with a point: `{number}`"))
                 .fix(span, number);
+        } else if let (Some(word), Value::Texture(_)) = (place.word, value)
+            && matches!(word, Word::Pigment | Word::Finish)
+        {
+            let own = word.name();
+            diagnostic =
+                diagnostic.help(format!("write `texture {{ {text} }}` instead of this `{own}`"));
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(word.sentence().to_owned());
         }
@@ -234,6 +240,15 @@ impl Evaluator<'_> {
                     "it stands for a value, in expressions".to_owned()
                 }
                 None if place.word.is_none() => "it belongs in an object".to_owned(),
+                None if word.family() == Family::Texture && place.word == Some(Word::Material) => {
+                    "it belongs in the `texture { … }` of the `material`".to_owned()
+                }
+                None if word.family() == Family::Texture
+                    && matches!(place.word, Some(Word::Pigment | Word::Finish)) =>
+                {
+                    let of = place.word.map_or("", Word::name);
+                    format!("it stands beside `{of}`, not in it")
+                }
                 None => "it belongs elsewhere".to_owned(),
             };
             Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))

@@ -85,7 +85,7 @@ impl Evaluator<'_> {
             },
         };
         self.report(&token.here, diagnostic);
-        let meant = near.filter(|near| has_block && is_built(near)).and_then(Word::from_name);
+        let meant = near.filter(|_| has_block).and_then(Word::from_name);
         if let Some(word) = meant
             && self.judge_block(token, word)
         {
@@ -185,13 +185,23 @@ impl Evaluator<'_> {
         true
     }
 
-    /// `colr rgb 1` where a colour should stand.
-    pub(super) fn misspelt_color(&mut self) -> Option<Reported> {
+    /// `colr rgb 1` where a colour should stand, or `intensity 2`.
+    pub(super) fn misspelt_color(&mut self, after: &Token) -> Option<Reported> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
         self.unknown_name(&token.here, id)?;
         let name = self.sources.text(token.span).to_owned();
         if let Some(diagnostic) = self.alpha_color(&name, token.span) {
+            let reported = self.report(&token.here, diagnostic);
+            self.next();
+            self.skip_values();
+            return Some(reported);
+        }
+        if after.kind == TokenKind::Word(Word::LightSource)
+            && let Some(custom) = custom(&name, Place::LIGHT)
+        {
+            let message = format!("`{name}` is not a word {}", Place::LIGHT.name());
+            let diagnostic = Diagnostic::new(Code::ForeignWord, message).at(token.span, custom);
             let reported = self.report(&token.here, diagnostic);
             self.next();
             self.skip_values();
@@ -240,7 +250,7 @@ impl Evaluator<'_> {
             None => diagnostic.at(token.span, UNKNOWN),
         };
         let reported = self.report(&token.here, diagnostic);
-        if let Some(word) = near.filter(|near| is_built(near)).and_then(Word::from_name)
+        if let Some(word) = near.and_then(Word::from_name)
             && self.judge_block(token, word)
         {
             return Some(reported);

@@ -243,7 +243,14 @@ impl Arguments<'_> {
             }
             _ => value.kind().to_owned(),
         };
-        self.error(CallErrorKind::WrongType, Some(i), format!("takes {wanted}, not {given}"))
+        let message = format!("takes {wanted}, not {given}");
+        let error = self.error(CallErrorKind::WrongType, Some(i), message);
+        match value {
+            Value::Number(_) if wanted == "a string" => {
+                error.with_help("a number becomes a string by `str(n, 0, -1)`")
+            }
+            _ => error,
+        }
     }
 
     /// The number at `i` is not what the function takes.

@@ -1,0 +1,117 @@
+//! Shapes that are not built yet: their parts and modifiers are read all the same, for the mistakes in them.
+//!
+//! **Invariant:** the object is poison, whatever is found in it.
+
+use crate::vocabulary::{Family, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::{Poison, Value};
+use super::super::{Evaluator, Outcome, Reported};
+
+/// What a shape wants in a place, in words, and of which kind it is.
+type Part = (Kind, &'static str);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Vector,
+    Number,
+    /// A number that may be left out.
+    Optional,
+}
+
+/// The parts of a shape that come before its modifiers, where their number is fixed.
+fn parts_not_built(word: Word) -> Option<&'static [Part]> {
+    use Kind::{Number, Optional, Vector};
+    const CORNER: Part = (Vector, "a vector for a corner");
+    const NORMAL: Part = (Vector, "a vector for a normal");
+    const CAP: Part = (Vector, "a vector for the other end");
+    const RADIUS: Part = (Number, "a number for the radius");
+    Some(match word {
+        Word::Cone => &[
+            (Vector, "a vector for an end"),
+            (Number, "a number for the radius at this end"),
+            CAP,
+            (Number, "a number for the radius at the other end"),
+        ],
+        Word::Torus => {
+            &[(Number, "a number for the major radius"), (Number, "a number for the minor radius")]
+        }
+        Word::Disc => &[
+            (Vector, "a vector for the centre"),
+            (Vector, "a vector for the normal"),
+            RADIUS,
+            (Optional, "a number for the radius of the hole"),
+        ],
+        Word::Triangle => &[CORNER, CORNER, CORNER],
+        Word::SmoothTriangle => &[CORNER, NORMAL, CORNER, NORMAL, CORNER, NORMAL],
+        _ => return None,
+    })
+}
+
+impl Evaluator<'_> {
+    pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
+        let poison = Poison { word, site: token.here.site(token.span) };
+        let Some(parts) = parts_not_built(word) else {
+            self.set_poison(poison);
+            self.skip_arguments(word);
+            return Reported;
+        };
+        let _: Outcome<()> = self.block(token, word, |evaluator| {
+            if !evaluator.takes_declared_object() {
+                let each = parts.iter().try_for_each(|part| evaluator.unbuilt_part(token, part));
+                if each.is_err() {
+                    evaluator.skip_parts();
+                }
+            }
+            evaluator.modifiers(word, None, &mut Vec::new())
+        });
+        let inside = self.poison.take();
+        self.set_poison(poison);
+        // `open` and the like go with their shape.
+        if let Some(inside) = inside.filter(|inside| inside.word.family() != Family::ShapeItem) {
+            self.set_poison(inside);
+        }
+        Reported
+    }
+
+    /// `cone { Pillar … }`.
+    fn takes_declared_object(&mut self) -> bool {
+        let declared = matches!(
+            self.peek_declared(),
+            Some(Value::Object(_) | Value::Poison(_) | Value::Broken)
+        );
+        // A name alone, not the first of several values.
+        let alone = declared
+            && !matches!(
+                self.peek_on().map(|next| &next.kind),
+                Some(TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
+            );
+        if alone {
+            self.next();
+        }
+        alone
+    }
+
+    fn unbuilt_part(&mut self, token: &Token, &(kind, wanted): &Part) -> Outcome<()> {
+        if kind == Kind::Optional {
+            self.skip_commas();
+            let follows = matches!(
+                self.peek().map(|next| &next.kind),
+                Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+            );
+            if !follows {
+                return Ok(());
+            }
+        }
+        let given = self.given(token, wanted)?;
+        let fits = match (&given.value, kind) {
+            (Value::Poison(_) | Value::Broken | Value::Number(_), _) => true,
+            (value, Kind::Vector) => value.numbers().is_some(),
+            (_, Kind::Number | Kind::Optional) => false,
+        };
+        match fits {
+            true => Ok(()),
+            false => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
+        }
+    }
+}
