@@ -82,6 +82,7 @@ fn unclear(text: &str, file: FileId, at: usize) -> Option<Diagnostic> {
     let names = list.split(|c: char| c == ',' || c.is_whitespace());
     let names: Vec<&str> = names
         .map(|name| name.trim_end_matches(')'))
+        .filter(|name| !name.is_empty())
         .take_while(|name| is_like_a_code(name))
         .collect();
     let (&first, span) = (names.first()?, Span::new(file, at, at + verb.len()));

@@ -26,6 +26,9 @@ struct Counts {
 
 pub(super) fn sample(text: &str, name: &str) -> Option<Sample> {
     let pieces = pieces(text)?;
+    if pieces.windows(2).any(calls) {
+        return None;
+    }
     let pieces: Vec<&str> = pieces
         .into_iter()
         .filter(|piece| !matches!(*piece, "(" | ")" | "[" | "]" | "do" | "const"))
@@ -41,6 +44,12 @@ pub(super) fn sample(text: &str, name: &str) -> Option<Sample> {
     };
     let counts = if rest.contains(&";") { compared(rest, name) } else { joined(rest) }?;
     counts.sample(name)
+}
+
+/// `n(`: what a function gives is not known here.
+fn calls(two: &[&str]) -> bool {
+    let is_name = two[0].starts_with(|c: char| c.is_alphabetic() || c == '_');
+    is_name && two[1] == "(" && !matches!(two[0], "range" | "in")
 }
 
 /// `= 10 ; i > 0 ; i -= 2`.

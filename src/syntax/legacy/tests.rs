@@ -104,8 +104,9 @@ fn old_words_become_todays() {
     let fixed = |old: &str| {
         let text = format!("{BEFORE}{old}");
         let (_, told) = compiled(&text);
-        apply(&text, told.iter().filter(|one| one.code == Code::LegacyForm)).0[BEFORE.len()..]
-            .to_owned()
+        // What is no word any more is an error, with the same fix.
+        let old = |one: &&Diagnostic| matches!(one.code, Code::LegacyForm | Code::UnknownWord);
+        apply(&text, told.iter().filter(old)).0[BEFORE.len()..].to_owned()
     };
     assert_eq!(fixed("composite { sphere { 0, 1 } }"), "union { sphere { 0, 1 } }");
     assert_eq!(fixed("blob { component 1, 2, <0, 1, 2> }"), "blob { sphere { <0, 1, 2>, 2, 1 } }");
