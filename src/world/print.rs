@@ -7,13 +7,14 @@ use std::fmt::{self, Write};
 
 use super::{
     Attenuation, Beam, CameraKind, Fade, Finish, LightKind, LobeKind, Object, Origins, Pigment,
-    World,
+    Whole, World,
 };
 use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
 use crate::pattern::Pattern;
 use crate::shape::body::Local;
+use crate::shape::csg::Node;
 use crate::shape::{Box_, Shape};
 use crate::source::{Site, Sources};
 
@@ -51,6 +52,13 @@ impl Printer<'_> {
         writeln!(out, "objects {}", self.world.objects.len())?;
         for (i, object) in self.world.objects.iter().enumerate() {
             self.object(out, i, object)?;
+        }
+        if !self.world.wholes.is_empty() {
+            writeln!(out, "wholes {}", self.world.wholes.len())?;
+            for (i, whole) in self.world.wholes.iter().enumerate() {
+                write!(out, "  {i}")?;
+                nodes(out, whole)?;
+            }
         }
         writeln!(out, "materials {}", self.world.materials.len())?;
         for (i, material) in self.world.materials.iter().enumerate() {
@@ -164,6 +172,9 @@ impl Printer<'_> {
         if object.inverse {
             write!(out, " inverse")?;
         }
+        if let Some(whole) = object.whole {
+            write!(out, " of whole {whole}")?;
+        }
         writeln!(out, "{}", self.at(self.origins.objects.get(i).copied()))?;
         out.push_str(&more);
         self.constants(out, object)
@@ -201,6 +212,26 @@ fn placement(out: &mut String, more: &mut String, placement: &Placement) -> fmt:
     write!(out, " centre {}", vector(placement.centre))?;
     writeln!(more, "      world_from_local {}", matrix(placement.world_from_local))?;
     writeln!(more, "      local_from_world {}", matrix(placement.local_from_world))
+}
+
+/// A whole's operations in postfix order, its leaves by their objects.
+fn nodes(out: &mut String, whole: &Whole) -> fmt::Result {
+    let mut leaves = whole.leaves();
+    for node in &whole.nodes {
+        match node {
+            Node::Leaf { inverse } => {
+                let outside = if *inverse { "outside of " } else { "" };
+                write!(out, " {outside}{},", leaves.next().unwrap_or_default())?;
+            }
+            Node::Union(count) => write!(out, " union of {count},")?,
+            Node::Merge(count) => write!(out, " merge of {count},")?,
+            Node::Intersection(count) => write!(out, " intersection of {count},")?,
+            Node::Clip { inverse: false } => write!(out, " the first clipped by the second,")?,
+            Node::Clip { inverse: true } => write!(out, " outside of such, clipped,")?,
+        }
+    }
+    out.pop();
+    writeln!(out)
 }
 
 /// A box as the seed describes it: for each of three faces N, C_f, d_f, C_o, d_o and l.

@@ -11,24 +11,27 @@ use super::super::{Evaluator, Reported};
 use super::Place;
 
 impl Evaluator<'_> {
-    /// `0,5` whose `5` stands at `span`: all of it, and how it is written.
+    /// `0,5`, or `0, 5`, whose `5` stands at `span`: all of it, and how it is written.
     pub(super) fn comma_before(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
         let fraction = digits(text.get(span.range())?)?;
-        let before = text.get(..span.start as usize)?.strip_suffix(',')?;
+        let before = text.get(..span.start as usize)?;
+        let blank = before.len() - before.trim_end_matches(' ').len();
+        let before = before[..before.len() - blank].strip_suffix(',')?;
         let whole = &before[before.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
         let (whole, lone) = (digits(whole)?, before.strip_suffix(whole)?);
         let begins = !lone.ends_with(|c: char| c.is_ascii_alphanumeric() || "_.,".contains(c));
-        let start = span.start - whole.len() as u32 - 1;
+        let start = lone.len() as u32;
         begins.then(|| (Span { start, ..span }, format!("{whole}.{fraction}")))
     }
 
     /// `0,5` whose `0` stands at `span`, likewise.
     pub(super) fn comma_after(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
-        let after = text.get(span.end as usize..)?.strip_prefix(',')?;
+        let behind = text.get(span.end as usize..)?.strip_prefix(',')?;
+        let after = behind.trim_start_matches(' ');
         let length = after.bytes().take_while(u8::is_ascii_digit).count() as u32;
-        let start = span.end + 1;
+        let start = span.end + 1 + (behind.len() - after.len()) as u32;
         self.comma_before(Span { start, end: start + length, ..span })
             .filter(|(whole, _)| whole.start == span.start)
     }

@@ -7,6 +7,7 @@ use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Here, Outcome};
+use super::part::Given;
 
 impl Evaluator<'_> {
     /// How to read the block of a solid; `None` for other words, and what is not built.
@@ -39,6 +40,12 @@ impl Evaluator<'_> {
             Dialect::Scene => Err(reported),
             Dialect::Pov => Ok(()),
         }
+    }
+
+    /// A point where bare numbers may follow that are none of its own.
+    fn point(&mut self, shape: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        let given = self.given(shape, wanted)?;
+        self.as_vector(given, wanted)
     }
 
     fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
@@ -95,8 +102,9 @@ impl Evaluator<'_> {
         if let Some(reported) = self.bare_points(2, 1) {
             return Err(reported);
         }
-        let base = self.vector_after(token, "a vector for the middle of the base");
-        let cap = self.vector_after(token, "a vector for the middle of the cap");
+        // `-1, 1, 1` is two points and a radius.
+        let base = self.point(token, "a vector for the middle of the base");
+        let cap = self.point(token, "a vector for the middle of the cap");
         let radius = self.number_after(token, "a number for the radius");
         let (base, cap, radius) = (base?, cap?, radius?);
         if base.value == cap.value {
