@@ -11,29 +11,33 @@ use super::super::{Evaluator, Reported};
 use super::Place;
 
 impl Evaluator<'_> {
-    /// `0,5`, or `0, 5`, whose `5` stands at `span`: all of it, and how it is written.
+    /// `0,5` whose `5` stands at `span`: all of it, and how it is written.
     pub(super) fn comma_before(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
-        let fraction = digits(text.get(span.range())?)?;
-        let before = text.get(..span.start as usize)?;
-        let blank = before.len() - before.trim_end_matches(' ').len();
-        let before = before[..before.len() - blank].strip_suffix(',')?;
-        let whole = &before[before.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
-        let (whole, lone) = (digits(whole)?, before.strip_suffix(whole)?);
-        let begins = !lone.ends_with(|c: char| c.is_ascii_alphanumeric() || "_.,".contains(c));
-        let start = lone.len() as u32;
-        begins.then(|| (Span { start, ..span }, format!("{whole}.{fraction}")))
+        self.decimal(span, text.get(..span.start as usize)?)
     }
 
-    /// `0,5` whose `0` stands at `span`, likewise.
+    /// `0,5`, or `0, 5` where nothing else can be meant, whose `0` stands at `span`, likewise.
     pub(super) fn comma_after(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
         let behind = text.get(span.end as usize..)?.strip_prefix(',')?;
         let after = behind.trim_start_matches(' ');
         let length = after.bytes().take_while(u8::is_ascii_digit).count() as u32;
         let start = span.end + 1 + (behind.len() - after.len()) as u32;
-        self.comma_before(Span { start, end: start + length, ..span })
+        let fraction = Span { start, end: start + length, ..span };
+        self.decimal(fraction, text.get(..span.end as usize + 1)?)
             .filter(|(whole, _)| whole.start == span.start)
+    }
+
+    /// The number whose fraction stands at `span`, after a comma that ends the text `before`.
+    fn decimal(&self, span: Span, before: &str) -> Option<(Span, String)> {
+        let fraction = digits(self.sources.text(span))?;
+        let before = before.strip_suffix(',')?;
+        let whole = &before[before.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
+        let (whole, lone) = (digits(whole)?, before.strip_suffix(whole)?);
+        let begins = !lone.ends_with(|c: char| c.is_ascii_alphanumeric() || "_.,".contains(c));
+        let start = lone.len() as u32;
+        begins.then(|| (Span { start, ..span }, format!("{whole}.{fraction}")))
     }
 
     /// `<0,5, 1,5, 2>`: the vector of three that is meant where a comma without a blank is a point.
