@@ -18,6 +18,7 @@ use crate::vocabulary::Word;
 
 use super::report::count;
 use super::scope::{MacroId, Owner, Slot, Symbol};
+use super::stream::{Token, TokenKind};
 use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
@@ -165,6 +166,35 @@ impl Evaluator<'_> {
         }
         let help = "the value stands alone in the body: `#macro Twice(N) 2*N #end`";
         self.report_in(expansion.parent, diagnostic.help(help))
+    }
+
+    /// `#declare A = Prepare() 3;`: what stands behind a macro that leaves no value is taken for it, as in
+    /// POV-Ray, be it the next object of the scene.
+    pub(super) fn lint_silent_macro(&mut self, target: Span) {
+        let first = match self.peek() {
+            Some(first)
+                if matches!(
+                    first.kind,
+                    TokenKind::Word(_) | TokenKind::Expression(_) | TokenKind::Literal(_)
+                ) =>
+            {
+                first.span
+            }
+            // No value: the macro is to blame for that.
+            Some(_) | None => return,
+        };
+        let called = self.silent.take().and_then(|silent| silent.called);
+        let Some(&expansion) = called.and_then(|called| self.scene.expansions.get(called)) else {
+            return;
+        };
+        let name = self.scene.expansions.name(&expansion).to_owned();
+        let of = self.sources.text(target);
+        let message = format!("macro `{name}` leaves no value, and `{of}` takes what comes next");
+        let diagnostic = Diagnostic::new(Code::SilentMacro, message)
+            .at(expansion.call, "nothing stands here after it has run")
+            .also(first, "this is taken")
+            .help("the value stands alone in the body: `#macro Twice(N) 2*N #end`");
+        self.report_in(expansion.parent, diagnostic);
     }
 
     /// Evaluates the arguments, then opens the macro's table with its parameters bound.
