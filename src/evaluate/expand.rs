@@ -18,7 +18,6 @@ use crate::vocabulary::Word;
 
 use super::report::count;
 use super::scope::{MacroId, Owner, Slot, Symbol};
-use super::stream::{Token, TokenKind};
 use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
@@ -145,56 +144,6 @@ impl Evaluator<'_> {
         self.macro_depth -= 1;
         self.scopes.close();
         value
-    }
-
-    /// A value is missing where a macro was called last that gave no item: says so.
-    pub(super) fn blame_macro(&mut self, wanted: &str) -> Option<Reported> {
-        let silent = self.silent.take()?;
-        Some(silent.called.map_or(Reported, |called| self.leaves_no_value(called, wanted)))
-    }
-
-    /// A macro was called for a value and has run to its end without an item.
-    fn leaves_no_value(&mut self, called: ExpansionId, wanted: &str) -> Reported {
-        let Some(&expansion) = self.scene.expansions.get(called) else { return Reported };
-        let name = self.scene.expansions.name(&expansion).to_owned();
-        let message = format!("expected {wanted}, and macro `{name}` leaves none");
-        let mut diagnostic = Diagnostic::new(Code::MissingPart, message)
-            .at(expansion.call, "nothing stands here after it has run");
-        let symbol = self.scopes.symbol(&name);
-        if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
-            diagnostic = diagnostic.also(declared.site.span, "defined here");
-        }
-        let help = "the value stands alone in the body: `#macro Twice(N) 2*N #end`";
-        self.report_in(expansion.parent, diagnostic.help(help))
-    }
-
-    /// `#declare A = Prepare() 3;`: what stands behind a macro that leaves no value is taken for it, as in
-    /// POV-Ray, be it the next object of the scene.
-    pub(super) fn lint_silent_macro(&mut self, target: Span) {
-        let first = match self.peek() {
-            Some(first)
-                if matches!(
-                    first.kind,
-                    TokenKind::Word(_) | TokenKind::Expression(_) | TokenKind::Literal(_)
-                ) =>
-            {
-                first.span
-            }
-            // No value: the macro is to blame for that.
-            Some(_) | None => return,
-        };
-        let called = self.silent.take().and_then(|silent| silent.called);
-        let Some(&expansion) = called.and_then(|called| self.scene.expansions.get(called)) else {
-            return;
-        };
-        let name = self.scene.expansions.name(&expansion).to_owned();
-        let of = self.sources.text(target);
-        let message = format!("macro `{name}` leaves no value, and `{of}` takes what comes next");
-        let diagnostic = Diagnostic::new(Code::SilentMacro, message)
-            .at(expansion.call, "nothing stands here after it has run")
-            .also(first, "this is taken")
-            .help("the value stands alone in the body: `#macro Twice(N) 2*N #end`");
-        self.report_in(expansion.parent, diagnostic);
     }
 
     /// Evaluates the arguments, then opens the macro's table with its parameters bound.

@@ -24,6 +24,7 @@ mod probe;
 mod remembered;
 mod report;
 mod scope;
+mod silent;
 mod spline;
 mod stream;
 #[cfg(test)]
