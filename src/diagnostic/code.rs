@@ -141,6 +141,7 @@ codes! {
     AuthorError "author-error" error "the scene's own `#error`";
     AuthorWarning "author-warning" warning "the scene's own `#warning`";
     AuthorDebug "author-debug" note "the scene's own `#debug`";
+    SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
     OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
 }
 

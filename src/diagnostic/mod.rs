@@ -124,6 +124,11 @@ impl Diagnostic {
     pub fn primary(&self) -> Option<&Label> {
         self.labels.iter().find(|label| label.primary)
     }
+
+    /// What two messages share that may be one.
+    fn place(&self) -> (Code, Option<Span>) {
+        (self.code, self.primary().map(|label| label.span))
+    }
 }
 
 impl TraceStep {
@@ -136,10 +141,17 @@ impl TraceStep {
     }
 }
 
+/// How many messages of one code are kept at one place: what loops say there differs in its numbers only.
+const MOST_AT_A_PLACE: usize = 16;
+/// How many of what the author's own `#warning` has said at its place a new one is compared with.
+const MOST_COMPARED: usize = 256;
+
 /// The sink every verb reports to. The same message at the same place is kept once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// Where in the list the messages of a code at a place are, in rising order; notes are not there.
+    kept: HashMap<(Code, Option<Span>), Vec<usize>>,
     levels: Levels,
     allowances: Vec<Allowance>,
 }
@@ -152,7 +164,7 @@ impl Diagnostics {
 
     /// A sink that drops lints, keeps them or makes errors of them, each as it is said.
     pub fn with_levels(levels: Levels) -> Self {
-        Self { list: Vec::new(), levels, allowances: Vec::new() }
+        Self { levels, ..Self::default() }
     }
 
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
@@ -161,26 +173,57 @@ impl Diagnostics {
             diagnostic.severity = severity;
         }
         diagnostic.shorten();
-        // Loop turns and repeated calls say the same thing again: once is enough.
-        let same = |other: &Diagnostic| {
-            other.code == diagnostic.code
-                && other.message == diagnostic.message
-                && other.primary().map(|l| l.span) == diagnostic.primary().map(|l| l.span)
-        };
-        if diagnostic.severity == Severity::Note || !self.list.iter().rev().take(256).any(same) {
-            self.list.push(diagnostic);
+        if self.takes(&diagnostic) {
+            self.keep(diagnostic);
         }
+    }
+
+    /// Whether a message would be kept. Loop turns and repeated calls say the same thing again, and once is
+    /// enough: what is said again need not be worked out.
+    pub fn takes(&self, diagnostic: &Diagnostic) -> bool {
+        if self.levels.of(diagnostic.code) == Some(Level::Allow) {
+            return false;
+        }
+        let Some(kept) = self.kept.get(&diagnostic.place()) else { return true };
+        let own = diagnostic.code == Code::AuthorWarning || diagnostic.primary().is_none();
+        if !own && kept.len() >= MOST_AT_A_PLACE {
+            return false;
+        }
+        let message = diagnostic.short_message();
+        let mut latest = kept.iter().rev().take(MOST_COMPARED);
+        !latest.any(|&at| self.list[at].message == message)
+    }
+
+    fn keep(&mut self, diagnostic: Diagnostic) {
+        if diagnostic.severity != Severity::Note {
+            self.kept.entry(diagnostic.place()).or_default().push(self.list.len());
+        }
+        self.list.push(diagnostic);
+    }
+
+    /// Takes the messages after the first `len` out.
+    fn cut(&mut self, len: usize) -> Vec<Diagnostic> {
+        let later = self.list.split_off(len.min(self.list.len()));
+        for one in &later {
+            if let Some(kept) = self.kept.get_mut(&one.place()) {
+                while kept.last().is_some_and(|at| *at >= len) {
+                    kept.pop();
+                }
+            }
+        }
+        later
     }
 
     /// Takes back what was said after the first `len` messages: it was about code that does not count.
     pub fn forget_after(&mut self, len: usize) {
-        self.list.truncate(len);
+        self.cut(len);
     }
 
     /// Keeps, of the messages after the first `len`, those that `keep` says yes to.
     pub fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
-        let later = self.list.split_off(len);
-        self.list.extend(later.into_iter().filter(keep));
+        for one in self.cut(len).into_iter().filter(keep) {
+            self.keep(one);
+        }
     }
 
     /// Lints that a comment allows: those that are told already stay.
@@ -196,9 +239,11 @@ impl Diagnostics {
 
     /// Drops, of the messages after the first `len`, those that a comment allows.
     pub fn drop_allowed_after(&mut self, len: usize) {
-        let later = self.list.split_off(len);
-        let told = |one: &Diagnostic| !self.allowances.iter().any(|allowed| allowed.silences(one));
-        self.list.extend(later.into_iter().filter(told));
+        for one in self.cut(len) {
+            if !self.allowances.iter().any(|allowed| allowed.silences(&one)) {
+                self.keep(one);
+            }
+        }
     }
 
     /// Whether anything is certainly wrong; a denied warning is an error only to who denied it.

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** a sentence of ours passes unchanged; so does what the author's `#debug` and its kin say.
 
+use std::borrow::Cow;
+
 use super::{Code, Diagnostic};
 
 /// The most characters of one quoted piece, and of what stands without a blank.
@@ -13,7 +15,7 @@ const END: usize = 40;
 impl Diagnostic {
     /// Cuts quoted pieces in its sentences; what a fix writes stays whole.
     pub(super) fn shorten(&mut self) {
-        if matches!(self.code, Code::AuthorDebug | Code::AuthorWarning | Code::AuthorError) {
+        if self.is_the_authors() {
             return;
         }
         let labels = self.labels.iter_mut().map(|label| &mut label.text);
@@ -24,6 +26,18 @@ impl Diagnostic {
                 *text = shortened(text);
             }
         }
+    }
+
+    /// The message as [`Self::shorten`] leaves it.
+    pub(super) fn short_message(&self) -> Cow<'_, str> {
+        match self.message.len() > LONGEST && !self.is_the_authors() {
+            true => Cow::Owned(shortened(&self.message)),
+            false => Cow::Borrowed(&self.message),
+        }
+    }
+
+    fn is_the_authors(&self) -> bool {
+        matches!(self.code, Code::AuthorDebug | Code::AuthorWarning | Code::AuthorError)
     }
 }
 

@@ -3,6 +3,12 @@
 //! **Invariant:** a suggestion is made only when it is likely right, and does not depend on the order
 //! of the candidates.
 
+#[cfg(test)]
+thread_local! {
+    /// How often this thread has looked for a closest word.
+    pub static SEARCHES: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
 /// The candidate that `word` was most likely meant to be.
 ///
 /// The same letters in another case come first; then the least optimal-string-alignment distance
@@ -10,6 +16,8 @@
 /// bound that grows with the word: 1 for three letters, 2 from six, 3 from ten. Shorter and very
 /// long words are only matched case-blind.
 pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    #[cfg(test)]
+    SEARCHES.with(|searches| searches.set(searches.get() + 1));
     let lower = word.to_lowercase();
     let (count, set) = letters(&lower);
     let bound = match count {

@@ -248,12 +248,16 @@ impl Evaluator<'_> {
         let (outer_poison, outer_hold) = (self.poison.take(), self.hold.take());
         let own = self.frames.len();
         self.declaring += 1;
-        let value = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || match self.next() {
-            Some(first) => {
-                self.hold = Some(Hold { own, first: self.frames.len() });
-                self.value_of(&first)
+        let value = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || {
+            self.silent = None;
+            self.lint_silent_macro(target.span);
+            match self.next() {
+                Some(first) => {
+                    self.hold = Some(Hold { own, first: self.frames.len() });
+                    self.value_of(&first)
+                }
+                None => Err(self.expected("a value", None, (here, target.span.after()))),
             }
-            None => Err(self.expected("a value", None, (here, target.span.after()))),
         });
         if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();

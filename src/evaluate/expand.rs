@@ -146,27 +146,6 @@ impl Evaluator<'_> {
         value
     }
 
-    /// A value is missing where a macro was called last that gave no item: says so.
-    pub(super) fn blame_macro(&mut self, wanted: &str) -> Option<Reported> {
-        let silent = self.silent.take()?;
-        Some(silent.called.map_or(Reported, |called| self.leaves_no_value(called, wanted)))
-    }
-
-    /// A macro was called for a value and has run to its end without an item.
-    fn leaves_no_value(&mut self, called: ExpansionId, wanted: &str) -> Reported {
-        let Some(&expansion) = self.scene.expansions.get(called) else { return Reported };
-        let name = self.scene.expansions.name(&expansion).to_owned();
-        let message = format!("expected {wanted}, and macro `{name}` leaves none");
-        let mut diagnostic = Diagnostic::new(Code::MissingPart, message)
-            .at(expansion.call, "nothing stands here after it has run");
-        let symbol = self.scopes.symbol(&name);
-        if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
-            diagnostic = diagnostic.also(declared.site.span, "defined here");
-        }
-        let help = "the value stands alone in the body: `#macro Twice(N) 2*N #end`";
-        self.report_in(expansion.parent, diagnostic.help(help))
-    }
-
     /// Evaluates the arguments, then opens the macro's table with its parameters bound.
     fn enter_macro(
         &mut self,

@@ -25,14 +25,14 @@ impl Evaluator<'_> {
                 None => {
                     self.lacks_include = true;
                     let name = self.sources.text(span).lines().next().unwrap_or("");
-                    self.unread.push(name.trim_matches(['"', ' ']).to_owned());
+                    self.unread.insert(name.trim_matches(['"', ' ']).to_owned());
                     return Err(Reported);
                 }
             },
             _ => match self.bare_path(span) {
                 Some(path) => {
                     self.lacks_include = true;
-                    self.unread.push(path.clone());
+                    self.unread.insert(path.clone());
                     let quoted = format!("\"{path}\"");
                     let diagnostic =
                         Diagnostic::new(Code::WrongType, "the name of a file stands in quotes")
@@ -52,6 +52,12 @@ impl Evaluator<'_> {
         let (path, unit) = match known.and_then(|path| self.parsed.get_key_value(path)) {
             Some((path, unit)) => (path.clone(), unit.clone()),
             None => {
+                if let Some((missing, told)) = self.remembered.missing.get(&span)
+                    && *missing == name
+                {
+                    let told = told.clone();
+                    return Err(self.report_again(here, &told));
+                }
                 let found = match self.files.read(&name, &from).or_else(embedded(&name)) {
                     Ok(found) => found,
                     Err(_) if self.unwritten.contains(&name) => {
@@ -73,8 +79,10 @@ impl Evaluator<'_> {
                             diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
                         };
                         self.lacks_include = true;
-                        self.unread.push(name);
-                        return Err(self.report(here, diagnostic));
+                        self.unread.insert(name.clone());
+                        let told = Rc::new(diagnostic);
+                        self.remembered.missing.insert(span, (name, told.clone()));
+                        return Err(self.report_again(here, &told));
                     }
                 };
                 self.found.insert((name.clone(), head.file), found.name.clone());

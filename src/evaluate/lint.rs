@@ -33,13 +33,16 @@ impl Evaluator<'_> {
     pub(super) fn lint_declarations(&mut self, main: &Unit) {
         let mut unused: Vec<(String, Site, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
+            if declared.used {
+                continue;
+            }
             let theirs = match declared.of {
                 Owner::Main => true,
                 // A branch that was not run may use it, or a macro that this one calls.
                 Owner::Macro => self.is_only_declared(name, main),
                 Owner::Other => false,
             };
-            if declared.used || !theirs || name.starts_with('_') {
+            if !theirs || name.starts_with('_') {
                 continue;
             }
             // A word of the language cannot be declared; that has been told.

@@ -21,8 +21,10 @@ mod function;
 mod include;
 mod lint;
 mod probe;
+mod remembered;
 mod report;
 mod scope;
+mod silent;
 mod spline;
 mod stream;
 #[cfg(test)]
@@ -50,6 +52,7 @@ use crate::vocabulary::PREDECLARED;
 use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
+use remembered::Remembered;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Hold, Silent, Token};
 use value::{Poison, Value};
@@ -259,7 +262,7 @@ struct Evaluator<'a> {
     /// The standard includes of which it was told that an included file takes them for granted.
     lacking: BTreeSet<String>,
     /// The names of such includes, as they were written.
-    unread: Vec<String>,
+    unread: BTreeSet<String>,
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
@@ -279,6 +282,8 @@ struct Evaluator<'a> {
     misread: bool,
     /// How often something was reported, repetitions included.
     reports: u64,
+    /// What messages were made of, by their places.
+    remembered: Remembered,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
     /// All of each of these blocks, from brace to brace.
@@ -371,7 +376,7 @@ impl<'a> Evaluator<'a> {
             beside: BTreeMap::new(),
             lacks_include: false,
             lacking: BTreeSet::new(),
-            unread: Vec::new(),
+            unread: BTreeSet::new(),
             missing_at: None,
             bounds: Vec::new(),
             halted: false,
@@ -382,6 +387,7 @@ impl<'a> Evaluator<'a> {
             turns: 0,
             misread: false,
             reports: 0,
+            remembered: Remembered::default(),
             openers: Vec::new(),
             blocks: Vec::new(),
             in_radians: HashMap::new(),

@@ -25,8 +25,8 @@ impl Evaluator<'_> {
         expansion: ExpansionId,
         mut diagnostic: Diagnostic,
     ) -> Reported {
-        if self.halted {
-            // What is missing now is missing because nothing more is read.
+        // After a limit, what is missing is missing because nothing more is read.
+        if self.repeats(&diagnostic) {
             return Reported;
         }
         if let Some(span) = diagnostic.primary().map(|label| label.span) {
@@ -139,6 +139,9 @@ impl Evaluator<'_> {
             format!("{} not supported yet", what_is_not_built(poison.word)),
         )
         .at(poison.site.span, "the language has it, this version does not build it");
+        if self.repeats(&diagnostic) {
+            return Reported;
+        }
         let beside = match poison.word.is_built() || poison.word.family() == Family::Directive {
             true => Vec::new(),
             false => built_beside(poison.word),

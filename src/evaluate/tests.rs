@@ -56,6 +56,7 @@ mod file;
 mod internal;
 mod made;
 mod promotion;
+mod told;
 
 facts! {
     an_element_of_an_array_is_an_operand_like_any_other:

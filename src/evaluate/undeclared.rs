@@ -4,6 +4,10 @@
 //! one that a standard include declares under just this name, then a close one of the author's, then a
 //! word of the language.
 
+use std::collections::HashSet;
+use std::rc::Rc;
+use std::sync::LazyLock;
+
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionKind, FileId, Span};
 use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
@@ -31,21 +35,45 @@ impl Evaluator<'_> {
             self.skip_behind(span);
             return reported;
         }
+        let told = match self.remembered.undeclared.get(&(span, symbol)) {
+            Some(told) => told.clone(),
+            None => {
+                let told = self.not_declared(here, symbol, &name, span, fits).map(Rc::new);
+                self.remembered.undeclared.insert((span, symbol), told.clone());
+                told
+            }
+        };
+        if let Some(told) = told {
+            self.report_again(here, &told);
+        }
+        // Known from now on, so that it is said once.
+        self.scopes.assign(symbol, Value::Broken);
+        Reported
+    }
+
+    /// `None` where it may be the lack of an include, which was told.
+    fn not_declared(
+        &mut self,
+        here: &Here,
+        symbol: Symbol,
+        name: &str,
+        span: Span,
+        fits: impl Fn(Word) -> bool,
+    ) -> Option<Diagnostic> {
         let mut diagnostic =
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
         let rest = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
         let is_called = rest.trim_start().starts_with('(');
-        let standard = self.lacking_include(&name);
+        let standard = self.lacking_include(name);
         // What the files that the main file includes lack of another one is one mistake.
         if let Some(include) = &standard
             && span.file != MAIN
             && !self.lacking.insert(include.clone())
         {
-            self.scopes.assign(symbol, Value::Broken);
-            return Reported;
+            return None;
         }
-        let close = suggest::closest(&name, self.scopes.visible())
-            .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(&name))
+        let close = suggest::closest(name, self.scopes.visible())
+            .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
             .map(str::to_owned);
         if let Some(include) = standard.as_deref()
             && self
@@ -54,8 +82,7 @@ impl Evaluator<'_> {
                 .any(|unread| unread == include || suggest::closest(unread, [include]).is_some())
         {
             // The include that was not read would have declared it.
-            self.scopes.assign(symbol, Value::Broken);
-            return Reported;
+            return None;
         }
         let later = here.unit.declaration_of(symbol);
         let was = self.scopes.declared(symbol).copied();
@@ -72,7 +99,7 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, "declared only here: move it up");
-        } else if let Some(call) = self.call_elsewhere(&name, span, close.as_deref()) {
+        } else if let Some(call) = self.call_elsewhere(name, span, close.as_deref()) {
             diagnostic =
                 diagnostic.at(span, "not declared, and not a word of the language").help(call.help);
             diagnostic = call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by));
@@ -80,7 +107,7 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`?"));
-            if !suggest::are_of_a_series(&name, &close) {
+            if !suggest::are_of_a_series(name, &close) {
                 diagnostic = diagnostic.fix(span, close.clone());
             }
             if let Some(declared) = self.scopes.symbol(&close).and_then(|s| self.scopes.declared(s))
@@ -93,19 +120,19 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .help(format!("`{name}` comes with `#include \"{include}\"`"));
             diagnostic = self.include_before(here, diagnostic, &include);
-        } else if let Some((close, later)) = here.unit.similar_declaration(&name) {
+        } else if let Some((close, later)) = here.unit.similar_declaration(name) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
-        } else if is_no_number(&name) {
+        } else if is_no_number(name) {
             diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
                 .at(span, "the program that wrote this had no number here");
-        } else if let Some((close, include)) = self.lacking_near(&name) {
+        } else if let Some((close, include)) = self.lacking_near(name) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
-        } else if let Some(word) = word_like(&name, |word| {
+        } else if let Some(word) = word_like(name, |word| {
             // A function without its arguments is rarely meant.
             fits(word) && (is_called || !matches!(word.role(), Role::Function { .. }))
         }) {
@@ -115,15 +142,11 @@ impl Evaluator<'_> {
                 .fix(span, word);
         } else if self.lacks_include {
             // It may stand in the include that was not found.
-            self.scopes.assign(symbol, Value::Broken);
-            return Reported;
+            return None;
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
         }
-        let reported = self.report(here, diagnostic);
-        // Known from now on, so that it is said once.
-        self.scopes.assign(symbol, Value::Broken);
-        reported
+        Some(diagnostic)
     }
 
     /// The standard include that declares `name`, where it was not read.
@@ -247,5 +270,8 @@ pub(super) fn is_likely(name: &str, word: &str) -> bool {
 }
 
 pub(super) fn is_built(name: &str) -> bool {
-    Word::ALL.iter().any(|word| word.name() == name && word.is_built())
+    static BUILT: LazyLock<HashSet<&str>> = LazyLock::new(|| {
+        Word::ALL.iter().filter(|word| word.is_built()).map(|word| word.name()).collect()
+    });
+    BUILT.contains(name)
 }

@@ -74,6 +74,13 @@ impl<'a> Nest<'a> {
                 };
                 self.operand(kind, whole, false);
             }
+            FrameKind::Index(of) if self.is_entry(frame.items) => {
+                let entry = self.take_items(frame.items);
+                self.stacks.operands.push(of);
+                self.top().state = State::Holding { indexable: false };
+                self.finish_expression();
+                self.items.push(Item { kind: ItemKind::Entry(entry), span: whole });
+            }
             FrameKind::Index(of) => {
                 let index = self.one_expression(frame.items, span, "an index");
                 let whole = self.ast.expression(of).span.to(span);
@@ -99,6 +106,16 @@ impl<'a> Nest<'a> {
             }
             FrameKind::File | FrameKind::Vector | FrameKind::Head(_) | FrameKind::Body(_) => {}
         }
+    }
+
+    /// Whether the brackets behind a name hold an entry of a map, as in `color_map { Tints [1 rgb 1] }`, and
+    /// no index: the pending items from `base` on are more than one, and stand where entries do.
+    fn is_entry(&mut self, base: usize) -> bool {
+        let in_map = self.top().block.is_some_and(|word| word.name().ends_with("_map"));
+        let begins_value = |item: &Item| matches!(item.kind, ItemKind::Word(_));
+        self.items.len() > base + 1
+            && (in_map || self.items[base..].iter().any(begins_value))
+            && self.lists_items()
     }
 
     /// A brace that pairs only after expansion: an item of its own.

@@ -42,6 +42,7 @@ pub(in crate::evaluate) use object::Made;
 pub(in crate::evaluate) use part::Given;
 pub use pieces::WrittenMap;
 pub(in crate::evaluate) use place::Place;
+pub(in crate::evaluate) use unknown::Unknown;
 
 impl Evaluator<'_> {
     /// The items of the scene itself.

@@ -5,6 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Role, Word};
 
+use super::super::remembered::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
@@ -66,7 +67,8 @@ impl Evaluator<'_> {
                                 let text = self.sources.text(span).to_owned();
                                 // `translate(…)`, as other languages write it, or a macro.
                                 let words = place.words(self.options.dialect);
-                                let near = suggest::closest(&text, words);
+                                let near =
+                                    self.near(span, Asked::Call, || suggest::closest(&text, words));
                                 match near.filter(|near| is_built(near)) {
                                     Some(_) => self.unknown_word(token, span, place),
                                     None => drop(self.undeclared(&token.here, symbol, span)),

@@ -2,11 +2,14 @@
 //!
 //! **Invariant:** it is one mistake: what belongs to it is passed over, and what only follows it is not.
 
+use std::rc::Rc;
+
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
+use super::super::remembered::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
 use super::super::{Evaluator, Outcome, Reported, Symbol};
@@ -17,12 +20,64 @@ use super::{Place, opens_value};
 impl Evaluator<'_> {
     /// A name that is no word of the language and was never declared, where a word should stand.
     pub(super) fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
+        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let at = (span, place.word, has_block);
+        let unknown = match self.remembered.unknown.get(&at) {
+            Some(unknown) => unknown.clone(),
+            None => {
+                let unknown = Rc::new(self.taken_for(token, span, place, has_block));
+                self.remembered.unknown.insert(at, unknown.clone());
+                unknown
+            }
+        };
+        match &*unknown {
+            Unknown::Color(told) => {
+                self.report_again(&token.here, told);
+                self.skip_values();
+            }
+            Unknown::Name(symbol) => drop(self.undeclared(&token.here, *symbol, span)),
+            Unknown::Directive(told) => self.foreign_directive(token, told, span),
+            Unknown::Included => self.skip_values(),
+            Unknown::Word { told, near } => {
+                self.report_again(&token.here, told);
+                self.skip_unknown(token, *near, has_block, place);
+            }
+        }
+    }
+
+    /// Passes over what belongs to an unknown word that was rather meant as `near`.
+    fn skip_unknown(
+        &mut self,
+        token: &Token,
+        near: Option<&'static str>,
+        has_block: bool,
+        place: Place,
+    ) {
+        let meant = near.filter(|_| has_block).and_then(Word::from_name);
+        if let Some(word) = meant
+            && self.judge_block(token, word)
+        {
+            return;
+        }
+        self.skip_values();
+        if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
+            self.skip_color(token);
+        }
+        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
+            // What is inside belongs to a word that is not known: run, but not judged.
+            let before = self.diagnostics.len();
+            if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
+                self.inside_block(&here, contents, span, Self::run_items);
+            }
+            self.diagnostics.forget_after(before);
+        }
+    }
+
+    fn taken_for(&self, token: &Token, span: Span, place: Place, has_block: bool) -> Unknown {
         let name = self.sources.text(span).to_owned();
         if let Some(diagnostic) = self.alpha_color(&name, span) {
-            self.report(&token.here, diagnostic);
-            return self.skip_values();
+            return Unknown::Color(diagnostic);
         }
-        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
         // A word that another tool has is meant as there, whatever it resembles.
@@ -33,8 +88,7 @@ impl Evaluator<'_> {
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)
         {
-            self.undeclared(&token.here, symbol, span);
-            return;
+            return Unknown::Name(symbol);
         }
         let elsewhere = |word: Word| {
             word.role() == Role::Statement
@@ -48,12 +102,13 @@ impl Evaluator<'_> {
             .filter(|word| has_block || is_built(word) || is_likely(&name, word))
             .or_else(|| word_like(&name, elsewhere))
             .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name));
-        if near.is_none() && self.foreign_directive(token, &name, span, place) {
-            return;
+        if near.is_none()
+            && let Some(diagnostic) = told_directive(&name, span, place)
+        {
+            return Unknown::Directive(diagnostic);
         }
         if near.is_none() && self.lacks_include && !has_block {
-            self.skip_values();
-            return;
+            return Unknown::Included;
         }
         let is_foreign = near.is_some_and(|near| suggest::foreign(&name).any(|word| word == near))
             && suggest::closest(&name, near).is_none();
@@ -84,25 +139,7 @@ impl Evaluator<'_> {
                 (None, None) => diagnostic.at(span, UNKNOWN),
             },
         };
-        self.report(&token.here, diagnostic);
-        let meant = near.filter(|_| has_block).and_then(Word::from_name);
-        if let Some(word) = meant
-            && self.judge_block(token, word)
-        {
-            return;
-        }
-        self.skip_values();
-        if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
-            self.skip_color(token);
-        }
-        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
-            // What is inside belongs to a word that is not known: run, but not judged.
-            let before = self.diagnostics.len();
-            if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
-                self.inside_block(&here, contents, span, Self::run_items);
-            }
-            self.diagnostics.forget_after(before);
-        }
+        Unknown::Word { told: diagnostic, near }
     }
 
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
@@ -127,7 +164,7 @@ impl Evaluator<'_> {
 
     /// Whether a name that may be meant as the word `here` is rather meant as a declared one.
     fn is_rather_a_name(
-        &mut self,
+        &self,
         token: &Token,
         name: &str,
         symbol: Symbol,
@@ -148,17 +185,9 @@ impl Evaluator<'_> {
             || (here.is_none() && self.scopes.declared(symbol).is_some())
     }
 
-    /// `use <a.scad>`, `import "a"`, `module A() { … }`: a directive, as another language writes it.
-    fn foreign_directive(&mut self, token: &Token, name: &str, span: Span, place: Place) -> bool {
-        let is_directive = |ours: &&str| {
-            Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive)
-        };
-        let Some(ours) = suggest::foreign(name).find(is_directive) else { return false };
-        let message = format!("`{name}` is not a word {}", place.name());
-        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
-            .at(span, format!("did you mean `#{ours}`?"))
-            .help(Word::from_name(ours).map_or("", Word::sentence));
-        self.report(&token.here, diagnostic);
+    /// `use <a.scad>`, `import "a"`, `module A() { … }`: all of its line, or up to its block.
+    fn foreign_directive(&mut self, token: &Token, told: &Diagnostic, span: Span) {
+        self.report_again(&token.here, told);
         let before = self.diagnostics.len();
         let line = |evaluator: &Self, span: Span| {
             evaluator.sources.get(span.file).position(span.start as usize).line
@@ -182,7 +211,6 @@ impl Evaluator<'_> {
             }
         }
         self.diagnostics.forget_after(before);
-        true
     }
 
     /// `colr rgb 1` where a colour should stand, or `intensity 2`.
@@ -207,7 +235,9 @@ impl Evaluator<'_> {
             self.skip_values();
             return Some(reported);
         }
-        let near = word_like(&name, |word| word.family() == Family::Color)?;
+        let near = self.near(token.span, Asked::Color, || {
+            word_like(&name, |word| word.family() == Family::Color)
+        })?;
         // Without a value behind it, it is rather the name of a colour.
         let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
         let has_value =
@@ -244,7 +274,7 @@ impl Evaluator<'_> {
         let message = format!("`{name}` is not a word that begins a value");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message);
         // Before a block a capital does not make it one of the author's names.
-        let near = word_like(&name.to_lowercase(), opens);
+        let near = self.near(token.span, Asked::Block, || word_like(&name.to_lowercase(), opens));
         let diagnostic = match near {
             Some(near) => meant(diagnostic, token.span, near),
             None => diagnostic.at(token.span, UNKNOWN),
@@ -262,6 +292,35 @@ impl Evaluator<'_> {
         self.diagnostics.forget_after(before);
         Some(reported)
     }
+}
+
+/// What an unknown word is taken for.
+#[derive(Debug)]
+pub(in crate::evaluate) enum Unknown {
+    /// A colour of another tool.
+    Color(Diagnostic),
+    /// A name that is not declared.
+    Name(Symbol),
+    /// A directive of another language.
+    Directive(Diagnostic),
+    /// It may stand in the include that was not found, which was told.
+    Included,
+    Word {
+        told: Diagnostic,
+        near: Option<&'static str>,
+    },
+}
+
+/// What to say of a directive as another language writes it.
+fn told_directive(name: &str, span: Span, place: Place) -> Option<Diagnostic> {
+    let is_directive =
+        |ours: &&str| Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive);
+    let ours = suggest::foreign(name).find(is_directive)?;
+    let message = format!("`{name}` is not a word {}", place.name());
+    let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+        .at(span, format!("did you mean `#{ours}`?"))
+        .help(Word::from_name(ours).map_or("", Word::sentence));
+    Some(diagnostic)
 }
 
 const UNKNOWN: &str = "neither a word of the language nor a declared name";

@@ -1,5 +1,7 @@
 //! `#fopen`: what a name has to be, and whether its file can be had.
 
+use std::rc::Rc;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span, WriteError, decode};
 use crate::syntax::ast::{ExpressionId, ExpressionKind, NameId};
@@ -82,13 +84,20 @@ impl Evaluator<'_> {
     }
 
     fn state_to_read(&mut self, here: &Here, path: &str, span: Span) -> Outcome<State> {
+        if let Some((missing, told)) = self.remembered.missing.get(&span)
+            && missing == path
+        {
+            let told = told.clone();
+            return Err(self.report_again(here, &told));
+        }
         let from = self.sources.get(span.file).name.clone();
         let found = match self.files.read(path, &from) {
             Ok(found) => found,
             Err(_) if self.unwritten.contains(path) => return Err(Reported),
             Err(error) => {
-                let diagnostic = missing_file(path, span, error);
-                return Err(self.report(here, diagnostic));
+                let told = Rc::new(missing_file(path, span, error));
+                self.remembered.missing.insert(span, (path.to_owned(), told.clone()));
+                return Err(self.report_again(here, &told));
             }
         };
         let (text, _) = decode(found.bytes);
@@ -139,6 +148,7 @@ impl Evaluator<'_> {
         // What was read under this name is not what it holds from now on.
         self.parsed.remove(&name);
         self.found.retain(|(other, _), _| other != path);
+        self.remembered.missing.clear();
         Ok(State::Writing { name })
     }
 }

@@ -1,0 +1,61 @@
+//! A macro that was called for a value and leaves none.
+//!
+//! **Invariant:** it is said of the call, and not of what stands behind it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{ExpansionId, Span};
+
+use super::stream::TokenKind;
+use super::{Evaluator, Reported};
+
+impl Evaluator<'_> {
+    /// A value is missing where a macro was called last that gave no item: says so.
+    pub(super) fn blame_macro(&mut self, wanted: &str) -> Option<Reported> {
+        let silent = self.silent.take()?;
+        Some(silent.called.map_or(Reported, |called| self.leaves_no_value(called, wanted)))
+    }
+
+    /// A macro was called for a value and has run to its end without an item.
+    pub(super) fn leaves_no_value(&mut self, called: ExpansionId, wanted: &str) -> Reported {
+        let Some(&expansion) = self.scene.expansions.get(called) else { return Reported };
+        let name = self.scene.expansions.name(&expansion).to_owned();
+        let message = format!("expected {wanted}, and macro `{name}` leaves none");
+        let mut diagnostic = Diagnostic::new(Code::MissingPart, message)
+            .at(expansion.call, "nothing stands here after it has run");
+        let symbol = self.scopes.symbol(&name);
+        if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
+            diagnostic = diagnostic.also(declared.site.span, "defined here");
+        }
+        let help = "the value stands alone in the body: `#macro Twice(N) 2*N #end`";
+        self.report_in(expansion.parent, diagnostic.help(help))
+    }
+
+    /// `#declare A = Prepare() 3;`: what stands behind a macro that leaves no value is taken for it, as in
+    /// POV-Ray, be it the next object of the scene.
+    pub(super) fn lint_silent_macro(&mut self, target: Span) {
+        let first = match self.peek() {
+            Some(first)
+                if matches!(
+                    first.kind,
+                    TokenKind::Word(_) | TokenKind::Expression(_) | TokenKind::Literal(_)
+                ) =>
+            {
+                first.span
+            }
+            // No value: the macro is to blame for that.
+            Some(_) | None => return,
+        };
+        let called = self.silent.take().and_then(|silent| silent.called);
+        let Some(&expansion) = called.and_then(|called| self.scene.expansions.get(called)) else {
+            return;
+        };
+        let name = self.scene.expansions.name(&expansion).to_owned();
+        let of = self.sources.text(target);
+        let message = format!("macro `{name}` leaves no value, and `{of}` takes what comes next");
+        let diagnostic = Diagnostic::new(Code::SilentMacro, message)
+            .at(expansion.call, "nothing stands here after it has run")
+            .also(first, "this is taken")
+            .help("the value stands alone in the body: `#macro Twice(N) 2*N #end`");
+        self.report_in(expansion.parent, diagnostic);
+    }
+}
