@@ -91,11 +91,11 @@ fn trees_find_of_wholes_among_others_what_trying_every_part_finds() {
         let mut world = random_world(&mut random, [3, 10, 50][scene % 3], reach);
         for _ in 0..random.below(5) + 1 {
             let place = (random.point(reach), reach * random.size(-1.5, -0.3));
-            add_whole(&mut world, &mut random, place, 1 + scene % 6, true);
+            add_whole(&mut world, &mut random, place, 1 + scene % 4, true);
         }
         let geometry = Geometry::build(&world);
         trees += geometry.wholes.iter().filter(|whole| whole.tree.is_some()).count();
-        assert_tree_agrees(&world, &mut random, reach, tries_in(200));
+        assert_tree_agrees(&world, &mut random, reach, tries_in(1000));
         let ray = random_ray(&mut random, &world, reach);
         let hit = geometry.nearest(&ray);
         met +=
@@ -113,10 +113,10 @@ fn a_whole_is_entered_and_left_where_membership_changes() {
         let size = random.size(-6.0, 6.0);
         let mut world = empty();
         let centre = random.point(size);
-        add_whole(&mut world, &mut random, (centre, size), 1 + scene % 6, false);
+        add_whole(&mut world, &mut random, (centre, size), 1 + scene % 5, false);
         let geometry = Geometry::build(&world);
         let Some(whole) = geometry.wholes.first() else { continue };
-        for _ in 0..tries_in(100) {
+        for _ in 0..tries_in(500) {
             let ray = random_ray(&mut random, &world, size * 2.0);
             let kept: Vec<f64> =
                 geometry.events(whole, &ray).iter().map(|event| event.met.t).collect();
@@ -140,7 +140,7 @@ fn a_whole_is_entered_and_left_where_membership_changes() {
             }
         }
     }
-    assert!(ends > tries() / 20, "{ends}");
+    assert!(ends > tries() / 200, "{ends}");
 }
 
 /// A block with many balls taken out: a ray asks for those only that it may meet.
