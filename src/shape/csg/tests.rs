@@ -1,5 +1,10 @@
 use super::*;
-use crate::math::random::{Random, tries};
+use crate::math::random::{Random, tries_in};
+
+/// Of random trees.
+fn trees() -> usize {
+    tries_in(100)
+}
 
 const A: u32 = 0;
 const B: u32 = 1;
@@ -140,7 +145,7 @@ fn complement(nodes: &[Node]) -> Vec<Node> {
 fn a_whole_begins_and_ends_where_an_exact_evaluation_of_its_places_says() {
     let mut random = Random(81);
     let (mut ends, mut coincide) = (0, 0);
-    for _ in 0..tries() {
+    for _ in 0..trees() {
         let mut nodes = Vec::new();
         let kinds = [SOLIDS, SHEETS][random.below(2)];
         let leaves = random_tree(&mut random, 6, kinds, &mut nodes);
@@ -163,13 +168,13 @@ fn a_whole_begins_and_ends_where_an_exact_evaluation_of_its_places_says() {
             }
         }
     }
-    assert!(ends > tries() / 2 && coincide > tries(), "{ends} ends, {coincide} coincide");
+    assert!(ends > trees() / 2 && coincide > trees(), "{ends} ends, {coincide} coincide");
 }
 
 #[test]
 fn what_is_outside_has_the_same_surface_and_shares_nothing_with_what_is_inside() {
     let mut random = Random(82);
-    for _ in 0..tries() {
+    for _ in 0..trees() {
         let mut nodes = Vec::new();
         let leaves = random_tree(&mut random, 5, SOLIDS, &mut nodes);
         let events = random_events(&mut random, leaves);
@@ -192,7 +197,7 @@ fn what_is_outside_has_the_same_surface_and_shares_nothing_with_what_is_inside()
 fn how_three_solids_are_put_together_does_not_matter() {
     let mut random = Random(83);
     let mut some = 0;
-    for _ in 0..tries() {
+    for _ in 0..trees() {
         let three = [0; 3].map(|_| {
             let mut nodes = Vec::new();
             (random_tree(&mut random, 3, SOLIDS, &mut nodes), nodes)
@@ -210,7 +215,7 @@ fn how_three_solids_are_put_together_does_not_matter() {
             some += expected.len();
         }
     }
-    assert!(some > tries(), "{some}");
+    assert!(some > trees(), "{some}");
 }
 
 #[test]
