@@ -60,7 +60,7 @@ impl World {
         let Some(whole) = object.whole else { return self.contains(object, point) };
         let whole = &self.wholes[whole as usize];
         let leaf = |object: &Object| self.contains(object, point) != object.inverse;
-        csg::contains(&whole.nodes, &self.objects[whole.leaves()].iter().map(leaf).collect())
+        csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
     }
 
     /// Those of the objects that are no parts, and of each whole the first part.

@@ -34,5 +34,7 @@ mod sizes;
 mod trees;
 #[path = "hard/turns.rs"]
 mod turns;
+#[path = "hard/wholes.rs"]
+mod wholes;
 #[path = "hard/wide.rs"]
 mod wide;

@@ -52,7 +52,8 @@ impl Extent {
         stack.pop().unwrap_or(Self::NOWHERE)
     }
 
-    fn of_shape(world: &World, object: u32) -> Self {
+    /// Of an object by itself.
+    pub fn of_shape(world: &World, object: u32) -> Self {
         let bounds = match world.objects[object as usize].shape {
             Shape::Sphere(i) => Some(world.spheres[i as usize].bounds()),
             Shape::Plane(_) => None,

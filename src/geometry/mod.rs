@@ -207,7 +207,8 @@ impl Geometry {
         };
         let whole = &world.wholes[whole as usize];
         let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
-        let whole = Whole { nodes: whole.nodes.clone(), leaves };
+        let bounds = whole.leaves().map(|leaf| Extent::of_shape(world, leaf as u32).bounds());
+        let whole = Whole::new(whole, leaves, bounds.collect());
         let entry = Entry {
             solid: Solid::Whole(self.wholes.len() as u32),
             object: number,

@@ -1,3 +1,5 @@
+mod wholes;
+
 use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::placement::Placement;
@@ -92,7 +94,8 @@ fn without_tree(geometry: &Geometry) -> Geometry {
     let bounded = geometry.entries.len() - geometry.unbounded;
     let balls = vec![Ball::EVERYWHERE; bounded];
     let balls = balls.chunks(balls::LANES).map(Balls::new).collect();
-    Geometry { tree: None, balls, ..geometry.clone() }
+    let wholes = geometry.wholes.iter().map(Whole::without_tree).collect();
+    Geometry { tree: None, balls, wholes, ..geometry.clone() }
 }
 
 /// Rays from anywhere, from surfaces, along axes, at centres.

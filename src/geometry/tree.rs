@@ -134,6 +134,15 @@ impl Slanted {
 }
 
 impl Space {
+    /// A ray of the same line that starts before all of the tree.
+    pub fn before(&self, ray: &Ray) -> Ray {
+        let along = (ray.origin - self.origin).dot(ray.direction) * self.scale;
+        // Turned round where it goes away: so it is never moved far, and rounding moves it little.
+        let direction = if along > 0.0 { -ray.direction } else { ray.direction };
+        let back = if along.abs() < 4.0 { 8.0 / self.scale } else { 0.0 };
+        Ray { origin: ray.origin - direction * back, direction }
+    }
+
     /// Not under `t` in the tree's space.
     #[inline]
     fn limit(&self, t: f64) -> f32 {

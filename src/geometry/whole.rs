@@ -2,47 +2,93 @@
 //!
 //! **Invariant:** each leaf is crossed by its own kernel; what is not the whole's is left out.
 
-use smallvec::SmallVec;
+use std::ops::Range;
 
-use super::{Entry, Geometry, Hit, Solid};
+use super::tree::Tree;
+use super::work::Uncounted;
+use super::{Entry, Geometry, Hit, Solid, TREE_FROM, build};
 use crate::shape::body::{Crossings, Local, Met};
-use crate::shape::csg::{self, Event, Insides, Node};
-use crate::shape::{Chord, Crossing, Ray};
+use crate::shape::csg::{self, Event, Events};
+use crate::shape::{Bounds, Chord, Crossing, Ray};
+use crate::world;
 
 /// A solid made of others.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Whole {
-    pub nodes: Vec<Node>,
+    pub nodes: csg::Tree,
     /// In the order of the nodes.
     pub leaves: Vec<Entry>,
+    /// Those that every line may meet.
+    pub always: Vec<u32>,
+    /// The others, in the order in which the tree's leaves name them. Without a tree there are none.
+    pub tree: Option<(Tree, Vec<u32>)>,
 }
 
-/// The crossings with a whole.
-type Events = SmallVec<[Event; 16]>;
+impl Whole {
+    pub fn new(whole: &world::Whole, leaves: Vec<Entry>, bounds: Vec<Option<Bounds>>) -> Self {
+        let (mut always, mut bounded) = (Vec::new(), Vec::new());
+        for (leaf, bounds) in (0..).zip(bounds) {
+            match bounds {
+                Some(bounds) => bounded.push((leaf, bounds)),
+                None => always.push(leaf),
+            }
+        }
+        let tree = if bounded.len() < TREE_FROM {
+            always = (0..leaves.len() as u32).collect();
+            None
+        } else {
+            let boxes: Vec<Bounds> = bounded.iter().map(|(_, bounds)| *bounds).collect();
+            let (tree, order) = build::tree(&boxes);
+            Some((tree, order.into_iter().map(|place| bounded[place as usize].0).collect()))
+        };
+        Self { nodes: csg::Tree::new(&whole.nodes), leaves, always, tree }
+    }
+
+    /// Shows `look` every leaf that the line of a ray may meet, on both sides of its start.
+    pub fn search(&self, ray: &Ray, mut look: impl FnMut(u32)) {
+        self.always.iter().for_each(|&leaf| look(leaf));
+        if let Some((tree, order)) = &self.tree {
+            let show = |places: Range<usize>, limit| {
+                order[places].iter().for_each(|&leaf| look(leaf));
+                limit
+            };
+            tree.visit::<Uncounted>(&tree.space.before(ray), f64::INFINITY, show);
+        }
+    }
+}
 
 impl Geometry {
     /// All crossings with a whole, in order.
-    fn events(&self, whole: &Whole, ray: &Ray) -> Events {
+    pub(super) fn events(&self, whole: &Whole, ray: &Ray) -> Events {
         let mut events = Events::new();
-        let mut insides = Insides::new();
-        for (leaf, entry) in whole.leaves.iter().enumerate() {
-            let (inside, crossings) = self.crossings(&entry.solid, ray);
-            insides.push(inside);
-            let sheet =
-                matches!(entry.solid, Solid::Placed(i) if self.placed[i as usize].body.is_sheet());
-            let leaf = leaf as u32;
-            events.extend(crossings.into_iter().map(|met| Event { met, leaf, sheet }));
-        }
+        whole.search(ray, |leaf| {
+            let solid = &whole.leaves[leaf as usize].solid;
+            let sheet = self.is_sheet(solid);
+            let (mut inside, mut last) = (false, None);
+            for met in self.crossings(solid, ray) {
+                // What is told twice was not crossed.
+                if sheet || met.leaving == inside {
+                    events.push(Event { met, leaf, sheet, last });
+                    (inside, last) = (!met.leaving, Some(met.t));
+                }
+            }
+        });
         if !events.is_empty() {
-            // Stable: of equals that of the first leaf.
-            events.sort_by(|a, b| a.met.t.total_cmp(&b.met.t));
-            csg::keep(&whole.nodes, &mut insides, &mut events);
+            // Stable: those of one leaf stay as they are.
+            events.sort_by(|a, b| a.met.t.total_cmp(&b.met.t).then(a.leaf.cmp(&b.leaf)));
+            whole.nodes.keep(&mut events);
         }
         events
     }
 
-    /// Whether the ray's line comes from inside of a solid, and where it crosses its surface.
-    fn crossings(&self, solid: &Solid, ray: &Ray) -> (bool, Crossings) {
+    fn is_sheet(&self, solid: &Solid) -> bool {
+        matches!(solid, Solid::Placed(i) if self.placed[*i as usize].body.is_sheet())
+    }
+
+    /// Where the ray's line crosses the surface of a solid; at −∞ where it comes from inside.
+    pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
+        let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
+        let from_inside = Met { part: Met::UNSEEN, ..met(Crossing::BEFORE_ALL, false) };
         let chord = match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),
@@ -50,21 +96,23 @@ impl Geometry {
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
             Solid::Placed(i) => {
                 let placed = &self.placed[*i as usize];
-                let all = placed.crossings(ray);
+                let mut all = placed.crossings(ray);
                 let inside = match all.first() {
                     Some(first) => first.leaving && !placed.body.is_sheet(),
                     None => placed.body.reach() == f64::INFINITY && placed.contains(ray.origin),
                 };
-                return (inside, all);
+                if inside {
+                    all.insert(0, from_inside);
+                }
+                return all;
             }
             // A whole's leaves are no wholes.
             Solid::Whole(_) => None,
         };
-        let Some(Chord { enter, leave }) = chord else { return (false, Crossings::new()) };
-        let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
-        let ends = [met(enter, false), met(leave, true)];
-        let inside = enter.t == f64::NEG_INFINITY;
-        (inside, ends.into_iter().filter(|met| met.t.is_finite()).collect())
+        let Some(Chord { enter, leave }) = chord else { return Crossings::new() };
+        let enter = if enter.t.is_finite() { met(enter, false) } else { from_inside };
+        let leave = leave.t.is_finite().then_some(met(leave, true));
+        [Some(enter), leave].into_iter().flatten().collect()
     }
 
     /// The crossings with those leaves of a whole that `counts`, in order, as hits.

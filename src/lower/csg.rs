@@ -1,7 +1,8 @@
 //! Solids made of others: the tree of operations becomes a list in postfix order.
 //!
 //! **Invariant:** no difference is left, and no inverse of a node: what is outside of a solid goes down
-//! to the leaves (de Morgan). A node of one part is that part; a whole of one leaf is no whole.
+//! to the leaves (de Morgan). A node of one part is that part, no node holds another of its kind; a whole of
+//! one leaf is no whole.
 
 use super::Lowering;
 use crate::scene::Operation;
@@ -14,17 +15,27 @@ pub(super) struct Building {
     /// Its first leaf in `World::objects`.
     first: u32,
     nodes: Vec<Node>,
-    /// So many parts has the innermost operation that is open, so far.
+    /// The innermost operation that is open.
+    kind: Kind,
+    /// So many parts it has so far.
     parts: u32,
+}
+
+/// What an operation comes to, on solids or on what is outside of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Union,
+    Merge,
+    Intersection,
+    Clip { inverse: bool },
 }
 
 /// An operation on parts that are still to come.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Open {
-    making: Making,
     inverse: bool,
-    /// The parts of the operation around it; `None` where it began the whole.
-    outer: Option<u32>,
+    /// The operation around it, and its parts; `None` where it began the whole.
+    outer: Option<(Kind, u32)>,
 }
 
 /// What makes one solid of several.
@@ -37,19 +48,39 @@ pub(super) enum Making {
 }
 
 impl Making {
-    /// What makes one of so many parts; or of what is outside of each.
-    fn nodes(self, parts: u32, inverse: bool) -> impl Iterator<Item = Node> {
-        let is_meeting =
-            matches!(self, Self::Operation(Operation::Intersection | Operation::Difference));
-        let (first, last) = match self {
-            Self::Clip => {
-                // All of what clips is what it shares.
-                let regions = (parts > 2).then_some(Node::Intersection(parts - 1));
-                (regions, Node::Clip { inverse })
+    /// By de Morgan.
+    fn kind(self, inverse: bool) -> Kind {
+        match (self, inverse) {
+            (Self::Clip, inverse) => Kind::Clip { inverse },
+            (Self::Union, false) => Kind::Union,
+            (Self::Operation(Operation::Merge), false)
+            | (Self::Operation(Operation::Intersection | Operation::Difference), true) => {
+                Kind::Merge
             }
-            _ if is_meeting != inverse => (None, Node::Intersection(parts)),
-            Self::Union if !inverse => (None, Node::Union(parts)),
-            Self::Union | Self::Operation(_) => (None, Node::Merge(parts)),
+            (Self::Operation(Operation::Intersection | Operation::Difference), false)
+            | (Self::Union | Self::Operation(Operation::Merge), true) => Kind::Intersection,
+        }
+    }
+}
+
+impl Kind {
+    fn is_clip(self) -> bool {
+        match self {
+            Self::Clip { .. } => true,
+            Self::Union | Self::Merge | Self::Intersection => false,
+        }
+    }
+
+    /// What makes one of so many parts.
+    fn nodes(self, parts: u32) -> impl Iterator<Item = Node> {
+        let (first, last) = match self {
+            Self::Union => (None, Node::Union(parts)),
+            Self::Merge => (None, Node::Merge(parts)),
+            Self::Intersection => (None, Node::Intersection(parts)),
+            // All of what clips is what it shares.
+            Self::Clip { inverse } => {
+                ((parts > 2).then_some(Node::Intersection(parts - 1)), Node::Clip { inverse })
+            }
         };
         first.into_iter().chain([last])
     }
@@ -58,30 +89,47 @@ impl Making {
 impl Lowering<'_, '_> {
     /// Opens an operation; `None` where its parts may stand by themselves.
     pub(super) fn open(&mut self, making: Making, inverse: bool) -> Option<Open> {
+        let kind = making.kind(inverse);
         if let Some(building) = &mut self.building {
-            return Some(Open {
-                making,
-                inverse,
-                outer: Some(std::mem::take(&mut building.parts)),
-            });
+            let outer = (building.kind, building.parts);
+            (building.kind, building.parts) = (kind, 0);
+            return Some(Open { inverse, outer: Some(outer) });
         }
-        if making == Making::Union && !inverse {
+        if kind == Kind::Union {
             return None;
         }
         let first = self.world.objects.len() as u32;
-        self.building = Some(Building { first, nodes: Vec::new(), parts: 0 });
-        Some(Open { making, inverse, outer: None })
+        self.building = Some(Building { first, nodes: Vec::new(), kind, parts: 0 });
+        Some(Open { inverse, outer: None })
     }
 
     /// Ends an operation: all of its parts are there.
-    pub(super) fn close(&mut self, open: Open) {
-        let Some(building) = &mut self.building else { return };
-        let Open { making, inverse, outer } = open;
-        if building.parts > 1 {
-            building.nodes.extend(making.nodes(building.parts, inverse));
+    pub(super) fn close(&mut self, Open { inverse, outer }: Open) {
+        if self.building.as_ref().is_some_and(|building| building.parts == 0) {
+            self.nothing(inverse);
         }
-        let Some(outer) = outer else { return self.finish() };
-        building.parts = outer + building.parts.min(1);
+        let Some(building) = &mut self.building else { return };
+        let (kind, parts) = (building.kind, building.parts);
+        // (A ∩ B) ∩ C is A ∩ B ∩ C.
+        let melts = outer.is_some_and(|(outer, _)| outer == kind) && !kind.is_clip();
+        if parts > 1 && !melts {
+            building.nodes.extend(kind.nodes(parts));
+        }
+        match outer {
+            None => self.finish(),
+            Some((outer, before)) => {
+                building.kind = outer;
+                building.parts = before + if melts { parts } else { 1 };
+            }
+        }
+    }
+
+    /// A part that is nowhere, or everywhere.
+    pub(super) fn nothing(&mut self, inverse: bool) {
+        if let Some(building) = &mut self.building {
+            building.nodes.push(if inverse { Node::Intersection(0) } else { Node::Merge(0) });
+            building.parts += 1;
+        }
     }
 
     /// The whole that an object placed now is a part of.
@@ -96,7 +144,7 @@ impl Lowering<'_, '_> {
         let Some(Building { first, nodes, .. }) = self.building.take() else { return };
         match &mut self.world.objects[first as usize..] {
             [] => {}
-            [only] => only.whole = None,
+            [only] if nodes.len() == 1 => only.whole = None,
             leaves => {
                 let count = leaves.len() as u32;
                 self.world.wholes.push(Whole { nodes, first, count });

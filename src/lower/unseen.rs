@@ -17,13 +17,14 @@ impl Lowering<'_, '_> {
     /// Takes back the shape that was made last, and tells so, unless the camera may be in it. `by` is what
     /// the flags of `object` were written on.
     pub(super) fn drop_unseen(&mut self, object: &Object, by: ObjectId) -> bool {
-        let world = &mut self.world;
+        let world = &self.world;
         // Which points are an orthographic camera's is not asked.
         let may_hold_camera = world.camera.kind == CameraKind::Orthographic
             || world.contains(object, world.camera.location);
-        if may_hold_camera && bends_light(self.scene) {
+        if may_hold_camera && self.bends_light() {
             return false;
         }
+        let world = &mut self.world;
         match object.shape {
             Shape::Sphere(last) => world.spheres.truncate(last as usize),
             Shape::Plane(last) => world.planes.truncate(last as usize),
@@ -31,9 +32,19 @@ impl Lowering<'_, '_> {
             Shape::Ellipsoid(last) => world.ellipsoids.truncate(last as usize),
             Shape::Placed(last) => world.placed.truncate(last as usize),
         }
+        self.drop_hidden(by);
+        true
+    }
+
+    /// Tells that what is hidden by the flags of `by` is left out.
+    pub(super) fn drop_hidden(&mut self, by: ObjectId) {
         let why = "`no_image`, `no_reflection` and `no_shadow` hide it";
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
-        true
+    }
+
+    /// Whether anything at all, placed or not, has an index of refraction.
+    pub(super) fn bends_light(&self) -> bool {
+        bends_light(self.scene)
     }
 
     /// What kind of object it is, or uses.
@@ -53,7 +64,6 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Whether anything at all, placed or not, has an index of refraction.
 fn bends_light(scene: &Scene) -> bool {
     let old = |finish: &Finish| match finish {
         Finish::Classic(classic) => classic.ior.is_some_and(|ior| ior != 1.0),

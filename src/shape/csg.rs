@@ -10,11 +10,14 @@
 //! Computing Surveys 12 (1980); S. Roth, "Ray casting for modeling solids", Computer Graphics and
 //! Image Processing 18 (1982).
 
+use std::ops::Range;
+
 use smallvec::SmallVec;
 
 use super::body::Met;
 
-/// A node of the tree; those that it holds stand before it.
+/// A node of the tree; those that it holds stand before it. One of no parts is what it is everywhere:
+/// a union nothing, an intersection all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Node {
     /// The next leaf; `inverse` is what is outside of it.
@@ -33,12 +36,18 @@ pub enum Node {
 /// A crossing with one of the leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
+    /// A line that comes from inside of the leaf enters it at −∞.
     pub met: Met,
     /// Which leaf, in the order of the nodes.
     pub leaf: u32,
     /// It is a crossing with a sheet: there is nothing inside.
     pub sheet: bool,
+    /// Where the same leaf was crossed before; none where it was not.
+    pub last: Option<f64>,
 }
+
+/// Events in order.
+pub type Events = SmallVec<[Event; 16]>;
 
 /// What a node is at one place of the line.
 #[derive(Debug, Clone, Copy)]
@@ -47,8 +56,8 @@ struct State {
     before: bool,
     /// The place right behind does.
     after: bool,
-    /// The event, by its place in the list, whose surface is the node's here.
-    shown: Option<u32>,
+    /// The event whose surface is the node's here: its leaf, and its place in the list.
+    shown: Option<(u32, usize)>,
 }
 
 impl State {
@@ -59,45 +68,267 @@ impl State {
     fn touches(self) -> bool {
         self.before || self.after
     }
+
+    fn stays(self) -> bool {
+        self.before && self.after
+    }
 }
 
-/// The leaves' insides along a line, as far as it has been followed.
-pub type Insides = SmallVec<[bool; 16]>;
+/// The nodes, each of which knows what it is a part of: where a line crosses few of many leaves, only
+/// what holds these is asked.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tree {
+    leaves: Vec<(Part, bool)>,
+    /// Those that a node holds stand before it.
+    operations: Vec<Operation>,
+    /// What lies inside of each operation's parts, where the line is in no leaf.
+    outside: Vec<u32>,
+}
 
-/// Keeps of `events`, which are in order, those that are crossings with the whole. `insides` says of
-/// each leaf, not inverted, whether the line comes from inside of it.
-pub fn keep(nodes: &[Node], insides: &mut Insides, events: &mut SmallVec<[Event; 16]>) {
-    let mut kept = 0;
-    let mut first = 0;
-    while first < events.len() {
-        let end = end_of_place(events, first);
-        if let Some(shown) = state(nodes, insides, events, first..end).shown {
-            events[kept] = events[shown as usize];
-            kept += 1;
+/// Of which operation something is a part, and what it counts there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Part {
+    operation: u32,
+    /// 1; of the second part of [`Node::Clip`] 2.
+    weight: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Operation {
+    node: Node,
+    /// `None` of the last.
+    part: Option<Part>,
+}
+
+impl Tree {
+    pub fn new(nodes: &[Node]) -> Self {
+        let mut tree = Self::default();
+        // What stands for itself so far: a leaf or an operation, and whether what is nowhere is in it.
+        let mut stack: Vec<(bool, usize, bool)> = Vec::new();
+        for &node in nodes {
+            let Some(count) = node.parts() else {
+                let inverse = node == Node::Leaf { inverse: true };
+                stack.push((true, tree.leaves.len(), inverse));
+                tree.leaves.push((Part { operation: 0, weight: 1 }, inverse));
+                continue;
+            };
+            let operation = tree.operations.len() as u32;
+            let mut outside = 0;
+            let first = stack.len().saturating_sub(count as usize);
+            for (place, (is_leaf, index, inside)) in stack.drain(first..).enumerate() {
+                let weight = if node.is_clip() && place == 1 { 2 } else { 1 };
+                outside += weight * u32::from(inside);
+                let part = Part { operation, weight };
+                match is_leaf {
+                    true => tree.leaves[index].0 = part,
+                    false => tree.operations[index].part = Some(part),
+                }
+            }
+            tree.operations.push(Operation { node, part: None });
+            tree.outside.push(outside);
+            stack.push((false, operation as usize, node.holds(outside)));
         }
-        for event in &events[first..end] {
-            if !event.sheet {
-                insides[event.leaf as usize] = !event.met.leaving;
+        tree
+    }
+
+    /// Keeps of `events`, which are in order, those that are crossings with the whole.
+    pub fn keep(&self, events: &mut Events) {
+        let mut counts: SmallVec<[u32; 16]> = SmallVec::from_slice(&self.outside);
+        let mut changes = SmallVec::new();
+        let mut kept = 0;
+        let mut first = 0;
+        while first < events.len() {
+            let end = end_of_place(events, first);
+            if let Some(shown) = self.pass(&mut counts, events, first..end, &mut changes) {
+                events[kept] = events[shown];
+                kept += 1;
+            }
+            first = end;
+        }
+        events.truncate(kept);
+    }
+
+    /// Passes the place of some events; which of them is one with the whole.
+    fn pass(
+        &self,
+        counts: &mut [u32],
+        events: &[Event],
+        place: Range<usize>,
+        changes: &mut SmallVec<[Change; 8]>,
+    ) -> Option<usize> {
+        let mut whole = None;
+        for number in place {
+            let event = &events[number];
+            let (part, inverse) = self.leaves[event.leaf as usize];
+            let inside = |raw: bool| (raw && !event.sheet) != inverse;
+            let state = State {
+                before: inside(event.met.leaving),
+                after: inside(!event.met.leaving),
+                shown: Some((event.leaf, number)),
+            };
+            match self.operations.is_empty() {
+                true => whole = state.shown,
+                false => push(changes, Change { part, state }),
             }
         }
-        first = end;
+        // The operations in order, so that of each all parts are known.
+        while let Some(operation) = changes.last().map(|change| change.part.operation) {
+            let first = changes.partition_point(|change| change.part.operation > operation);
+            let Operation { node, part } = self.operations[operation as usize];
+            let count = &mut counts[operation as usize];
+            let sums = Sums::new(*count, &changes[first..]);
+            let state = node.state(&sums, &changes[first..]);
+            *count = sums.after;
+            changes.truncate(first);
+            match part {
+                None => whole = state.shown,
+                Some(part) if state.changes() || state.shown.is_some() => {
+                    push(changes, Change { part, state });
+                }
+                Some(_) => {}
+            }
+        }
+        whole.map(|(_, number)| number)
     }
-    events.truncate(kept);
 }
 
-/// Whether a place lies inside of the whole, where `insides` says whether it lies in each leaf.
-pub fn contains(nodes: &[Node], insides: &Insides) -> bool {
-    state(nodes, insides, &[], 0..0).before
+/// What a part is at a place where it is crossed.
+#[derive(Debug, Clone, Copy)]
+struct Change {
+    part: Part,
+    state: State,
+}
+
+/// The last operation first.
+fn push(changes: &mut SmallVec<[Change; 8]>, change: Change) {
+    let place = changes.partition_point(|other| other.part.operation >= change.part.operation);
+    changes.insert(place, change);
+}
+
+/// How many of an operation's parts, by weight, lie there.
+struct Sums {
+    before: u32,
+    after: u32,
+    /// Those that are there before and after.
+    stay: u32,
+}
+
+impl Sums {
+    fn new(before: u32, changes: &[Change]) -> Self {
+        let mut sums = Self { before, after: before, stay: before };
+        for Change { part, state } in changes {
+            sums.after += part.weight * u32::from(state.after);
+            sums.after -= part.weight * u32::from(state.before);
+            sums.stay -= part.weight * u32::from(state.before && !state.after);
+        }
+        sums
+    }
+
+    /// Those that are there before or after.
+    fn touch(&self) -> u32 {
+        self.before + self.after - self.stay
+    }
+}
+
+impl Node {
+    /// Of how many; `None` for a leaf.
+    fn parts(self) -> Option<u32> {
+        match self {
+            Self::Leaf { .. } => None,
+            Self::Union(count) | Self::Merge(count) | Self::Intersection(count) => Some(count),
+            Self::Clip { .. } => Some(2),
+        }
+    }
+
+    fn is_clip(self) -> bool {
+        match self {
+            Self::Clip { .. } => true,
+            Self::Leaf { .. } | Self::Union(_) | Self::Merge(_) | Self::Intersection(_) => false,
+        }
+    }
+
+    /// Whether a place lies inside that lies in so many of its parts, by weight.
+    fn holds(self, count: u32) -> bool {
+        match self {
+            Self::Leaf { inverse } => inverse,
+            Self::Union(_) | Self::Merge(_) => count > 0,
+            Self::Intersection(all) => count == all,
+            Self::Clip { inverse: false } => count == 3,
+            Self::Clip { inverse: true } => count != 2,
+        }
+    }
+
+    fn state(self, sums: &Sums, changes: &[Change]) -> State {
+        let (before, after) = (self.holds(sums.before), self.holds(sums.after));
+        let begins_or_ends = before != after;
+        // Of the parts that show themselves here the first for which something holds.
+        let first = |holds: &dyn Fn(State, Part) -> bool| {
+            let shown = changes
+                .iter()
+                .filter(|change| holds(change.state, change.part))
+                .filter_map(|change| change.state.shown);
+            shown.min()
+        };
+        let shown = match self {
+            Self::Leaf { .. } => None,
+            // Where the whole begins or ends, what does so is shown, and not a wall.
+            Self::Union(_) => first(&|part, _| part.before == before && part.after == after)
+                .or_else(|| first(&|_, _| true)),
+            // A sheet shows itself where it lies in no other part; of what is shared, in all others.
+            Self::Merge(_) => first(&|part, _| match part.changes() {
+                true => begins_or_ends,
+                false => sums.stay == u32::from(part.stays()),
+            }),
+            Self::Intersection(all) => first(&|part, _| match part.changes() {
+                true => begins_or_ends,
+                false => sums.touch() + u32::from(!part.touches()) == all,
+            }),
+            Self::Clip { .. } => {
+                let region = (sums.before | sums.after) & 2 != 0;
+                first(&|_, part| region && part.weight == 1)
+            }
+        };
+        State { before, after, shown }
+    }
+}
+
+/// Whether a place lies inside of the whole, where `insides` says whether it lies in each leaf, not
+/// inverted.
+pub fn contains(nodes: &[Node], insides: impl IntoIterator<Item = bool>) -> bool {
+    let mut insides = insides.into_iter();
+    let mut stack: SmallVec<[bool; 16]> = SmallVec::new();
+    for node in nodes {
+        let inside = match *node {
+            Node::Leaf { inverse } => insides.next().unwrap_or(false) != inverse,
+            Node::Union(count) | Node::Merge(count) => last(&mut stack, count).any(|part| part),
+            Node::Intersection(count) => last(&mut stack, count).all(|part| part),
+            Node::Clip { inverse: false } => last(&mut stack, 2).all(|part| part),
+            Node::Clip { inverse: true } => {
+                last(&mut stack, 2).enumerate().any(|(place, part)| part == (place == 0))
+            }
+        };
+        stack.push(inside);
+    }
+    stack.pop().unwrap_or(false)
+}
+
+/// Takes so many off the stack.
+fn last(stack: &mut SmallVec<[bool; 16]>, count: u32) -> impl Iterator<Item = bool> + use<> {
+    let rest = stack.len().saturating_sub(count as usize);
+    let parts: SmallVec<[bool; 16]> = stack.drain(rest..).collect();
+    parts.into_iter()
 }
 
 /// The end of the run of events that cannot be told from one another. No leaf is in it twice: that
 /// would be a solid too thin to be told, which is there all the same.
 fn end_of_place(events: &[Event], first: usize) -> usize {
-    let mut limit = events[first].met.t + events[first].met.error;
+    let start = &events[first];
+    let mut limit = start.met.t + start.met.error;
     let mut end = first + 1;
     while let Some(next) = events.get(end) {
         let apart = next.met.t - next.met.error > limit;
-        if apart || events[first..end].iter().any(|event| event.leaf == next.leaf) {
+        let again = next.last.is_some_and(|last| (last, next.leaf) >= (start.met.t, start.leaf));
+        if apart || again {
             break;
         }
         limit = limit.max(next.met.t + next.met.error);
@@ -106,173 +337,5 @@ fn end_of_place(events: &[Event], first: usize) -> usize {
     end
 }
 
-/// The whole's state at the place of the events in `place`.
-fn state(
-    nodes: &[Node],
-    insides: &Insides,
-    events: &[Event],
-    place: std::ops::Range<usize>,
-) -> State {
-    let mut stack: SmallVec<[State; 16]> = SmallVec::new();
-    let mut leaf = 0;
-    for node in nodes {
-        match *node {
-            Node::Leaf { inverse } => {
-                let before = insides[leaf as usize];
-                let mut state = State { before, after: before, shown: None };
-                for number in place.clone() {
-                    let event = &events[number];
-                    if event.leaf == leaf {
-                        state.shown = Some(number as u32);
-                        if !event.sheet {
-                            state.after = !event.met.leaving;
-                            // What is told twice was not crossed.
-                            state.shown = state.shown.filter(|_| state.changes());
-                        }
-                    }
-                }
-                if inverse {
-                    (state.before, state.after) = (!state.before, !state.after);
-                }
-                stack.push(state);
-                leaf += 1;
-            }
-            Node::Union(count) => combine(&mut stack, count, union),
-            Node::Merge(count) => combine(&mut stack, count, merge),
-            Node::Intersection(count) => combine(&mut stack, count, intersection),
-            Node::Clip { inverse: false } => combine(&mut stack, 2, clip),
-            Node::Clip { inverse: true } => combine(&mut stack, 2, clip_inverse),
-        }
-    }
-    stack.pop().unwrap_or(State { before: false, after: false, shown: None })
-}
-
-fn combine(stack: &mut SmallVec<[State; 16]>, count: u32, operation: fn(&[State]) -> State) {
-    let first = stack.len().saturating_sub(count as usize);
-    let state = operation(&stack[first..]);
-    stack.truncate(first);
-    stack.push(state);
-}
-
-fn union(parts: &[State]) -> State {
-    let before = parts.iter().any(|part| part.before);
-    let after = parts.iter().any(|part| part.after);
-    let shows = |part: &&State| part.shown.is_some();
-    // Where the whole begins or ends, what does so is shown, and not a wall.
-    let shown =
-        parts.iter().filter(|part| part.before == before && part.after == after).find(shows);
-    let shown = shown.or_else(|| parts.iter().find(shows)).and_then(|part| part.shown);
-    State { before, after, shown }
-}
-
-fn merge(parts: &[State]) -> State {
-    let before = parts.iter().any(|part| part.before);
-    let after = parts.iter().any(|part| part.after);
-    let alone = |i: usize| {
-        parts.iter().enumerate().all(|(j, other)| j == i || !(other.before && other.after))
-    };
-    let shows = |(i, part): (usize, &State)| {
-        part.shown.filter(|_| if part.changes() { before != after } else { alone(i) })
-    };
-    State { before, after, shown: parts.iter().enumerate().find_map(shows) }
-}
-
-fn intersection(parts: &[State]) -> State {
-    let before = parts.iter().all(|part| part.before);
-    let after = parts.iter().all(|part| part.after);
-    let in_all_others =
-        |i: usize| parts.iter().enumerate().all(|(j, other)| j == i || other.touches());
-    let shows = |(i, part): (usize, &State)| {
-        part.shown.filter(|_| if part.changes() { before != after } else { in_all_others(i) })
-    };
-    State { before, after, shown: parts.iter().enumerate().find_map(shows) }
-}
-
-fn clip(parts: &[State]) -> State {
-    let [part, region] = parts else { return State { before: false, after: false, shown: None } };
-    State {
-        before: part.before && region.before,
-        after: part.after && region.after,
-        shown: part.shown.filter(|_| region.touches()),
-    }
-}
-
-fn clip_inverse(parts: &[State]) -> State {
-    let [part, region] = parts else { return State { before: true, after: true, shown: None } };
-    State {
-        before: part.before || !region.before,
-        after: part.after || !region.after,
-        shown: part.shown.filter(|_| region.touches()),
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const A: u32 = 0;
-    const B: u32 = 1;
-    const SOLID: Node = Node::Leaf { inverse: false };
-    const HOLE: Node = Node::Leaf { inverse: true };
-
-    /// What is kept of two solids, from 0 to `a` and from `b.0` to `b.1`, as (leaf, t).
-    fn of_two(nodes: &[Node], a: f64, b: (f64, f64)) -> Vec<(u32, f64)> {
-        let met = |t, leaving, leaf| Event {
-            met: Met { t, error: 1e-3, leaving, part: 0 },
-            leaf,
-            sheet: false,
-        };
-        let mut events: SmallVec<[Event; 16]> =
-            [met(0.0, false, A), met(a, true, A), met(b.0, false, B), met(b.1, true, B)]
-                .into_iter()
-                .collect();
-        events.sort_by(|x, y| x.met.t.total_cmp(&y.met.t));
-        let mut insides: Insides = [false, false].into_iter().collect();
-        keep(nodes, &mut insides, &mut events);
-        assert_eq!(insides.as_slice(), [false, false]);
-        events.iter().map(|event| (event.leaf, event.met.t)).collect()
-    }
-
-    const DIFFERENCE: [Node; 3] = [SOLID, HOLE, Node::Intersection(2)];
-    const INTERSECTION: [Node; 3] = [SOLID, SOLID, Node::Intersection(2)];
-    const MERGE: [Node; 3] = [SOLID, SOLID, Node::Merge(2)];
-    const UNION: [Node; 3] = [SOLID, SOLID, Node::Union(2)];
-
-    #[test]
-    fn operations_keep_what_belongs_to_the_whole() {
-        let b = (1.0, 3.0);
-        assert_eq!(of_two(&INTERSECTION, 2.0, b), [(B, 1.0), (A, 2.0)]);
-        assert_eq!(of_two(&DIFFERENCE, 2.0, b), [(A, 0.0), (B, 1.0)]);
-        assert_eq!(of_two(&MERGE, 2.0, b), [(A, 0.0), (B, 3.0)]);
-        assert_eq!(of_two(&UNION, 2.0, b), [(A, 0.0), (B, 1.0), (A, 2.0), (B, 3.0)]);
-        assert_eq!(of_two(&DIFFERENCE, 4.0, b), [(A, 0.0), (B, 1.0), (B, 3.0), (A, 4.0)]);
-        assert_eq!(of_two(&[SOLID, SOLID, Node::Clip { inverse: false }], 2.0, b), [(A, 2.0)]);
-    }
-
-    #[test]
-    fn a_solid_without_itself_is_empty() {
-        assert_eq!(of_two(&DIFFERENCE, 2.0, (0.0, 2.0)), []);
-        assert_eq!(of_two(&DIFFERENCE, 2.0, (0.0015, 1.999)), []);
-    }
-
-    #[test]
-    fn a_hole_whose_ends_lie_in_the_faces_is_open() {
-        // The line goes through the hole.
-        assert_eq!(of_two(&DIFFERENCE, 2.0, (-1e-3, 2.0)), []);
-        // A blind hole, flush with the first face.
-        assert_eq!(of_two(&DIFFERENCE, 2.0, (0.0, 1.0)), [(B, 1.0), (A, 2.0)]);
-    }
-
-    #[test]
-    fn solids_that_touch_merge_without_a_wall_and_share_nothing() {
-        assert_eq!(of_two(&MERGE, 2.0, (2.0, 3.0)), [(A, 0.0), (B, 3.0)]);
-        assert_eq!(of_two(&INTERSECTION, 2.0, (2.0, 3.0)), []);
-        assert_eq!(of_two(&DIFFERENCE, 2.0, (2.0, 3.0)), [(A, 0.0), (A, 2.0)]);
-    }
-
-    #[test]
-    fn what_both_begin_with_is_shown_once() {
-        assert_eq!(of_two(&INTERSECTION, 2.0, (0.0, 1.0)), [(A, 0.0), (B, 1.0)]);
-        assert_eq!(of_two(&MERGE, 2.0, (0.0, 1.0)), [(A, 0.0), (A, 2.0)]);
-    }
-}
+mod tests;
