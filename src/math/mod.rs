@@ -11,6 +11,7 @@ pub mod placement;
 pub(crate) mod random;
 pub mod roots;
 pub mod singular;
+pub mod terms;
 pub mod transform;
 pub mod vector;
 

@@ -5,10 +5,11 @@
 
 use std::fmt::Write;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::roots::polynomial::{Coefficients, MOST, Polynomial};
+use crate::math::terms::{count_of_terms, exponents};
 
 /// A polynomial in x, y and z.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,22 +20,6 @@ pub struct Algebraic {
     terms: Vec<f64>,
     /// Their absolute values.
     sizes: Vec<f64>,
-}
-
-/// The exponents of all terms, in order.
-///
-/// **Source:** the manual's table of polynomial terms, section 3.4.5.3.5.
-pub fn exponents(degree: usize) -> impl Iterator<Item = [usize; 3]> {
-    (0..=degree).rev().flat_map(move |i| {
-        (0..=degree - i)
-            .rev()
-            .flat_map(move |j| (0..=degree - i - j).rev().map(move |k| [i, j, k]))
-    })
-}
-
-/// How many terms a polynomial has: (n + 1)(n + 2)(n + 3) / 6.
-pub fn count_of_terms(degree: usize) -> usize {
-    (degree + 1) * (degree + 2) * (degree + 3) / 6
 }
 
 impl Algebraic {
