@@ -38,12 +38,12 @@ impl Algebraic {
             let mut plane = [0.0; MOST + 1];
             for j in 0..=i {
                 let mut row = [0.0; MOST + 1];
-                for (k, term) in terms.by_ref().take(i - j + 1).enumerate() {
+                for (k, term) in terms.by_ref().take(j + 1).enumerate() {
                     multiply(&mut row, k, start.z, step.z);
                     row[0] += term;
                 }
                 multiply(&mut plane, j, start.y, step.y);
-                add(&mut plane, &row, i - j);
+                add(&mut plane, &row, j);
             }
             multiply(&mut all, i, start.x, step.x);
             add(&mut all, &plane, i);
@@ -60,7 +60,7 @@ impl Algebraic {
             let (mut plane, mut plane_slope) = (0.0, Vector::ZERO);
             for j in 0..=i {
                 let (mut row, mut row_slope) = (0.0, 0.0);
-                for term in terms.by_ref().take(i - j + 1) {
+                for term in terms.by_ref().take(j + 1) {
                     row_slope = row_slope * z + row;
                     row = row * z + term;
                 }
@@ -165,5 +165,20 @@ impl Local for Algebraic {
 
     fn contains(&self, point: Vector) -> bool {
         self.at(&self.terms, point).0 < 0.0
+    }
+}
+
+#[cfg(test)]
+impl Algebraic {
+    /// Its value in twice the digits.
+    pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
+        use super::exact::Double;
+        let power = |x: Double, n: usize| (0..n).fold(Double::of(1.0), |all, _| all * x);
+        let terms = self.terms.iter().zip(exponents(self.degree)).filter(|(term, _)| **term != 0.0);
+        let value = |(term, powers): (&f64, [usize; 3])| {
+            let factors = point.into_iter().zip(powers);
+            factors.fold(Double::of(*term), |all, (x, n)| all * power(x, n))
+        };
+        terms.map(value).fold(Double::of(0.0), |all, term| all + term)
     }
 }

@@ -1,6 +1,7 @@
 //! Polynomial surfaces: their coefficients, in a list or one by one.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
 use crate::math::terms::{count_of_terms, exponents};
 use crate::scene::Solid;
 use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
@@ -16,14 +17,20 @@ const ORDERS: std::ops::RangeInclusive<f64> = 2.0..=15.0;
 impl Evaluator<'_> {
     /// `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
     pub(super) fn quadric(&mut self, token: &Token) -> Outcome<Solid> {
-        let squares = self.vector_after(token, "a vector for the squares: x², y², z²");
-        let products = self.vector_after(token, "a vector for the products: xy, xz, yz");
-        let singles = self.vector_after(token, "a vector for x, y and z");
+        let squares = self.number_or_vector(token, "a vector for the squares: x², y², z²");
+        let products = self.number_or_vector(token, "a vector for the products: xy, xz, yz");
+        let singles = self.number_or_vector(token, "a vector for x, y and z");
         let rest = self.number_after(token, "a number for what is constant");
         let (squares, products, singles, rest) = (squares?, products?, singles?, rest?);
         let [s, p, l] = [squares.value, products.value, singles.value];
         let terms = vec![s.x, p.x, p.y, l.x, s.y, p.z, l.y, s.z, l.z, rest.value];
         self.polynomial_of(token, &rest, Word::Quadric, 2, terms)
+    }
+
+    /// A vector; a number is one of three of it, and a row of them is no point without its brackets.
+    fn number_or_vector(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        let given = self.given(after, wanted)?;
+        self.as_vector(given, wanted)
     }
 
     pub(super) fn cubic(&mut self, token: &Token) -> Outcome<Solid> {
