@@ -27,7 +27,8 @@ impl Evaluator<'_> {
         self.polynomial_of(token, &rest, Word::Quadric, 2, terms)
     }
 
-    /// A vector; a number is one of three of it, and a row of them is no point without its brackets.
+    /// A vector, or one number for all three: `0, 0, 0, -1` is three vectors and a number here, and no point
+    /// that lacks its brackets.
     fn number_or_vector(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
         let given = self.given(after, wanted)?;
         self.as_vector(given, wanted)
