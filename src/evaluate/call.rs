@@ -118,6 +118,12 @@ impl Evaluator<'_> {
                     .help("`#declare F = function { internal(57) }`, then `F(x, y, z)`");
                 return Err(self.report(here, diagnostic));
             }
+            Word::Xyz => {
+                let message = "`xyz(i, j, k): number` is a term of a `polynomial`, and no number";
+                let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                    .at(span, "expected in the braces of a `polynomial`, after its order");
+                return Err(self.report(here, diagnostic));
+            }
             _ => {}
         }
         let Some(arity) = builtin::arity(word) else {

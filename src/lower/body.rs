@@ -11,12 +11,44 @@ use super::transform::{Affine, exact};
 use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Placement;
-use crate::shape::{Body, Cylinder, Placed};
+use crate::math::terms::exponents;
+use crate::shape::{Algebraic, Body, Cylinder, Placed};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
     let frame = along_axis(ends, Double::from(radius).abs())?;
     Ok((Body::Cylinder(Cylinder { open }), frame))
+}
+
+/// The polynomial in lengths of λ, over its greatest coefficient; λ is the power of two at which no term of
+/// lower degree outweighs those of the highest.
+pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault> {
+    let what = "this polynomial";
+    let sum = |powers: [usize; 3]| powers.iter().sum::<usize>();
+    let degrees: Vec<usize> = exponents(degree).map(sum).collect();
+    let mut greatest = vec![0.0_f64; degree + 1];
+    for (term, &degree) in terms.iter().zip(&degrees) {
+        greatest[degree] = greatest[degree].max(term.abs());
+    }
+    let top = greatest.iter().rposition(|size| *size > 0.0).unwrap_or(0);
+    let binary = |size: f64| (size.to_bits() >> 52) as i32 - 1023;
+    let weight = |d: usize| f64::from(binary(greatest[d]) - binary(greatest[top]));
+    let share = |d: usize| (weight(d) / (top - d) as f64).round() as i32;
+    let scale = (0..top).filter(|&d| greatest[d] > 0.0).map(share).max().unwrap_or(0);
+    let power = |d: usize| binary(greatest[d]) + scale * d as i32;
+    let most = (0..=top).filter(|&d| greatest[d] > 0.0).map(power).max().unwrap_or(0);
+    let normalised = terms.iter().zip(&degrees).map(|(term, &d)| {
+        // In two steps, of which neither overflows.
+        let shift = scale * d as i32 - most;
+        term * 2f64.powi(shift / 2) * 2f64.powi(shift - shift / 2)
+    });
+    let normalised: Vec<f64> = normalised.collect();
+    let finite = normalised.iter().all(|term| term.is_finite());
+    let surface = Algebraic::new(degree, normalised).filter(|_| finite);
+    let surface = surface.ok_or_else(|| Fault::not_finite(what))?;
+    let columns =
+        [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(2f64.powi(scale))));
+    Ok((Body::Algebraic(surface), Affine::from_columns(columns, DoubleVector::ZERO)))
 }
 
 /// The map that takes the z axis from −1 to 1 to the line between two points, and lengths across it to

@@ -267,6 +267,9 @@ impl<'s> Lowering<'s, '_> {
             Solid::Cylinder { ends, radius, open } => {
                 self.place_body(body::cylinder(ends, radius, open)?, here, site)
             }
+            Solid::Polynomial { degree, ref terms, .. } => {
+                self.place_body(body::polynomial(degree, terms)?, here, site)
+            }
         }
     }
 

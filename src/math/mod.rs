@@ -9,7 +9,9 @@ pub mod elementary;
 pub mod interval;
 pub mod placement;
 pub(crate) mod random;
+pub mod roots;
 pub mod singular;
+pub mod terms;
 pub mod transform;
 pub mod vector;
 

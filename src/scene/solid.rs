@@ -28,6 +28,15 @@ pub enum Solid {
         /// Its ends are not seen.
         open: bool,
     },
+    /// Where a polynomial in x, y and z is 0 or less.
+    Polynomial {
+        /// The word it is written with.
+        form: Word,
+        /// 2 … 15.
+        degree: usize,
+        /// All coefficients, in the order of [`crate::math::terms::exponents`].
+        terms: Vec<f64>,
+    },
 }
 
 impl Solid {
@@ -38,10 +47,12 @@ impl Solid {
             Self::Plane { .. } => Word::Plane,
             Self::Box { .. } => Word::Box,
             Self::Cylinder { .. } => Word::Cylinder,
+            Self::Polynomial { form, .. } => *form,
         }
     }
 
-    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar without length or width.
+    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar without length or width, a
+    /// polynomial that is a number.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::Sphere { radius, .. } => *radius == 0.0,
@@ -50,6 +61,9 @@ impl Solid {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
             Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
+            Self::Polynomial { terms, .. } => {
+                terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
+            }
         }
     }
 }
@@ -65,6 +79,10 @@ impl fmt::Display for Solid {
             Self::Box { corners: [a, b] } => write!(f, " {} {}", written(*a), written(*b)),
             Self::Cylinder { ends: [a, b], radius, open: is_open } => {
                 write!(f, " {} {} {radius}{}", written(*a), written(*b), open(*is_open))
+            }
+            Self::Polynomial { degree, terms, .. } => {
+                write!(f, " {degree}")?;
+                terms.iter().try_for_each(|term| write!(f, " {term}"))
             }
         }
     }

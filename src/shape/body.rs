@@ -6,6 +6,7 @@
 
 use smallvec::SmallVec;
 
+use super::algebraic::Algebraic;
 use super::cylinder::Cylinder;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -167,6 +168,7 @@ macro_rules! bodies {
 }
 
 bodies! {
+    Algebraic "polynomial"
     Cylinder "cylinder"
 }
 

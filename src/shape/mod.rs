@@ -3,6 +3,7 @@
 //! **Invariant:** knows only `math`. Distances along a ray are in (0, ∞): there is no least and no
 //! greatest distance, each crossing carries its own error bound instead.
 
+pub mod algebraic;
 pub mod body;
 pub mod box_;
 pub mod csg;
@@ -12,6 +13,7 @@ pub mod placed;
 pub mod plane;
 pub mod sphere;
 
+pub use algebraic::Algebraic;
 pub use body::Body;
 pub use box_::Box_;
 pub use cylinder::Cylinder;

@@ -7,6 +7,7 @@ use crate::math::random::{Random, tries};
 use crate::math::{Matrix, UnitVector};
 use leave::assert_leaves_for_good;
 
+mod algebraic;
 mod leave;
 mod placed;
 

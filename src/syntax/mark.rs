@@ -7,6 +7,7 @@ use super::token::{Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Role;
+use crate::vocabulary::Word;
 
 /// How many tokens after a `;` the end of its vector is looked for.
 const LONGEST_VECTOR: usize = 40;
@@ -128,6 +129,15 @@ impl<'a> Nest<'a> {
             return self.operator(OperatorKind::Question, span);
         }
         if self.stacks.open_question(base).is_none() {
+            let held = self.stacks.operands.last().map(|held| self.ast.expression(*held).kind);
+            let holding = matches!(self.top().state, State::Holding { .. });
+            // `xyz(2, 0, 1): 3` in a `polynomial`.
+            if let Some(ExpressionKind::Call(Callee::Word(Word::Xyz, _), _)) = held
+                && holding
+                && self.stacks.operators.len() == base
+            {
+                return self.finish_expression();
+            }
             return self.report(
                 Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`")
                     .at(span, "expected `condition ? one : other`"),

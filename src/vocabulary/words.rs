@@ -41,7 +41,7 @@ vocabulary! {
         Blob "blob" statement later "spheres and cylinders that melt into one surface";
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
         Cone "cone" statement later "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
-        Cubic "cubic" statement later "a polynomial surface of degree 3; also a spline, a wave and a pattern";
+        Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
         Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
         Disc "disc" statement later "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring";
         HeightField "height_field" statement later "a landscape from a picture or a function";
@@ -53,12 +53,12 @@ vocabulary! {
         Ovus "ovus" statement later "an egg from two radii";
         Parametric "parametric" statement later "a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
-        Poly "poly" statement later "a polynomial surface of any degree";
+        Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
         Polygon "polygon" statement later "a flat figure of several corners";
-        Polynomial "polynomial" statement later "a polynomial surface by its terms";
+        Polynomial "polynomial" statement built "`polynomial { order, xyz(i, j, k): number … }`: a polynomial surface by its terms";
         Prism "prism" statement later "a flat outline drawn up along y";
-        Quadric "quadric" statement later "a polynomial surface of degree 2";
-        Quartic "quartic" statement later "a polynomial surface of degree 4";
+        Quadric "quadric" statement built "`quadric { <A, B, C>, <D, E, F>, <G, H, I>, J }`: a polynomial surface of degree 2";
+        Quartic "quartic" statement built "`quartic { <35 numbers> }`: a polynomial surface of degree 4";
         SmoothTriangle "smooth_triangle" statement later "a triangle with a normal at each corner";
         Sor "sor" statement later "a solid of revolution";
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
@@ -115,6 +115,7 @@ vocabulary! {
         VSteps "v_steps" statement later "how often a patch is divided along v";
         VertexVectors "vertex_vectors" statement later "the vertices of a mesh2";
         WaterLevel "water_level" statement later "cuts off the low part of a height_field";
+        Xyz "xyz" function built "`xyz(i, j, k): number` in a `polynomial`: what x to the i, y to the j and z to the k is times";
     }
     Csg {
         Difference "difference" statement built "the first object without the others";

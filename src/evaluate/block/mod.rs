@@ -18,6 +18,7 @@ mod pattern;
 mod pieces;
 mod pigment;
 mod place;
+mod polynomial;
 mod settings;
 mod skip;
 mod solid;

@@ -351,7 +351,7 @@ mod tests {
     }
 
     /// What needs names, files, objects or formulas belongs to the evaluator.
-    const OF_THE_EVALUATOR: [Word; 11] = [
+    const OF_THE_EVALUATOR: [Word; 12] = [
         Word::Defined,
         Word::DimensionSize,
         Word::Dimensions,
@@ -363,6 +363,7 @@ mod tests {
         Word::Prod,
         Word::Sum,
         Word::Trace,
+        Word::Xyz,
     ];
 
     #[test]

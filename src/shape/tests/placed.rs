@@ -105,7 +105,12 @@ pub(super) fn assert_crossed_where_it_is(
             continue;
         }
         let height = height(t, 0.0).0;
-        let is_inside = all.iter().filter(|met| met.t < t).count() % 2 == 1;
+        let begins_inside = match all.first() {
+            Some(first) => first.leaving,
+            None => placed.body.reach() == f64::INFINITY && height < 0.0,
+        };
+        let passed = all.iter().filter(|met| met.t < t).count();
+        let is_inside = (passed % 2 == 1) != begins_inside;
         if height.abs() > blur(placed, ray).sqrt().min(1e-3) {
             assert_eq!(height < 0.0, is_inside, "{height:e} at {t:e}: {all:?} {placed:?} {ray:?}");
         }

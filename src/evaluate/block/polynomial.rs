@@ -1,0 +1,195 @@
+//! Polynomial surfaces: their coefficients, in a list or one by one.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::math::terms::{count_of_terms, exponents};
+use crate::scene::Solid;
+use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Here, Outcome, Reported};
+use super::part::Given;
+
+/// The orders that `poly` and `polynomial` take.
+const ORDERS: std::ops::RangeInclusive<f64> = 2.0..=15.0;
+
+impl Evaluator<'_> {
+    /// `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
+    pub(super) fn quadric(&mut self, token: &Token) -> Outcome<Solid> {
+        let squares = self.number_or_vector(token, "a vector for the squares: x², y², z²");
+        let products = self.number_or_vector(token, "a vector for the products: xy, xz, yz");
+        let singles = self.number_or_vector(token, "a vector for x, y and z");
+        let rest = self.number_after(token, "a number for what is constant");
+        let (squares, products, singles, rest) = (squares?, products?, singles?, rest?);
+        let [s, p, l] = [squares.value, products.value, singles.value];
+        let terms = vec![s.x, p.x, p.y, l.x, s.y, p.z, l.y, s.z, l.z, rest.value];
+        self.polynomial_of(token, &rest, Word::Quadric, 2, terms)
+    }
+
+    /// A vector, or one number for all three: `0, 0, 0, -1` is three vectors and a number here, and no point
+    /// that lacks its brackets.
+    fn number_or_vector(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+        let given = self.given(after, wanted)?;
+        self.as_vector(given, wanted)
+    }
+
+    pub(super) fn cubic(&mut self, token: &Token) -> Outcome<Solid> {
+        self.listed(token, Word::Cubic, 3)
+    }
+
+    pub(super) fn quartic(&mut self, token: &Token) -> Outcome<Solid> {
+        self.listed(token, Word::Quartic, 4)
+    }
+
+    pub(super) fn poly(&mut self, token: &Token) -> Outcome<Solid> {
+        let degree = self.order(token)?;
+        self.listed(token, Word::Poly, degree)
+    }
+
+    /// `order, xyz(i, j, k): number …`; of two numbers for one term the last counts.
+    pub(super) fn polynomial(&mut self, token: &Token) -> Outcome<Solid> {
+        let degree = self.order(token)?;
+        let mut terms = vec![0.0; count_of_terms(degree)];
+        let mut last = None;
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek().cloned()
+            else {
+                break;
+            };
+            let ExpressionKind::Call(Callee::Word(Word::Xyz, _), powers) =
+                here.unit.expression(id).kind
+            else {
+                break;
+            };
+            let Some(term) = self.next() else { break };
+            let at = self.powers(&term, powers, degree);
+            let number = self.number_after(&term, "a number for the coefficient");
+            let (at, number) = (at?, number?);
+            terms[at] = number.value;
+            last = Some(number);
+        }
+        let Some(last) = last else {
+            let message = "expected the coefficients after the order of `polynomial`";
+            let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                .at(token.span, "coefficients are missing after this")
+                .help("each is written as `xyz(2, 0, 1): 3`, which is 3·x²·z");
+            return Err(self.report(&token.here, diagnostic));
+        };
+        self.polynomial_of(token, &last, Word::Polynomial, degree, terms)
+    }
+
+    fn order(&mut self, token: &Token) -> Outcome<usize> {
+        let order = self.number_after(token, "a number for the order")?;
+        if !ORDERS.contains(&order.value) || order.value.fract() != 0.0 {
+            let message = format!("the order is {}, and must be a whole number", order.value);
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(order.span, "expected 2 to 15")
+                .help("the order is the greatest sum of powers in one term");
+            return Err(self.report(&order.here, diagnostic));
+        }
+        Ok(order.value as usize)
+    }
+
+    /// Which term `xyz(i, j, k)` is.
+    fn powers(&mut self, term: &Token, powers: Arguments, degree: usize) -> Outcome<usize> {
+        let given = self.numbers_of(&term.here, powers)?;
+        let wanted = exponents(degree)
+            .position(|[i, j, k]| given.as_slice() == [i as f64, j as f64, k as f64]);
+        wanted.ok_or_else(|| {
+            let message = format!("this is no term of a polynomial of order {degree}");
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(term.span, format!("expected three whole powers whose sum is at most {degree}"))
+                .help("`xyz(2, 0, 1)` is x²·z");
+            self.report(&term.here, diagnostic)
+        })
+    }
+
+    /// A list in angle brackets, of as many numbers as there are terms.
+    fn listed(&mut self, token: &Token, form: Word, degree: usize) -> Outcome<Solid> {
+        self.skip_commas();
+        let list = match self.peek().cloned() {
+            Some(Token { kind: TokenKind::Expression(id), span, here }) => {
+                match here.unit.expression(id).kind {
+                    ExpressionKind::Vector(numbers) => {
+                        self.next();
+                        let value = self.numbers_of(&here, numbers)?;
+                        Some(Given { value, span, here, expression: Some(id) })
+                    }
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        let count = count_of_terms(degree);
+        let given = match list {
+            Some(list) => list,
+            None => {
+                let wanted = format!("a list of {count} coefficients in angle brackets");
+                let given = self.given(token, &wanted)?;
+                match given.value.numbers() {
+                    Some(numbers) => given.with(numbers.as_slice().to_vec()),
+                    None => {
+                        return Err(self.wrong_type(
+                            &given.here,
+                            given.span,
+                            &wanted,
+                            &given.value,
+                        ));
+                    }
+                }
+            }
+        };
+        if given.value.len() != count {
+            let found = given.value.len();
+            let message = format!(
+                "a polynomial of order {degree} has {count} coefficients, this one has {found}"
+            );
+            let label = if found < count { "too few numbers" } else { "too many numbers" };
+            let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                .at(given.span, label)
+                .help(format!(
+                    "`polynomial {{ {degree}, xyz(2, 0, 1): 3 }}` names its terms, and leaves out the rest"
+                ));
+            return Err(self.report(&given.here, diagnostic));
+        }
+        let terms = given.value.clone();
+        self.polynomial_of(token, &given, form, degree, terms)
+    }
+
+    /// Numbers with commas between them.
+    fn numbers_of(&mut self, here: &Here, list: Arguments) -> Outcome<Vec<f64>> {
+        let mut numbers = Ok(Vec::new());
+        for argument in here.unit.ast.arguments(list) {
+            let number = match *argument {
+                Argument::Expression(id) => self.number(here, id),
+                Argument::Items(_) => Err(Reported),
+            };
+            match (&mut numbers, number) {
+                (Ok(numbers), Ok(number)) => numbers.push(number),
+                (numbers, Err(reported)) => *numbers = Err(reported),
+                (Err(_), Ok(_)) => {}
+            }
+        }
+        numbers
+    }
+
+    fn polynomial_of<T>(
+        &mut self,
+        token: &Token,
+        last: &Given<T>,
+        form: Word,
+        degree: usize,
+        terms: Vec<f64>,
+    ) -> Outcome<Solid> {
+        let solid = Solid::Polynomial { form, degree, terms };
+        if solid.is_sizeless() {
+            let message = format!("a {} without x, y and z has no surface", form.name());
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(last.span, "every coefficient up to here but the last is 0");
+            self.nothing(token, &last.here, diagnostic)?;
+        }
+        Ok(solid)
+    }
+}

@@ -1,0 +1,3 @@
+//! Real roots of polynomials, each with an error bound.
+
+pub mod polynomial;

@@ -1,0 +1,435 @@
+//! All real roots of a polynomial of which each coefficient is known to within a bound.
+//!
+//! **In:** coefficients up to degree 15, lowest first, and how far each may be off. **Out:** where it
+//! certainly changes its sign, in order, on the whole line. **Invariant:** neighbouring roots go in
+//! opposite ways; whatever polynomial was meant has an odd number of roots within each bound. What could
+//! as well be no root (it touches zero within its bound) is none.
+//!
+//! Between the roots of its derivative a polynomial is monotone, so from the last derivative up each has
+//! one root at most between two neighbours of the one before. The line is followed to its very end: what
+//! lies beyond ±σ are the roots of the reversed polynomial between −1 and 1.
+//!
+//! **Source:** C. Yuksel, "High-performance polynomial root finding for graphics", Proceedings of the ACM on
+//! Computer Graphics 5 (2022); N. Higham, *Accuracy and Stability of Numerical Algorithms* (2002), ch. 5.
+
+use smallvec::SmallVec;
+
+/// The greatest degree.
+pub const MOST: usize = 15;
+
+/// Coefficients of 1, s, s², …
+pub type Coefficients = [f64; MOST + 1];
+
+/// The roundoff of `f64`.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// A place where the polynomial changes its sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    pub s: f64,
+    /// The root that was meant is within this distance.
+    pub error: f64,
+    /// From negative to positive.
+    pub rising: bool,
+}
+
+/// At most one for each degree.
+pub type Roots = SmallVec<[Root; 6]>;
+
+type Brackets = SmallVec<[Bracket; 6]>;
+
+/// A polynomial and the rounding that it carries.
+#[derive(Debug, Clone)]
+pub struct Polynomial {
+    values: Coefficients,
+    /// Σ slackₖ·|s|ᵏ bounds how far a computed value may be from the one that was meant.
+    slack: Coefficients,
+    degree: usize,
+}
+
+impl Polynomial {
+    /// `errors` holds how far each of `values` may be off.
+    pub fn new(values: Coefficients, errors: Coefficients) -> Self {
+        let known = |k: &usize| values[*k] != 0.0 || errors[*k] != 0.0;
+        let degree = (0..=MOST).rev().find(known).unwrap_or(0);
+        let mut slack = errors;
+        for (k, slack) in slack.iter_mut().enumerate() {
+            // Horner's rule rounds the term of sᵏ 2k + 1 times; the rest is for the bound itself.
+            *slack = (*slack + (2 * k + 2) as f64 * U * values[k].abs()) * (1.0 + 64.0 * U);
+        }
+        Self { values, slack, degree }
+    }
+
+    /// Where it changes its sign on the whole line, in order. `size` is about how far from 0 most of them
+    /// are to be expected: it costs time where it is far from right, and nothing else.
+    pub fn roots(&self, size: f64) -> Roots {
+        let mut roots = Roots::new();
+        let Some((near, scale)) = self.parted(size) else { return roots };
+        let far = near.reversed();
+        let odd = near.degree % 2 == 1;
+        // From −∞ to −σ: w = σ/s goes from 0 down to −1.
+        let before = far.between(-1.0, 0.0).into_iter().rev();
+        roots.extend(before.filter_map(|bracket| bracket.outer(scale, odd)));
+        roots.extend(near.between(-1.0, 1.0).into_iter().map(|bracket| bracket.root(scale)));
+        let behind = far.between(0.0, 1.0).into_iter().rev();
+        roots.extend(behind.filter_map(|bracket| bracket.outer(scale, false)));
+        roots
+    }
+
+    /// The polynomial of s/σ, and a power of two σ near `size` where it is certainly not 0, nor at −σ. `None`
+    /// where there is none: it may be 0 everywhere.
+    fn parted(&self, size: f64) -> Option<(Self, f64)> {
+        let start = crate::math::double::power_of_two_near(size);
+        // More places than there can be roots near them.
+        let powers = (0..2 * MOST as i32).map(|i| if i % 2 == 0 { i / 2 } else { -1 - i / 2 });
+        powers.map(|power| start * 2f64.powi(power)).find_map(|scale| {
+            let near = self.scaled(scale);
+            (near.sign(-1.0) != 0 && near.sign(1.0) != 0).then_some((near, scale))
+        })
+    }
+
+    fn scaled(&self, scale: f64) -> Self {
+        let mut scaled = self.clone();
+        let mut power = 1.0;
+        for k in 0..=self.degree {
+            scaled.values[k] *= power;
+            scaled.slack[k] *= power;
+            power *= scale;
+        }
+        scaled
+    }
+
+    fn reversed(&self) -> Self {
+        let mut reversed = self.clone();
+        reversed.values[..=self.degree].reverse();
+        reversed.slack[..=self.degree].reverse();
+        let rounding = |k: usize| (2 * k + 2) as f64 * U;
+        for (k, slack) in reversed.slack.iter_mut().enumerate() {
+            *slack += rounding(k) * reversed.values[k].abs();
+        }
+        reversed
+    }
+
+    /// The sign at s; 0 where the bound does not tell it.
+    fn sign(&self, s: f64) -> i8 {
+        let value = value(&self.values[..=self.degree], s);
+        let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
+        match () {
+            () if value > slack && value.is_finite() => 1,
+            () if value < -slack && value.is_finite() => -1,
+            () => 0,
+        }
+    }
+
+    /// The certain changes of sign from `low` to `high`, in order.
+    fn between(&self, low: f64, high: f64) -> Brackets {
+        let mut roots = Brackets::new();
+        let values = &self.values[..=self.degree];
+        if certainly_one_sign(&self.values, &self.slack, self.degree, low, high) {
+            return roots;
+        }
+        let turns = turning_points(values, low, high);
+        let (mut before, mut last) = (None, low);
+        self.advance(&mut before, low, &mut roots);
+        for turn in turns.into_iter().chain([high]) {
+            // Also between them, for where the ends of a piece tell nothing.
+            self.advance(&mut before, 0.5 * (last + turn), &mut roots);
+            self.advance(&mut before, turn, &mut roots);
+            last = turn;
+        }
+        roots
+    }
+
+    /// Goes on to `at`, if its sign is certain there.
+    fn advance(&self, before: &mut Option<(f64, i8)>, at: f64, roots: &mut Brackets) {
+        let sign = self.sign(at);
+        if sign == 0 {
+            return;
+        }
+        if let Some((from, old)) = before.replace((at, sign))
+            && old != sign
+        {
+            roots.push(self.root(from, at, sign > 0));
+        }
+    }
+
+    /// The root between two places of certain and opposite signs, with as little around it as has such
+    /// places at its ends.
+    fn root(&self, low: f64, high: f64, rising: bool) -> Bracket {
+        let values = &self.values[..=self.degree];
+        let s = root_between(values, low, high, rising);
+        let (_, slope) = value_and_slope(values, s);
+        let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
+        let after = if rising { 1 } else { -1 };
+        // Where the slope is as good as 0, this is far too much: it grows as it has to.
+        let most = (high - low) * f64::from(f32::EPSILON);
+        let likely = (1.5 * slack / slope.abs()).min(most);
+        let start = (likely + 4.0 * U * s.abs()).max(f64::MIN_POSITIVE);
+        let reach = |way: f64, end: f64| {
+            let mut reach = start;
+            loop {
+                let at = s + way * reach;
+                if (end - at) * way <= 0.0 {
+                    return end;
+                }
+                if self.sign(at) == if way > 0.0 { after } else { -after } {
+                    return at;
+                }
+                reach *= 2.0;
+            }
+        };
+        Bracket { low: reach(-1.0, low), s, high: reach(1.0, high), rising }
+    }
+}
+
+/// A root and two places that it is certainly between.
+#[derive(Debug, Clone, Copy)]
+struct Bracket {
+    low: f64,
+    s: f64,
+    high: f64,
+    rising: bool,
+}
+
+impl Bracket {
+    fn root(self, scale: f64) -> Root {
+        let Self { low, s, high, rising } = self;
+        let error = (s - low).max(high - s) * (1.0 + 4.0 * U);
+        Root { s: s * scale, error: error * scale, rising }
+    }
+
+    /// A root of the reversed polynomial as one of the line; `None` where it could as well be beyond ∞.
+    /// `odd` where the signs of the two polynomials differ.
+    fn outer(self, scale: f64, odd: bool) -> Option<Root> {
+        let Self { low, s: w, high, rising } = self;
+        let s = scale / w;
+        let off = |end: f64| scale * (end - w).abs() / (w.abs() * end.abs());
+        let error = off(low).max(off(high)) * (1.0 + 8.0 * U) + 2.0 * U * s.abs();
+        let fine = error.is_finite() && s.is_finite();
+        // The way along the line is the other way along w.
+        fine.then_some(Root { s, error, rising: rising == odd })
+    }
+}
+
+/// Whether no two of what it may be at `low` … `high` have different signs: those of its Bernstein
+/// coefficients do not, which hold it between them.
+fn certainly_one_sign(
+    values: &Coefficients,
+    slack: &Coefficients,
+    degree: usize,
+    low: f64,
+    high: f64,
+) -> bool {
+    // Of the piece from 0 to ±1, where Bernstein coefficients are plain sums; none else is asked for.
+    let way = match (low == 0.0, high == 0.0) {
+        (true, _) => 1.0,
+        (_, true) => -1.0,
+        _ => return false,
+    };
+    let n = degree as f64;
+    let (mut positive, mut negative) = (true, true);
+    for i in 0..=degree {
+        let (mut sum, mut bound, mut share, mut power) = (0.0, 0.0, 1.0, 1.0);
+        for k in 0..=i {
+            // share = C(i, k) / C(n, k)
+            sum += share * power * values[k];
+            bound += share * (slack[k] + 64.0 * U * values[k].abs());
+            share *= (i - k) as f64 / (n - k as f64).max(1.0);
+            power *= way;
+        }
+        positive &= sum > bound;
+        negative &= sum < -bound;
+    }
+    positive || negative
+}
+
+/// Where the derivative is 0 between two places, in order, to rounding.
+fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
+    let degree = values.len() - 1;
+    let mut points: SmallVec<[f64; 8]> = SmallVec::new();
+    // The derivatives of degree 1, 2, …; each over the factorial of its order, which has the same roots.
+    for order in (1..degree).rev() {
+        let mut derivative = [0.0; MOST + 1];
+        let mut share = 1.0;
+        for j in order..=degree {
+            derivative[j - order] = share * values[j];
+            share *= (j + 1) as f64 / (j + 1 - order) as f64;
+        }
+        let derivative = &derivative[..=degree - order];
+        let mut found: SmallVec<[f64; 8]> = SmallVec::new();
+        let (mut from, mut below) = (low, value(derivative, low));
+        for &to in points.iter().chain([&high]) {
+            let above = value(derivative, to);
+            if above == 0.0 && to < high {
+                found.push(to);
+            } else if (below < 0.0 && above > 0.0) || (below > 0.0 && above < 0.0) {
+                found.push(root_between(derivative, from, to, above > 0.0));
+            }
+            (from, below) = (to, above);
+        }
+        points = found;
+    }
+    points
+}
+
+/// Where a polynomial changes its sign between two places at which it has opposite ones: by Newton's
+/// steps while they stay between the places known best, else by halves.
+fn root_between(values: &[f64], mut low: f64, mut high: f64, rising: bool) -> f64 {
+    let mut s = 0.5 * (low + high);
+    // Newton's steps square the error at a simple root; at others halves have to do.
+    for turn in 0..128 {
+        let (value, slope) = value_and_slope(values, s);
+        if value == 0.0 {
+            return s;
+        }
+        if (value < 0.0) == rising {
+            low = s;
+        } else {
+            high = s;
+        }
+        let newton = s - value / slope;
+        let middle = 0.5 * (low + high);
+        let halve = turn % 4 == 3 || !(newton > low && newton < high);
+        let next = if halve { middle } else { newton };
+        if (newton - s).abs() <= U * s.abs() || next == low && middle == low || next == high {
+            return s;
+        }
+        s = next;
+    }
+    s
+}
+
+fn value(values: &[f64], s: f64) -> f64 {
+    values.iter().rev().fold(0.0, |sum, c| sum * s + c)
+}
+
+fn value_of_positive(values: &[f64], s: f64) -> f64 {
+    value(values, s) * (1.0 + 64.0 * U)
+}
+
+fn value_and_slope(values: &[f64], s: f64) -> (f64, f64) {
+    let step = |(value, slope), c: &f64| (value * s + c, slope * s + value);
+    values.iter().rev().fold((0.0, 0.0), step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Random, tries_in};
+
+    /// The product of (s − root) for all roots and of (s − a)² + b² for all pairs.
+    fn product(roots: &[f64], pairs: &[(f64, f64)]) -> Polynomial {
+        let (mut values, mut sizes) = ([0.0; MOST + 1], [0.0; MOST + 1]);
+        (values[0], sizes[0]) = (1.0, 1.0);
+        let mut times = |factor: [f64; 3]| {
+            for k in (0..=MOST).rev() {
+                let term = |list: &Coefficients, j: usize| if k >= j { list[k - j] } else { 0.0 };
+                let all = |list: &Coefficients, factor: [f64; 3]| {
+                    (0..3).map(|j| factor[j] * term(list, j)).sum::<f64>()
+                };
+                (values[k], sizes[k]) = (all(&values, factor), all(&sizes, factor.map(f64::abs)));
+            }
+        };
+        roots.iter().for_each(|root| times([-root, 1.0, 0.0]));
+        pairs.iter().for_each(|(a, b)| times([a * a + b * b, -2.0 * a, 1.0]));
+        Polynomial::new(values, sizes.map(|size| size * 64.0 * U))
+    }
+
+    /// Each root that stands alone is found, within its bound; at most those that do not are missing, in
+    /// pairs.
+    fn assert_finds(roots: &[f64], pairs: &[(f64, f64)], size: f64) -> usize {
+        let mut roots = roots.to_vec();
+        roots.sort_by(f64::total_cmp);
+        let polynomial = product(&roots, pairs);
+        let found = polynomial.roots(size);
+        assert_eq!(found.len() % 2, roots.len() % 2, "{found:?} {roots:?} {pairs:?}");
+        for (i, root) in found.iter().enumerate() {
+            assert_eq!(root.rising, (found.len() - i) % 2 == 1, "{found:?} {roots:?}");
+            let near = roots.iter().any(|true_one| (true_one - root.s).abs() <= root.error);
+            assert!(near, "{root:?} {roots:?} {pairs:?}");
+            assert!(i == 0 || found[i - 1].s <= root.s, "{found:?}");
+        }
+        found.len()
+    }
+
+    #[test]
+    fn roots_that_stand_apart_are_all_found() {
+        let mut random = Random(71);
+        for _ in 0..tries_in(5) {
+            let count = 1 + random.below(8);
+            let size = random.size(-6.0, 6.0);
+            let apart = |i: usize, random: &mut Random| {
+                (i as f64 - count as f64 * 0.5 + random.number(0.0, 0.5)) * size
+            };
+            let roots: Vec<f64> = (0..count).map(|i| apart(i, &mut random)).collect();
+            let pair = |random: &mut Random| {
+                (random.number(-3.0, 3.0) * size, random.number(0.5, 2.0) * size)
+            };
+            let pairs: Vec<_> = (0..random.below(3)).map(|_| pair(&mut random)).collect();
+            let found = assert_finds(&roots, &pairs, size);
+            assert_eq!(found, count, "{roots:?} {pairs:?}");
+        }
+    }
+
+    #[test]
+    fn the_families_of_quartic_roots_are_told() {
+        let mut random = Random(72);
+        for _ in 0..tries_in(5) {
+            let size = random.size(-9.0, 9.0);
+            let n = |random: &mut Random| random.number(-2.0, 2.0) * size;
+            let [a, b, c, d] = [0; 4].map(|_| n(&mut random));
+            let pair = (n(&mut random), random.number(0.2, 2.0) * size);
+            let other = (n(&mut random), random.number(0.2, 2.0) * size);
+            let close = size * random.size(-12.0, -3.0);
+            let far = random.size(0.0, 14.0);
+            let families: [(&[f64], &[(f64, f64)]); 9] = [
+                (&[a, b, c, d], &[]),
+                (&[a, b], &[pair]),
+                (&[], &[pair, other]),
+                (&[a, a, b, c], &[]),
+                (&[a, a, a, b], &[]),
+                (&[a, a, a, a], &[]),
+                (&[a, a + close, b], &[]),
+                (&[a, a * far, b * far, d], &[]),
+                (&[0.0, 0.0, a, b], &[]),
+            ];
+            for (roots, pairs) in families {
+                assert_finds(roots, pairs, size);
+            }
+            assert_eq!(assert_finds(&[a], &[pair], size), 1);
+        }
+    }
+
+    #[test]
+    fn what_touches_zero_is_no_root_and_what_crosses_it_thrice_at_once_is_one() {
+        assert!(product(&[1.0, 1.0], &[]).roots(1.0).is_empty());
+        assert!(product(&[0.3; 4], &[]).roots(1.0).is_empty());
+        let thrice = product(&[0.3; 3], &[]).roots(1.0);
+        assert_eq!(thrice.len(), 1);
+        assert!((thrice[0].s - 0.3).abs() <= thrice[0].error && thrice[0].error < 1e-3);
+    }
+
+    #[test]
+    fn the_line_has_no_end() {
+        for far in [1e3, 1e9, 1e12] {
+            let found = product(&[-far, 0.5, far], &[]).roots(1.0);
+            assert_eq!(found.len(), 3, "{far}: {found:?}");
+            assert!((found[2].s - far).abs() <= found[2].error && found[2].error < far * 1e-12);
+            assert!((found[0].s + far).abs() <= found[0].error && found[0].error < far * 1e-12);
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_of_what_may_be_zero_everywhere() {
+        assert!(Polynomial::new([0.0; 16], [0.0; 16]).roots(1.0).is_empty());
+        assert!(Polynomial::new([1e-17; 16], [1e-16; 16]).roots(1.0).is_empty());
+        assert!(Polynomial::new([f64::NAN; 16], [0.0; 16]).roots(1.0).is_empty());
+        assert!(Polynomial::new([1e300; 16], [0.0; 16]).roots(f64::INFINITY).is_empty());
+    }
+
+    #[test]
+    fn fifteen_roots_are_found() {
+        let roots: Vec<f64> = (-7..=7).map(|i| f64::from(i) * 0.5).collect();
+        assert_eq!(assert_finds(&roots, &[], 1.0), 15);
+    }
+}

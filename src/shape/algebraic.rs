@@ -1,0 +1,184 @@
+//! Algebraic surface: where a polynomial in x, y and z is 0; inside it is negative.
+//!
+//! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
+//! however far away. It may have no end, and begin inside.
+
+use std::fmt::Write;
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use crate::math::Vector;
+use crate::math::roots::polynomial::{Coefficients, MOST, Polynomial};
+use crate::math::terms::{count_of_terms, exponents};
+
+/// A polynomial in x, y and z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Algebraic {
+    /// 2 … 15.
+    degree: usize,
+    /// Of all xⁱyʲzᵏ with i + j + k ≤ degree; by falling powers of x, then of y, then of z.
+    terms: Vec<f64>,
+    /// Their absolute values.
+    sizes: Vec<f64>,
+}
+
+impl Algebraic {
+    /// `None` where the degree is more than 15, or the number of terms not that of the degree.
+    pub fn new(degree: usize, terms: Vec<f64>) -> Option<Self> {
+        let fits = degree <= MOST && terms.len() == count_of_terms(degree);
+        let sizes = terms.iter().map(|term| term.abs()).collect();
+        fits.then_some(Self { degree, terms, sizes })
+    }
+
+    /// Its value at `start + s · step` as a polynomial in s, for the polynomial of these terms.
+    fn along(&self, terms: &[f64], start: Vector, step: Vector) -> Coefficients {
+        let mut terms = terms.iter();
+        let mut all = [0.0; MOST + 1];
+        for i in 0..=self.degree {
+            let mut plane = [0.0; MOST + 1];
+            for j in 0..=i {
+                let mut row = [0.0; MOST + 1];
+                for (k, term) in terms.by_ref().take(j + 1).enumerate() {
+                    multiply(&mut row, k, start.z, step.z);
+                    row[0] += term;
+                }
+                multiply(&mut plane, j, start.y, step.y);
+                add(&mut plane, &row, j);
+            }
+            multiply(&mut all, i, start.x, step.x);
+            add(&mut all, &plane, i);
+        }
+        all
+    }
+
+    /// The value at a point and its gradient, for the polynomial of these terms.
+    fn at(&self, terms: &[f64], point: Vector) -> (f64, Vector) {
+        let Vector { x, y, z } = point;
+        let mut terms = terms.iter();
+        let (mut all, mut slope) = (0.0, Vector::ZERO);
+        for i in 0..=self.degree {
+            let (mut plane, mut plane_slope) = (0.0, Vector::ZERO);
+            for j in 0..=i {
+                let (mut row, mut row_slope) = (0.0, 0.0);
+                for term in terms.by_ref().take(j + 1) {
+                    row_slope = row_slope * z + row;
+                    row = row * z + term;
+                }
+                plane_slope = plane_slope * y + Vector::new(0.0, plane, row_slope);
+                plane = plane * y + row;
+            }
+            slope = slope * x + plane_slope + Vector::new(all, 0.0, 0.0);
+            all = all * x + plane;
+        }
+        (all, slope)
+    }
+
+    /// How often a term of a value is rounded at most: each factor twice, each of the sums it is carried
+    /// through once.
+    fn rounding(&self) -> f64 {
+        (5 * self.degree + 8) as f64 * U
+    }
+
+    /// The polynomial along a line.
+    ///
+    /// **Error** of each coefficient: with A the same of all absolute values, and A′ that with the line's
+    /// blur and turn added to those of its point and direction, A′ − A for the line, and each coefficient
+    /// of A′ times the rounding of the three.
+    fn along_ray(&self, ray: &LocalRay) -> Polynomial {
+        let LocalRay { nearest, direction, blur, turn } = *ray;
+        let (place, way) = (nearest.abs(), direction.abs());
+        let values = self.along(&self.terms, nearest, direction);
+        let least = self.along(&self.sizes, place, way);
+        let wide = |v: Vector, by: f64| v + Vector::splat(by);
+        let mut errors = self.along(&self.sizes, wide(place, blur), wide(way, turn));
+        for (most, least) in errors.iter_mut().zip(least) {
+            *most = (*most - least).max(0.0) + 3.0 * self.rounding() * *most;
+        }
+        Polynomial::new(values, errors)
+    }
+}
+
+/// A polynomial of degree `before` − 1 times (start + s · step).
+fn multiply(values: &mut Coefficients, before: usize, start: f64, step: f64) {
+    for k in (1..=before).rev() {
+        values[k] = values[k] * start + values[k - 1] * step;
+    }
+    values[0] *= start;
+}
+
+fn add(values: &mut Coefficients, more: &Coefficients, degree: usize) {
+    for (value, more) in values.iter_mut().zip(&more[..=degree]) {
+        *value += more;
+    }
+}
+
+impl Local for Algebraic {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let size = ray.nearest.length().max(1.0);
+        let roots = self.along_ray(ray).roots(size);
+        found.extend(roots.into_iter().map(|root| Met {
+            t: root.s,
+            error: root.error,
+            leaving: root.rising,
+            part: 0,
+        }));
+    }
+
+    fn height(&self, _: u32, point: Vector) -> Height {
+        let (value, gradient) = self.at(&self.terms, point);
+        let (size, _) = self.at(&self.sizes, point.abs());
+        let error = self.rounding() * size;
+        if gradient == Vector::ZERO {
+            // The tip of a cone, or the place where two sheets cross: it faces no way, or any.
+            return Height { value: 0.0, gradient: Vector::Y, error: error.sqrt() };
+        }
+        Height { value, gradient, error }
+    }
+
+    fn extent(&self, _: Vector) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn reach(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Its terms but those that are 0: ` 2·x^2·y`.
+    fn numbers(&self) -> String {
+        let mut out = String::new();
+        for (term, powers) in self.terms.iter().zip(exponents(self.degree)) {
+            if *term == 0.0 {
+                continue;
+            }
+            // Writing to a string does not fail.
+            let _ = write!(out, " {term}");
+            for (axis, power) in ["x", "y", "z"].into_iter().zip(powers) {
+                let _ = match power {
+                    0 => Ok(()),
+                    1 => write!(out, "·{axis}"),
+                    _ => write!(out, "·{axis}^{power}"),
+                };
+            }
+        }
+        out
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        self.at(&self.terms, point).0 < 0.0
+    }
+}
+
+#[cfg(test)]
+impl Algebraic {
+    /// Its value in twice the digits.
+    pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
+        use super::exact::Double;
+        let power = |x: Double, n: usize| (0..n).fold(Double::of(1.0), |all, _| all * x);
+        let terms = self.terms.iter().zip(exponents(self.degree)).filter(|(term, _)| **term != 0.0);
+        let value = |(term, powers): (&f64, [usize; 3])| {
+            let factors = point.into_iter().zip(powers);
+            factors.fold(Double::of(*term), |all, (x, n)| all * power(x, n))
+        };
+        terms.map(value).fold(Double::of(0.0), |all, term| all + term)
+    }
+}
