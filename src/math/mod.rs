@@ -9,6 +9,7 @@ pub mod elementary;
 pub mod interval;
 pub mod placement;
 pub(crate) mod random;
+pub mod roots;
 pub mod singular;
 pub mod transform;
 pub mod vector;

@@ -1,0 +1,3 @@
+//! Roots of functions of one number, each with a bound on its error.
+
+pub mod bracket;
