@@ -63,8 +63,12 @@ impl Cone {
         let q = -(half + (half * half - steep * rest).max(0.0).sqrt().copysign(half));
         let guesses = (q / steep, rest / q);
         let end = |far: f64, leaving| {
-            if !height(far).is_outside() {
+            let last = height(far);
+            if last.is_inside() {
                 return Met { t: far * f64::INFINITY, error: 0.0, leaving, part: SIDE };
+            } else if !last.is_outside() {
+                // Along its side: it may be anywhere up to what is certainly inside.
+                return Met { t: far, error: (far - deepest).abs(), leaving, part: SIDE };
             }
             let is_here = (guesses.0 - deepest) * far > 0.0;
             let start = if is_here { guesses.0 } else { guesses.1 };
@@ -85,7 +89,9 @@ impl Local for Cone {
         let chord = |side| {
             let (enter, leave) = self.nappe(ray, side)?;
             let (enter, leave) = (enter.later(first), leave.earlier(last));
-            (enter.t < leave.t).then_some([seen(enter), seen(leave)])
+            // What rounding cannot tell from a miss is missed.
+            let is_told = enter.t + enter.error < leave.t - leave.error;
+            is_told.then_some([seen(enter), seen(leave)])
         };
         let (wide, other) = (chord(1.0), if self.cap < 0.0 { chord(-1.0) } else { None });
         match (wide, other) {

@@ -101,6 +101,12 @@ pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
     let (place, speed) = (ray.nearest.z, ray.direction.z);
     let met = |end: f64, leaving| {
         let t = (end - place) / speed;
+        // Certainly beyond all of the body, which ends at √2; for all that is known of a line so flat,
+        // its crossing might be anywhere else beyond.
+        let flat_off = ray.blur_at(2.0) + 2.0 * U * (1.0 + place.abs());
+        if (t.abs() - 2.0) * speed.abs() > flat_off {
+            return Met { t: t * f64::INFINITY, error: 0.0, leaving, part: CAP };
+        }
         let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
         let part = if end > 0.0 { CAP } else { BASE };
         Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }

@@ -16,15 +16,17 @@ pub struct Disc {
 
 impl Local for Disc {
     /// The crossing with the plane z = 0, seen or not. **Error:** the line's blur there, and the
-    /// rounding of z, over its speed toward the plane.
+    /// rounding of z, over its speed toward the plane, less what that may be off by: no crossing is
+    /// told of a line that may as well be parallel.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let (place, speed) = (ray.nearest.z, ray.direction.z);
         let t = -place / speed;
-        if !t.is_finite() {
+        let certain = speed.abs() - ray.turn;
+        if !(t.is_finite() && certain > 0.0) {
             return;
         }
         let off = ray.blur_at(t) + 2.0 * U * place.abs();
-        let error = off / speed.abs() + 4.0 * U * t.abs();
+        let error = off / certain + 4.0 * U * t.abs();
         let point = ray.at(t);
         let distance = (point.x * point.x + point.y * point.y).sqrt();
         let part = if self.hole <= distance && distance <= 1.0 { 0 } else { Met::UNSEEN };
@@ -35,9 +37,9 @@ impl Local for Disc {
         Height { value: point.z, gradient: Vector::Z, error: 0.0 }
     }
 
-    /// Of what is seen.
+    /// Of what is seen, with room for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let half = Vector::new(along.x, along.y, 0.0).length();
+        let half = Vector::new(along.x, along.y, 0.0).length() + 64.0 * U * along.z.abs();
         (-half, half)
     }
 

@@ -76,16 +76,23 @@ impl<'a> Line<'a> {
         // Where h begins to be concave: ρ there, and the share of ρ² that is not m².
         let rho = cbrt(major * cross2);
         let share = if rho > 0.0 { 1.0 - cross2 / speed2 / (rho * rho) } else { 1.0 };
+        let all_convex = || {
+            let right = self.seek(Seek::Dip, (-FAR, FAR), 0.0);
+            Parts { left: None, crest: None, right }
+        };
         let is_concave = speed2 > 0.0 && share >= 0.0;
         if !is_concave {
-            let right = self.seek(Seek::Dip, (-FAR, FAR), 0.0);
-            return Parts { left: None, crest: None, right };
+            return all_convex();
         }
         let (middle, half) = (-self.along / speed2, rho * share.sqrt() / speed);
         let (begin, end) = (middle - half, middle + half);
         // Half of h′ falls from the one to the other.
         let steepest = major * speed * share.sqrt();
         let (before, after) = (begin + steepest, end - steepest);
+        // It cannot rise; rounding says so where all that is concave is a point.
+        if before <= 0.0 && after >= 0.0 {
+            return all_convex();
+        }
         let seek = |is_there, piece, start| {
             if is_there { self.seek(Seek::Dip, piece, start) } else { None }
         };
