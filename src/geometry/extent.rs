@@ -3,6 +3,7 @@
 use smallvec::SmallVec;
 
 use crate::math::Vector;
+use crate::shape::body::Local;
 use crate::shape::csg::Node;
 use crate::shape::{Bounds, Shape};
 use crate::world::World;
@@ -28,7 +29,7 @@ impl Extent {
             match *node {
                 Node::Leaf { inverse } => {
                     let leaf = leaves.next().unwrap_or_default() as u32;
-                    stack.push(if inverse {
+                    stack.push(if inverse || Self::is_endless(world, leaf) {
                         Self::EVERYWHERE
                     } else {
                         Self::of_shape(world, leaf)
@@ -50,6 +51,12 @@ impl Extent {
             }
         }
         stack.pop().unwrap_or(Self::NOWHERE)
+    }
+
+    /// It has no end, though what is seen of it may have one.
+    fn is_endless(world: &World, object: u32) -> bool {
+        let shape = world.objects[object as usize].shape;
+        matches!(shape, Shape::Placed(i) if world.placed[i as usize].body.reach().is_infinite())
     }
 
     /// Of an object by itself.

@@ -12,7 +12,7 @@ use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
-use crate::shape::{Algebraic, Body, Cylinder, Placed};
+use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Placed, Torus};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -51,20 +51,65 @@ pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault>
     Ok((Body::Algebraic(surface), Affine::from_columns(columns, DoubleVector::ZERO)))
 }
 
+/// The cone whose wider end, at z = −1, has the radius 1; a cylinder where both have.
+pub fn cone(
+    [base, cap]: [Vector; 2],
+    radii: [f64; 2],
+    open: bool,
+) -> Result<(Body, Affine), Fault> {
+    let is_base_wide = radii[0].abs() >= radii[1].abs();
+    let (wide, narrow) = if is_base_wide { (radii[0], radii[1]) } else { (radii[1], radii[0]) };
+    if wide == narrow {
+        return cylinder([base, cap], wide, open);
+    }
+    let ends = if is_base_wide { [base, cap] } else { [cap, base] };
+    let cap = (Double::from(narrow) / Double::from(wide)).round();
+    Ok((Body::Cone(Cone { cap, open }), along_axis(ends, Double::from(wide).abs())?))
+}
+
+/// The disc of radius 1 around the z axis, which faces along it.
+pub fn disc(
+    centre: Vector,
+    normal: Vector,
+    radius: f64,
+    hole: f64,
+) -> Result<(Body, Affine), Fault> {
+    let size = Double::from(radius).abs();
+    let (across, aside, unit) = frame(exact(normal))?;
+    let hole = (Double::from(hole).abs() / size).round();
+    let columns = [across * size, aside * size, unit * size];
+    Ok((Body::Disc(Disc { hole }), Affine::from_columns(columns, exact(centre))))
+}
+
+/// The torus about the z axis that reaches 1 from it.
+pub fn torus(major: f64, minor: f64) -> (Body, Affine) {
+    let (major, minor) = (Double::from(major).abs(), Double::from(minor).abs());
+    let size = major + minor;
+    let torus = Torus { major: (major / size).round(), minor: (minor / size).round() };
+    let [x, y, z] = [0, 1, 2].map(DoubleVector::axis);
+    let columns = [x * size, -z * size, y * size];
+    (Body::Torus(torus), Affine::from_columns(columns, exact(Vector::ZERO)))
+}
+
 /// The map that takes the z axis from −1 to 1 to the line between two points, and lengths across it to
 /// `radius` times as much.
 fn along_axis([a, b]: [Vector; 2], radius: Double) -> Result<Affine, Fault> {
     let half = Double::from(0.5);
     let (a, b) = (exact(a), exact(b));
     let axis = (b - a) * half;
+    let (across, aside, _) = frame(axis)?;
+    Ok(Affine::from_columns([across * radius, aside * radius, axis], (a + b) * half))
+}
+
+/// Three vectors of length 1 at right angles; the last goes along `axis`.
+fn frame(axis: DoubleVector) -> Result<(DoubleVector, DoubleVector, DoubleVector), Fault> {
     let unit = axis.normalized().ok_or_else(|| no_size("this solid has no length"))?;
     // The coordinate axis that is farthest from it.
     let sizes = unit.round().abs();
     let away = (0..3).min_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
     let across = unit.cross(DoubleVector::axis(away)).normalized();
     let across = across.ok_or_else(|| no_size("this solid has no length"))?;
-    let columns = [across * radius, unit.cross(across) * radius, axis];
-    Ok(Affine::from_columns(columns, (a + b) * half))
+    Ok((across, unit.cross(across), unit))
 }
 
 /// A body under a map, as it stands in the world.

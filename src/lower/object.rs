@@ -9,6 +9,7 @@ use super::texture::Surface;
 use super::transform::{Affine, NEAR_SINGULAR};
 use super::{Fault, Lowering, NO_SIZE, body, shape};
 use crate::diagnostic::Code;
+use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
 use crate::shape::{Body, Shape};
 use crate::source::Site;
@@ -267,6 +268,18 @@ impl<'s> Lowering<'s, '_> {
             Solid::Cylinder { ends, radius, open } => {
                 self.place_body(body::cylinder(ends, radius, open)?, here, site)
             }
+            Solid::Cone { ends, radii, open } => {
+                self.place_body(body::cone(ends, radii, open)?, here, site)
+            }
+            Solid::Disc { centre, normal, radius, hole } => {
+                self.place_body(body::disc(centre, normal, radius, hole)?, here, site)
+            }
+            // A tube about a point is a ball.
+            Solid::Torus { major: 0.0, minor } => {
+                let ball = Solid::Sphere { centre: Vector::ZERO, radius: minor };
+                self.solid(&ball, here, site)
+            }
+            Solid::Torus { major, minor } => self.place_body(body::torus(major, minor), here, site),
             Solid::Polynomial { degree, ref terms, .. } => {
                 self.place_body(body::polynomial(degree, terms)?, here, site)
             }

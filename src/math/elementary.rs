@@ -4,8 +4,8 @@
 //! `floor` are exact everywhere and need no wrapping).
 
 pub use libm::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, ceil, cos, cosh, erf, exp, floor, fmod, hypot,
-    log, log10, pow, sin, sinh, tan, tanh,
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, ceil, cos, cosh, erf, exp, floor, fmod,
+    hypot, log, log10, pow, sin, sinh, tan, tanh,
 };
 
 /// π / 180: multiply degrees by it to get radians.

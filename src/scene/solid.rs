@@ -28,6 +28,28 @@ pub enum Solid {
         /// Its ends are not seen.
         open: bool,
     },
+    Cone {
+        /// The middles of its two ends.
+        ends: [Vector; 2],
+        /// The radius at each. Where their signs differ, two cones stand tip to tip.
+        radii: [f64; 2],
+        /// Its ends are not seen.
+        open: bool,
+    },
+    Disc {
+        centre: Vector,
+        normal: Vector,
+        radius: f64,
+        /// The radius of the hole in its middle.
+        hole: f64,
+    },
+    /// About the y axis.
+    Torus {
+        /// From the axis to the middle of the tube.
+        major: f64,
+        /// Of the tube.
+        minor: f64,
+    },
     /// Where a polynomial in x, y and z is 0 or less.
     Polynomial {
         /// The word it is written with.
@@ -47,12 +69,16 @@ impl Solid {
             Self::Plane { .. } => Word::Plane,
             Self::Box { .. } => Word::Box,
             Self::Cylinder { .. } => Word::Cylinder,
+            Self::Cone { .. } => Word::Cone,
+            Self::Disc { .. } => Word::Disc,
+            Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
         }
     }
 
-    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar without length or width, a
-    /// polynomial that is a number.
+    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
+    /// without length or width, a disc that is all hole, a ring of no thickness, a polynomial that is a
+    /// number.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::Sphere { radius, .. } => *radius == 0.0,
@@ -61,6 +87,9 @@ impl Solid {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
             Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
+            Self::Cone { ends: [base, cap], radii, .. } => *radii == [0.0; 2] || base == cap,
+            Self::Disc { radius, hole, .. } => radius.abs() <= hole.abs(),
+            Self::Torus { minor, .. } => *minor == 0.0,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
             }
@@ -80,6 +109,14 @@ impl fmt::Display for Solid {
             Self::Cylinder { ends: [a, b], radius, open: is_open } => {
                 write!(f, " {} {} {radius}{}", written(*a), written(*b), open(*is_open))
             }
+            Self::Cone { ends: [a, b], radii: [base, cap], open: is_open } => {
+                let (a, b) = (written(*a), written(*b));
+                write!(f, " {a} {base} {b} {cap}{}", open(*is_open))
+            }
+            Self::Disc { centre, normal, radius, hole } => {
+                write!(f, " {} {} {radius} {hole}", written(*centre), written(*normal))
+            }
+            Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;
                 terms.iter().try_for_each(|term| write!(f, " {term}"))

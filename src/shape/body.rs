@@ -7,7 +7,10 @@
 use smallvec::SmallVec;
 
 use super::algebraic::Algebraic;
+use super::cone::Cone;
 use super::cylinder::Cylinder;
+use super::disc::Disc;
+use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
 use crate::math::placement::Placement;
@@ -20,7 +23,7 @@ pub trait Local {
     /// The height over one part of the surface, near it.
     fn height(&self, part: u32, point: Vector) -> Height;
 
-    /// The least and the greatest `along`·P over the body; infinite where it has no end.
+    /// The least and the greatest `along`·P over what is seen of the body; infinite where that has no end.
     fn extent(&self, along: Vector) -> (f64, f64);
 
     /// The radius of a ball around the local origin that holds the body; ∞ where none does.
@@ -98,6 +101,18 @@ impl Met {
     pub fn crossing(&self) -> Crossing {
         Crossing { t: self.t, error: self.error }
     }
+
+    /// The one farther along; where rounding may have swapped them, the bound says so.
+    pub(super) fn later(self, other: Self) -> Self {
+        let (late, early) = if other.t > self.t { (other, self) } else { (self, other) };
+        Self { error: late.error.max(early.error - (late.t - early.t)), ..late }
+    }
+
+    /// The one less far along; likewise.
+    pub(super) fn earlier(self, other: Self) -> Self {
+        let (early, late) = if other.t < self.t { (other, self) } else { (self, other) };
+        Self { error: early.error.max(late.error - (late.t - early.t)), ..early }
+    }
 }
 
 /// Crossings in order. Most bodies have few, and need no allocation.
@@ -169,7 +184,10 @@ macro_rules! bodies {
 
 bodies! {
     Algebraic "polynomial"
+    Cone "cone"
     Cylinder "cylinder"
+    Disc "disc"
+    Torus "torus"
 }
 
 /// A ray as a placed body sees it.

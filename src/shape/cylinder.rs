@@ -6,11 +6,11 @@ use super::body::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 
 /// The parts of its surface.
-const SIDE: u32 = 0;
+pub(super) const SIDE: u32 = 0;
 /// At z = 1.
-const CAP: u32 = 1;
+pub(super) const CAP: u32 = 1;
 /// At z = −1.
-const BASE: u32 = 2;
+pub(super) const BASE: u32 = 2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
@@ -27,14 +27,9 @@ impl Local for Cylinder {
     /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·|q|, and
     /// δ again, over |e|; of an end B + 2u·(1 + |z|) over |d.z|.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let Some((mut enter, mut leave)) = round(ray) else { return };
+        let Some((enter, leave)) = round(ray) else { return };
         let Some((first, last)) = ends(ray) else { return };
-        if first.t > enter.t {
-            enter = first;
-        }
-        if last.t < leave.t {
-            leave = last;
-        }
+        let (enter, leave) = (enter.later(first), leave.earlier(last));
         if enter.t < leave.t {
             let seen = |met: Met| match met.part {
                 CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
@@ -102,10 +97,16 @@ fn round(ray: &LocalRay) -> Option<(Met, Met)> {
 }
 
 /// Where the line is between the ends.
-fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
+pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
     let (place, speed) = (ray.nearest.z, ray.direction.z);
     let met = |end: f64, leaving| {
         let t = (end - place) / speed;
+        // Certainly beyond all of the body, which ends at √2; for all that is known of a line so flat,
+        // its crossing might be anywhere else beyond.
+        let flat_off = ray.blur_at(2.0) + 2.0 * U * (1.0 + place.abs());
+        if (t.abs() - 2.0) * speed.abs() > flat_off {
+            return Met { t: t * f64::INFINITY, error: 0.0, leaving, part: CAP };
+        }
         let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
         let part = if end > 0.0 { CAP } else { BASE };
         Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }

@@ -6,21 +6,27 @@
 pub mod algebraic;
 pub mod body;
 pub mod box_;
+pub mod cone;
 pub mod csg;
 pub mod cylinder;
+pub mod disc;
 pub mod ellipsoid;
 pub mod placed;
 pub mod plane;
 pub mod sphere;
+pub mod torus;
 
 pub use algebraic::Algebraic;
 pub use body::Body;
 pub use box_::Box_;
+pub use cone::Cone;
 pub use cylinder::Cylinder;
+pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use sphere::Sphere;
+pub use torus::Torus;
 
 use crate::math::{Real, Vector, Vector3};
 

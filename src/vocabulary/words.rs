@@ -40,10 +40,10 @@ vocabulary! {
         BicubicPatch "bicubic_patch" statement later "a surface of 16 Bézier control points";
         Blob "blob" statement later "spheres and cylinders that melt into one surface";
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
-        Cone "cone" statement later "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
+        Cone "cone" statement built "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
         Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
-        Disc "disc" statement later "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring";
+        Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; to other solids, all that is behind it";
         HeightField "height_field" statement later "a landscape from a picture or a function";
         Isosurface "isosurface" statement later "where a function of space is zero";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
@@ -65,7 +65,7 @@ vocabulary! {
         SphereSweep "sphere_sweep" statement later "a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement later "a box with rounded edges, by two exponents";
         Text "text" statement later "letters of a font as a solid";
-        Torus "torus" statement later "`torus { major, minor }`: a ring about the y axis";
+        Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
         Triangle "triangle" statement later "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }
     ShapeItem {

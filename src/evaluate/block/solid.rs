@@ -17,6 +17,9 @@ impl Evaluator<'_> {
             Word::Plane => Self::plane,
             Word::Box => Self::box_,
             Word::Cylinder => Self::cylinder,
+            Word::Cone => Self::cone,
+            Word::Disc => Self::disc,
+            Word::Torus => Self::torus,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,
             Word::Quartic => Self::quartic,
@@ -133,5 +136,95 @@ impl Evaluator<'_> {
         }
         let open = self.take_word(Word::Open).is_some();
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
+    }
+
+    fn cone(&mut self, token: &Token) -> Outcome<Solid> {
+        let base = self.vector_after(token, "a vector for the middle of the base");
+        let base_radius = self.number_after(token, "a number for the radius at the base");
+        let cap = self.vector_after(token, "a vector for the middle of the cap");
+        let cap_radius = self.number_after(token, "a number for the radius at the cap");
+        let (base, base_radius, cap, cap_radius) = (base?, base_radius?, cap?, cap_radius?);
+        if base.value == cap.value {
+            let diagnostic =
+                Diagnostic::new(self.sizeless(), "a cone whose ends are in one place is nothing")
+                    .at(cap.span, "expected another place")
+                    .also(base.span, "the base");
+            self.nothing(token, &cap.here, diagnostic)?;
+        }
+        let radii = [base_radius.value, cap_radius.value];
+        if radii == [0.0; 2] {
+            let diagnostic =
+                Diagnostic::new(self.sizeless(), "a cone of radius 0 at both ends is nothing")
+                    .at(cap_radius.span, "expected a number more than 0")
+                    .also(base_radius.span, "and so is the other");
+            self.nothing(token, &cap_radius.here, diagnostic)?;
+        }
+        let is_hourglass = radii[0].min(radii[1]) < 0.0 && radii[0].max(radii[1]) > 0.0;
+        for radius in [&base_radius, &cap_radius].into_iter().filter(|radius| radius.value < 0.0) {
+            if is_hourglass {
+                let message = "the radii have opposite signs: two cones stand tip to tip";
+                let diagnostic =
+                    Diagnostic::new(Code::NegativeSize, message).at(radius.span, "a negative size");
+                self.report(&radius.here, diagnostic);
+            } else {
+                self.lint_negative_radius(&radius.here, radius.span, radius.value);
+            }
+        }
+        let open = self.take_word(Word::Open).is_some();
+        Ok(Solid::Cone { ends: [base.value, cap.value], radii, open })
+    }
+
+    fn disc(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.bare_points(2, 1) {
+            return Err(reported);
+        }
+        let centre = self.vector_after(token, "a vector for the centre");
+        let normal = self.direction_after(token, "the normal");
+        let radius = self.number_after(token, "a number for the radius");
+        let (centre, normal, radius) = (centre?, normal?, radius?);
+        self.skip_commas();
+        let hole = match self.peek().map(|token| &token.kind) {
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
+                Some(self.number_after(token, "a number for the radius of the hole")?)
+            }
+            _ => None,
+        };
+        let hole_radius = hole.as_ref().map_or(0.0, |hole| hole.value);
+        if radius.value == 0.0 {
+            let diagnostic = Diagnostic::new(self.sizeless(), "a disc of radius 0 is nothing")
+                .at(radius.span, "expected a number more than 0");
+            self.nothing(token, &radius.here, diagnostic)?;
+        } else if let Some(hole) =
+            hole.as_ref().filter(|hole| hole.value.abs() >= radius.value.abs())
+        {
+            let diagnostic = Diagnostic::new(
+                self.sizeless(),
+                "a disc that is no wider than its hole is nothing",
+            )
+            .at(hole.span, "expected a number less than the radius")
+            .also(radius.span, "the radius");
+            self.nothing(token, &hole.here, diagnostic)?;
+        }
+        for radius in [&radius].into_iter().chain(&hole).filter(|radius| radius.value < 0.0) {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
+        let (centre, normal) = (centre.value, normal.value);
+        Ok(Solid::Disc { centre, normal, radius: radius.value, hole: hole_radius })
+    }
+
+    fn torus(&mut self, token: &Token) -> Outcome<Solid> {
+        let major = self.number_after(token, "a number for the major radius");
+        let minor = self.number_after(token, "a number for the minor radius");
+        let (major, minor) = (major?, minor?);
+        if minor.value == 0.0 {
+            let diagnostic =
+                Diagnostic::new(self.sizeless(), "a torus of minor radius 0 is nothing")
+                    .at(minor.span, "expected a number more than 0");
+            self.nothing(token, &minor.here, diagnostic)?;
+        }
+        for radius in [&major, &minor].into_iter().filter(|radius| radius.value < 0.0) {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
+        Ok(Solid::Torus { major: major.value, minor: minor.value })
     }
 }

@@ -1,3 +1,4 @@
-//! Real roots of polynomials, each with an error bound.
+//! Roots of functions of one number, each with a bound on its error.
 
+pub mod bracket;
 pub mod polynomial;

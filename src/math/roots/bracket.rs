@@ -1,0 +1,126 @@
+//! Bracket: the root between a place where a function is certainly positive and one where it is
+//! certainly negative.
+//!
+//! **In:** a function that says how far its own value may be off. **Out:** a root, and a bound on its
+//! error. **Invariant:** within the bound, on each side, the function has been found certain of its
+//! sign; so the bound holds for the function that was meant, whatever rounding made of this one.
+
+/// The roundoff of `f64`.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// A function at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    pub value: f64,
+    /// The value's slope. Where it is wrong or no number, the root is found later but as well.
+    pub slope: f64,
+    /// How far `value` may be from the value that was meant.
+    pub error: f64,
+}
+
+impl Sample {
+    /// Certainly positive.
+    pub fn is_outside(&self) -> bool {
+        self.value > self.error
+    }
+
+    /// Certainly negative.
+    pub fn is_inside(&self) -> bool {
+        self.value < -self.error
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    pub t: f64,
+    /// The true root lies within this distance of `t`.
+    pub error: f64,
+}
+
+/// The root between `outside`, where the function is certainly positive, and `inside`, where it is
+/// certainly negative, in either order; `start` is a guess. Newton's steps, and half of the bracket
+/// where one would leave it or come on too slowly; then the bound, sought outward from the root.
+///
+/// **Source:** W. Press et al., "Numerical Recipes in C", 2nd ed. (1992), § 9.4 (`rtsafe`).
+pub fn root(sample: impl Fn(f64) -> Sample, outside: f64, inside: f64, start: f64) -> Root {
+    let between = |t: f64, a: f64, b: f64| (t - a) * (t - b) < 0.0;
+    let (mut above, mut below) = (outside, inside);
+    let mut t = if between(start, above, below) { start } else { 0.5 * (above + below) };
+    let (mut step, mut step_before) = (f64::INFINITY, f64::INFINITY);
+    let mut here = sample(t);
+    loop {
+        if here.is_outside() {
+            above = t;
+        } else if here.is_inside() {
+            below = t;
+        } else {
+            break;
+        }
+        let newton = here.value / here.slope;
+        let is_fast = 2.0 * newton.abs() < step_before.abs();
+        let next = match between(t - newton, above, below) && is_fast {
+            true => t - newton,
+            false => 0.5 * (above + below),
+        };
+        (step_before, step) = (step, next - t);
+        if !between(next, above, below) {
+            break;
+        }
+        t = next;
+        here = sample(t);
+    }
+    // How far one must go from the root until the sign is certain.
+    let least = (2.0 * here.error / here.slope.abs()).max(4.0 * U * t.abs());
+    let reach = |end: f64, is_certain: fn(&Sample) -> bool| {
+        let (far, way) = ((end - t).abs(), (end - t).signum());
+        let mut step = least;
+        // Also at the end where the slope was 0 or no number.
+        while step < far {
+            if is_certain(&sample(t + way * step)) {
+                return step;
+            }
+            step = 2.0 * step + f64::MIN_POSITIVE;
+        }
+        far
+    };
+    let error = reach(above, Sample::is_outside).max(reach(below, Sample::is_inside));
+    Root { t, error: error + 2.0 * U * t.abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Random, tries};
+
+    /// x³ − a, off by up to `error`.
+    fn cube(a: f64, error: f64) -> impl Fn(f64) -> Sample {
+        move |x| Sample { value: x * x * x - a, slope: 3.0 * x * x, error }
+    }
+
+    #[test]
+    fn a_root_lies_within_its_bound_wherever_the_search_starts() {
+        let mut random = Random(7);
+        for _ in 0..tries() {
+            let meant = random.number(-2.0, 2.0);
+            let error = random.size(-14.0, -2.0);
+            // What was meant, and off by nearly as much as is claimed.
+            let off = random.number(-0.9, 0.9) * error;
+            let start = random.number(-5.0, 5.0);
+            let root = root(cube(meant * meant * meant + off, error), 3.0, -3.0, start);
+            assert!((root.t - meant).abs() <= root.error, "{root:?} {meant} {error:e}");
+            if meant.abs() > 0.5 {
+                assert!(root.error <= 10.0 * error, "{root:?} {meant} {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slope_that_is_wrong_costs_time_and_no_digits() {
+        let wrong = |slope: f64| move |x: f64| Sample { value: x - 0.3, slope, error: 1e-15 };
+        for slope in [f64::NAN, 0.0, -1.0, 1e-300, f64::INFINITY] {
+            let root = root(wrong(slope), 1.0, -1.0, f64::NAN);
+            assert!((root.t - 0.3).abs() < 2e-15, "{slope}: {root:?}");
+            assert!((root.t - 0.3).abs() <= root.error, "{slope}: {root:?}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Cone: √(x² + y²) ≤ |w(z)|, |z| ≤ 1 in its own space, where the width w goes from 1 at z = −1 to
+//! `cap` at z = 1. Where `cap` is negative, two cones stand tip to tip.
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::cylinder::{BASE, CAP, SIDE, ends};
+use crate::math::Vector;
+use crate::math::roots::bracket::{Sample, root};
+
+/// The line is followed so far to each side; the cone ends at √2.
+const FAR: f64 = 2.0;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// The width at z = 1, from −1 to less than 1.
+    pub cap: f64,
+    /// Its ends are not seen, though it is as solid as ever.
+    pub open: bool,
+}
+
+impl Cone {
+    /// How much narrower it gets for each length along the axis.
+    fn slope(&self) -> f64 {
+        0.5 * (1.0 - self.cap)
+    }
+
+    fn width(&self, z: f64) -> f64 {
+        self.cap + self.slope() * (1.0 - z)
+    }
+
+    /// Where the line is in the cone that is wide where `side`·w is positive, without its ends.
+    ///
+    /// Along the line, with e and m its speed across the axis and its distance to it, the height
+    /// g = √(e²(s − c)² + m²) − `side`·w is convex: where it is least follows from g′ = 0, and on
+    /// each side of that is one root. **Error:** that of g, for it changes by no more than √2 times
+    /// what a point moves by.
+    fn nappe(&self, ray: &LocalRay, side: f64) -> Option<(Met, Met)> {
+        let (n, d) = (ray.nearest, ray.direction);
+        let narrowing = side * self.slope() * d.z;
+        let height = |s: f64| {
+            let point = ray.at(s);
+            let distance = (point.x * point.x + point.y * point.y).sqrt();
+            Sample {
+                value: distance - side * self.width(point.z),
+                slope: (point.x * d.x + point.y * d.y) / distance + narrowing,
+                error: 1.5 * ray.blur_at(s) + 8.0 * U * (2.0 + s.abs()),
+            }
+        };
+        let speed2 = d.x * d.x + d.y * d.y;
+        let (along, cross) = (n.x * d.x + n.y * d.y, n.x * d.y - n.y * d.x);
+        let steep = speed2 - narrowing * narrowing;
+        let deepest = match steep > 0.0 {
+            true => (-along - narrowing * cross.abs() / steep.sqrt()) / speed2,
+            false => -narrowing.signum() * FAR,
+        };
+        let deepest = deepest.clamp(-FAR, FAR);
+        if !height(deepest).is_inside() {
+            return None;
+        }
+        let width = side * self.width(n.z);
+        let half = along + width * narrowing;
+        let rest = n.x * n.x + n.y * n.y - width * width;
+        let q = -(half + (half * half - steep * rest).max(0.0).sqrt().copysign(half));
+        let guesses = (q / steep, rest / q);
+        let end = |far: f64, leaving| {
+            let last = height(far);
+            if last.is_inside() {
+                return Met { t: far * f64::INFINITY, error: 0.0, leaving, part: SIDE };
+            } else if !last.is_outside() {
+                // Along its side: it may be anywhere up to what is certainly inside.
+                return Met { t: far, error: (far - deepest).abs(), leaving, part: SIDE };
+            }
+            let is_here = (guesses.0 - deepest) * far > 0.0;
+            let start = if is_here { guesses.0 } else { guesses.1 };
+            let found = root(height, far, deepest, start);
+            Met { t: found.t, error: found.error, leaving, part: SIDE }
+        };
+        Some((end(-FAR, false), end(FAR, true)))
+    }
+}
+
+impl Local for Cone {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some((first, last)) = ends(ray) else { return };
+        let seen = |met: Met| match met.part {
+            CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
+            _ => met,
+        };
+        let chord = |side| {
+            let (enter, leave) = self.nappe(ray, side)?;
+            let (enter, leave) = (enter.later(first), leave.earlier(last));
+            // What rounding cannot tell from a miss is missed.
+            let is_told = enter.t + enter.error < leave.t - leave.error;
+            is_told.then_some([seen(enter), seen(leave)])
+        };
+        let (wide, other) = (chord(1.0), if self.cap < 0.0 { chord(-1.0) } else { None });
+        match (wide, other) {
+            (Some(a), Some(b)) => {
+                let ([enter, one], [two, leave]) = if a[0].t < b[0].t { (a, b) } else { (b, a) };
+                found.push(enter);
+                // At the tip it may be that rounding does not tell the one from the other.
+                if one.t < two.t {
+                    found.extend([one, two]);
+                }
+                found.push(leave);
+            }
+            (one, two) => found.extend(one.into_iter().chain(two).flatten()),
+        }
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        match part {
+            CAP => Height { value: point.z - 1.0, gradient: Vector::Z, error: U },
+            BASE => Height { value: -point.z - 1.0, gradient: -Vector::Z, error: U },
+            _ => {
+                let (across, width) = (Vector::new(point.x, point.y, 0.0), self.width(point.z));
+                let gradient = across.normalize_or(Vector::ZERO)
+                    + Vector::Z * self.slope().copysign(width * self.slope());
+                let value = across.length() - width.abs();
+                Height { value, gradient, error: 8.0 * U * (1.0 + value.abs()) }
+            }
+        }
+    }
+
+    /// Of the two ends, whose convex hull holds it.
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let across = Vector::new(along.x, along.y, 0.0).length();
+        let (base, cap) = (-along.z, along.z);
+        let narrow = across * self.cap.abs();
+        ((base - across).min(cap - narrow), (base + across).max(cap + narrow))
+    }
+
+    fn reach(&self) -> f64 {
+        std::f64::consts::SQRT_2
+    }
+
+    fn numbers(&self) -> String {
+        format!(" cap {}{}", self.cap, if self.open { " open" } else { "" })
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        let width = self.width(point.z);
+        point.x * point.x + point.y * point.y < width * width && point.z.abs() < 1.0
+    }
+}

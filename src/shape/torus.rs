@@ -1,0 +1,248 @@
+//! Torus: √((ρ − `major`)² + z²) ≤ `minor`, ρ = √(x² + y²), in its own space. Where `minor` is more
+//! than `major` the tube runs into itself, and there is no surface inside of it.
+//!
+//! A line crosses it where a polynomial of degree 4 is 0. Its coefficients are of the size of
+//! `major`², which is too much for a thin tube; so no polynomial is made: the height over the surface
+//! is itself taken apart into pieces that have one root each.
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use crate::math::Vector;
+use crate::math::elementary::cbrt;
+use crate::math::roots::bracket::{Sample, root};
+
+/// The line is followed so far to each side; the torus ends at 1.
+const FAR: f64 = 2.0;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torus {
+    /// From the axis to the middle of the tube.
+    pub major: f64,
+    /// Of the tube; with `major` it makes 1.
+    pub minor: f64,
+}
+
+/// A torus and a line. As s goes from the closest approach to the centre, h = (ρ − R)² + z² − r² =
+/// s² + n² + R² − r² − 2Rρ, of which ρ = √(e²(s − c)² + m²) is convex: half of h′ is s − R·ρ′, and
+/// half of h″ is 1 − R·e²m²/ρ³. So h is convex but for the piece where ρ³ < R·e²m² around c.
+struct Line<'a> {
+    torus: &'a Torus,
+    ray: &'a LocalRay,
+    /// e², with e the line's speed across the axis.
+    speed2: f64,
+    /// −c·e².
+    along: f64,
+    /// (e·m)².
+    cross2: f64,
+}
+
+/// Where a line is certainly inside, on the two hands of where h is greatest; and a place between
+/// them, certainly outside.
+struct Parts {
+    left: Option<Found>,
+    crest: Option<f64>,
+    right: Option<Found>,
+}
+
+/// Where the line is at one place.
+struct Place {
+    /// The height over the surface, with its slope.
+    height: Sample,
+    /// h, and half of its first two derivatives.
+    h: f64,
+    turn: f64,
+    bend: f64,
+}
+
+/// Minima or maxima of h.
+#[derive(Clone, Copy, PartialEq)]
+enum Seek {
+    Dip,
+    Crest,
+}
+
+impl<'a> Line<'a> {
+    fn new(torus: &'a Torus, ray: &'a LocalRay) -> Self {
+        let (n, d) = (ray.nearest, ray.direction);
+        let cross = n.x * d.y - n.y * d.x;
+        let speed2 = d.x * d.x + d.y * d.y;
+        Self { torus, ray, speed2, along: n.x * d.x + n.y * d.y, cross2: cross * cross }
+    }
+
+    fn parts(&self) -> Parts {
+        let Self { speed2, cross2, .. } = *self;
+        let speed = speed2.sqrt();
+        let major = self.torus.major;
+        // Where h begins to be concave: ρ there, and the share of ρ² that is not m².
+        let rho = cbrt(major * cross2);
+        let share = if rho > 0.0 { 1.0 - cross2 / speed2 / (rho * rho) } else { 1.0 };
+        let all_convex = || {
+            let right = self.seek(Seek::Dip, (-FAR, FAR), 0.0);
+            Parts { left: None, crest: None, right }
+        };
+        let is_concave = speed2 > 0.0 && share >= 0.0;
+        if !is_concave {
+            return all_convex();
+        }
+        let (middle, half) = (-self.along / speed2, rho * share.sqrt() / speed);
+        let (begin, end) = (middle - half, middle + half);
+        // Half of h′ falls from the one to the other.
+        let steepest = major * speed * share.sqrt();
+        let (before, after) = (begin + steepest, end - steepest);
+        // It cannot rise; rounding says so where all that is concave is a point.
+        if before <= 0.0 && after >= 0.0 {
+            return all_convex();
+        }
+        let seek = |is_there, piece, start| {
+            if is_there { self.seek(Seek::Dip, piece, start) } else { None }
+        };
+        let left = seek(before > 0.0, (-FAR, begin), -major * speed);
+        let right = seek(after < 0.0, (end, FAR), major * speed);
+        let both = before > 0.0 && after < 0.0 && (left.is_some() || right.is_some());
+        let crest = if both { self.seek(Seek::Crest, (begin, end), middle) } else { None };
+        Parts { left, crest: crest.map(|crest| crest.s), right }
+    }
+
+    /// **Error** of the height, a distance to a circle: how far the point may be off, and the
+    /// roundings of three squares and two roots.
+    fn place(&self, s: f64) -> Place {
+        let Torus { major, minor } = *self.torus;
+        let (point, direction) = (self.ray.at(s), self.ray.direction);
+        let rho = (point.x * point.x + point.y * point.y).sqrt();
+        // On the axis ρ has no slope.
+        let slope = (point.x * direction.x + point.y * direction.y) / rho.max(f64::MIN_POSITIVE);
+        let off = rho - major;
+        let middle = (off * off + point.z * point.z).sqrt();
+        let value = middle - minor;
+        let turn = off * slope + point.z * direction.z;
+        let error = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+        Place {
+            height: Sample { value, slope: turn / middle, error },
+            h: value * (middle + minor),
+            turn,
+            bend: 1.0 - major * self.cross2 / (rho * rho * rho),
+        }
+    }
+
+    fn height(&self, s: f64) -> Sample {
+        self.place(s).height
+    }
+
+    /// A place between `low` and `high` where the line is certainly inside, for a dip, or outside, for
+    /// a crest; and a guess how far from it the surface is on each hand. `None` where there is no such
+    /// place, as far as rounding tells. h must be convex between them, for a crest concave.
+    fn seek(&self, what: Seek, (mut low, mut high): (f64, f64), start: f64) -> Option<Found> {
+        let mut s = if low < start && start < high { start } else { 0.5 * (low + high) };
+        let mut step = f64::INFINITY;
+        loop {
+            let Place { height, h, turn, bend } = self.place(s);
+            let (is_found, down, beyond) = match what {
+                Seek::Dip => (height.is_inside(), turn, height.is_outside()),
+                Seek::Crest => (height.is_outside(), -turn, height.is_inside()),
+            };
+            if is_found {
+                return Some(Found { s, h, turn, bend });
+            }
+            if down > 0.0 {
+                high = s;
+            } else {
+                low = s;
+            }
+            // A dip is no deeper than the tangent goes down in what is left.
+            let left = if down > 0.0 { s - low } else { high - s };
+            if beyond && h.abs() > 2.0 * turn.abs() * left {
+                return None;
+            }
+            let middle = 0.5 * (low + high);
+            let newton = s - turn / bend;
+            let is_fast = 2.0 * (newton - s).abs() < step && low < newton && newton < high;
+            let next = if is_fast { newton } else { middle };
+            step = (next - s).abs();
+            // Nothing lies between them, or rounding leads no further.
+            if !(low < next && next < high) || step <= U * s.abs() {
+                return None;
+            }
+            s = next;
+        }
+    }
+
+    fn met(&self, outside: f64, inside: &Found, leaving: bool) -> Met {
+        let start = inside.guess((outside - inside.s).signum());
+        let found = root(|s| self.height(s), outside, inside.s, start);
+        Met { t: found.t, error: found.error, leaving, part: 0 }
+    }
+}
+
+/// What is known where a line is inside.
+struct Found {
+    s: f64,
+    h: f64,
+    turn: f64,
+    bend: f64,
+}
+
+impl Found {
+    /// Where h would be 0 if it were a parabola.
+    fn guess(&self, way: f64) -> f64 {
+        let root = (self.turn * self.turn - self.bend * self.h).sqrt();
+        self.s + (way * root - self.turn) / self.bend
+    }
+}
+
+impl Local for Torus {
+    /// The minima of h that lie inside, and the maximum between them that lies outside, part the line
+    /// into pieces with one root each, which the bracket finds.
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let line = Line::new(self, ray);
+        let Parts { left, crest, right } = line.parts();
+        match (left, right) {
+            (None, None) => {}
+            (Some(dip), None) => {
+                found.push(line.met(-FAR, &dip, false));
+                found.push(line.met(crest.unwrap_or(FAR), &dip, true));
+            }
+            (None, Some(dip)) => {
+                found.push(line.met(crest.unwrap_or(-FAR), &dip, false));
+                found.push(line.met(FAR, &dip, true));
+            }
+            (Some(left), Some(right)) => {
+                found.push(line.met(-FAR, &left, false));
+                if let Some(crest) = crest {
+                    found.push(line.met(crest, &left, true));
+                    found.push(line.met(crest, &right, false));
+                }
+                found.push(line.met(FAR, &right, true));
+            }
+        }
+    }
+
+    fn height(&self, _: u32, point: Vector) -> Height {
+        let across = Vector::new(point.x, point.y, 0.0);
+        let off = across.length() - self.major;
+        let middle = (off * off + point.z * point.z).sqrt();
+        let gradient = across.normalize_or(Vector::ZERO) * off + Vector::Z * point.z;
+        Height {
+            value: middle - self.minor,
+            gradient: gradient / middle,
+            error: 8.0 * U * (1.0 + middle),
+        }
+    }
+
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let half =
+            self.major * Vector::new(along.x, along.y, 0.0).length() + self.minor * along.length();
+        (-half, half)
+    }
+
+    fn reach(&self) -> f64 {
+        self.major + self.minor
+    }
+
+    fn numbers(&self) -> String {
+        format!(" major {} minor {}", self.major, self.minor)
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        self.height(0, point).value < 0.0
+    }
+}
