@@ -379,6 +379,15 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     }
 }
 
+/// The unit normal by which the surface at a hit is lit, on either side; `None` where that is its own.
+#[inline(always)]
+pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Option<Vector> {
+    match world.objects[hit.object as usize].shape {
+        Shape::Placed(i) => world.placed[i as usize].shading_normal(surface),
+        Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => None,
+    }
+}
+
 /// How far a surface's point may be along each axis from where the ray was meant to meet it; no
 /// distance where that is not known.
 #[inline(never)]

@@ -1,7 +1,9 @@
 //! Solids as they were written: their own numbers, before any transform.
 
 use std::fmt;
+use std::sync::Arc;
 
+use super::mesh::Triangles;
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -28,6 +30,12 @@ pub enum Solid {
         /// Its ends are not seen.
         open: bool,
     },
+    /// A lone triangle or a mesh. Stored once, however often it is used.
+    Triangles {
+        /// The word that opens it.
+        word: Word,
+        triangles: Arc<Triangles>,
+    },
 }
 
 impl Solid {
@@ -38,6 +46,7 @@ impl Solid {
             Self::Plane { .. } => Word::Plane,
             Self::Box { .. } => Word::Box,
             Self::Cylinder { .. } => Word::Cylinder,
+            Self::Triangles { word, .. } => *word,
         }
     }
 
@@ -50,6 +59,7 @@ impl Solid {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
             Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
+            Self::Triangles { triangles, .. } => triangles.faces.is_empty(),
         }
     }
 }
@@ -65,6 +75,14 @@ impl fmt::Display for Solid {
             Self::Box { corners: [a, b] } => write!(f, " {} {}", written(*a), written(*b)),
             Self::Cylinder { ends: [a, b], radius, open: is_open } => {
                 write!(f, " {} {} {radius}{}", written(*a), written(*b), open(*is_open))
+            }
+            Self::Triangles { triangles, .. } => {
+                let Triangles { vertices, faces, inside, .. } = &**triangles;
+                write!(f, " of {} faces, {} vertices", faces.len(), vertices.len())?;
+                match inside {
+                    Some(way) => write!(f, ", inside_vector {}", written(*way)),
+                    None => Ok(()),
+                }
             }
         }
     }

@@ -7,6 +7,7 @@
 use smallvec::SmallVec;
 
 use super::cylinder::Cylinder;
+use super::mesh::Mesh;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
 use crate::math::placement::Placement;
@@ -34,6 +35,12 @@ pub trait Local {
     /// It has no inside: a ray goes through and is neither in it before nor after.
     fn is_sheet(&self) -> bool {
         false
+    }
+
+    /// The normal by which a part is lit at a point, of any length and on either side; `None` where it is
+    /// the surface's own.
+    fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
+        None
     }
 }
 
@@ -162,12 +169,19 @@ macro_rules! bodies {
                     $(Self::$kind(body) => body.is_sheet(),)*
                 }
             }
+
+            fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {
+                match self {
+                    $(Self::$kind(body) => body.shading_normal(part, point),)*
+                }
+            }
         }
     };
 }
 
 bodies! {
     Cylinder "cylinder"
+    Mesh "mesh"
 }
 
 /// A ray as a placed body sees it.

@@ -8,14 +8,17 @@ pub mod box_;
 pub mod csg;
 pub mod cylinder;
 pub mod ellipsoid;
+pub mod mesh;
 pub mod placed;
 pub mod plane;
 pub mod sphere;
+mod tree;
 
 pub use body::Body;
 pub use box_::Box_;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
+pub use mesh::Mesh;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use sphere::Sphere;

@@ -17,13 +17,17 @@ impl Evaluator<'_> {
             Word::Plane => Self::plane,
             Word::Box => Self::box_,
             Word::Cylinder => Self::cylinder,
+            Word::Triangle => Self::triangle,
+            Word::SmoothTriangle => Self::smooth_triangle,
+            Word::Mesh => Self::mesh,
+            Word::Mesh2 => Self::mesh2,
             _ => return None,
         })
     }
 
     /// What a shape without size is: POV-Ray draws a scene that has one, as films do whose shapes grow from
     /// nothing.
-    fn sizeless(&self) -> Code {
+    pub(super) fn sizeless(&self) -> Code {
         match self.options.dialect {
             Dialect::Scene => Code::ZeroSize,
             Dialect::Pov => Code::DegenerateShape,
@@ -31,7 +35,12 @@ impl Evaluator<'_> {
     }
 
     /// Says that a shape has no size; it is left out.
-    fn nothing(&mut self, shape: &Token, here: &Here, diagnostic: Diagnostic) -> Outcome<()> {
+    pub(super) fn nothing(
+        &mut self,
+        shape: &Token,
+        here: &Here,
+        diagnostic: Diagnostic,
+    ) -> Outcome<()> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
