@@ -41,6 +41,9 @@ fn along_axis([a, b]: [Vector; 2], radius: Double) -> Result<Affine, Fault> {
 /// that is no line or point. The middle is rounded to 1/256 of the size, and the size to a power of two, so
 /// that of most numbers no digit is lost.
 pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
+    if triangles.faces.is_empty() {
+        return Ok(None);
+    }
     let used = || triangles.faces.iter().flat_map(|face| face.vertices);
     let (low, high) = used().fold((Vector::INFINITY, Vector::NEG_INFINITY), |(low, high), i| {
         let vertex = triangles.vertices[i as usize];

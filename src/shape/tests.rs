@@ -8,6 +8,7 @@ use crate::math::{Matrix, UnitVector};
 use leave::assert_leaves_for_good;
 
 mod leave;
+mod mesh;
 mod placed;
 
 const EPS: f64 = f64::EPSILON;

@@ -190,8 +190,9 @@ impl Evaluator<'_> {
 
     /// A texture for one face is not built: told where the mesh is needed.
     fn not_per_face(&mut self, token: &Token, word: Word) {
-        self.set_poison(Poison { word, site: token.here.site(token.span) });
+        let site = token.here.site(token.span);
         self.skip_arguments(word);
+        self.set_poison(Poison { word: Word::TextureList, site });
     }
 
     /// A point of a texture, of two numbers.

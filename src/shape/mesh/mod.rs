@@ -11,7 +11,8 @@ use super::{Bounds, U};
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use pierce::View;
 
-/// Three corners in a row: seen from where they turn left, the surface faces the eye.
+/// Three corners in a row: the surface faces an eye that sees them turn left, where x points right, y up
+/// and z away. **Source:** POV-Ray 3.7's behaviour, asked by `trace`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
     pub corners: [u32; 3],
@@ -23,14 +24,14 @@ pub struct Face {
 /// of a mesh is told by counting, however its corners turn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    corners: Vec<Vector>,
+    pub(super) corners: Vec<Vector>,
     /// Of length 1, or 0.
-    normals: Vec<Vector>,
+    pub(super) normals: Vec<Vector>,
     /// In the order of the tree.
-    faces: Vec<Face>,
+    pub(super) faces: Vec<Face>,
     tree: Tree,
     /// It is a solid: a point is inside from which this way leads out through an odd number of faces.
-    inside: Option<UnitVector>,
+    pub(super) inside: Option<UnitVector>,
     reach: f64,
 }
 
@@ -91,7 +92,7 @@ impl Mesh {
         let corners = self.corners_of(face);
         let Flat { normal, .. } = Flat::through(corners)?;
         let [a, b, c] = corners.map(|corner| corner - point);
-        let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|area| area.dot(normal).max(0.0));
+        let weights = [c.cross(b), a.cross(c), b.cross(a)].map(|area| area.dot(normal).max(0.0));
         Some(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
     }
 }
@@ -112,7 +113,7 @@ impl Flat {
     fn through([a, b, c]: [Vector; 3]) -> Option<Self> {
         let unit = |edge: Vector| edge * reciprocal_power_of_two(edge.abs().max_element());
         let (e, f) = (unit(b - a), unit(c - a));
-        let normal = e.cross(f);
+        let normal = f.cross(e);
         let size = normal.length();
         let turn = 8.0 * U * e.length() * f.length() / size;
         (turn < 0.5).then_some(Self { normal: normal / size, turn })

@@ -40,14 +40,13 @@ impl View {
         [a - self.shear[0] * main, b - self.shear[1] * main]
     }
 
-    /// Whether the line pierces the triangle, and the way that its corners turn: true where the line goes
-    /// as the surface faces.
+    /// Whether the line pierces the triangle, and how: true where it goes as the surface faces.
     #[inline]
     pub fn pierces(&self, corners: [Vector; 3]) -> Option<bool> {
         let [a, b, c] = corners.map(|corner| self.seen(corner));
         let turn = turns_left(a, b)?;
         let all = turns_left(b, c)? == turn && turns_left(c, a)? == turn;
-        all.then_some(turn != self.is_against)
+        all.then_some(turn == self.is_against)
     }
 }
 
