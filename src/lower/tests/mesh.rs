@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::math::Vector;
+use crate::math::random::{Random, tries};
+use crate::math::{UnitVector, Vector};
 use crate::road::{Options, Road};
 use crate::scene::Dialect;
+use crate::shape::Ray;
 use crate::shape::body::Local;
 use crate::source::{FileError, Files, Found};
 use crate::world::World;
@@ -124,4 +126,40 @@ fn numbers_are_read_alike_whether_they_stand_alone_or_are_reckoned() {
     let reckoned =
         TETRAHEDRON.replace("<-1, 1, -1>", "<0-1, 2-1, -1>").replace("<0, 2, 3>", "<0, 1+1, 3>");
     assert_eq!(world(TETRAHEDRON).0.placed, world(&reckoned).0.placed);
+}
+
+#[test]
+fn a_sheet_of_squares_has_no_holes_however_far_off_it_stands() {
+    let mut random = Random(91);
+    for offset in ["0", "<148376, 1234, -223423>", "1e7*<1, -1, 1>"] {
+        for size in [1.0, 1e-3] {
+            let scene = format!(
+                "#declare S = {size}; #macro P(I, J) S*<I, J, 0> + {offset} #end
+                mesh {{ #for (I, -8, 7) #for (J, -8, 7)
+                    triangle {{ P(I, J), P(I + 1, J), P(I, J + 1) }}
+                    triangle {{ P(I + 1, J), P(I + 1, J + 1), P(I, J + 1) }}
+                #end #end }}"
+            );
+            let (world, _) = world(&scene);
+            let placed = &world.placed[0];
+            let middle = placed.placement.centre;
+            for _ in 0..tries() / 4 {
+                let at = |random: &mut Random| match random.below(3) {
+                    0 => random.below(13) as f64 - 6.0,
+                    1 => random.below(25) as f64 * 0.5 - 6.0,
+                    _ => random.number(-6.0, 6.0),
+                };
+                let target = middle + Vector::new(at(&mut random), at(&mut random), 0.0) * size;
+                let origin = middle + random.direction().get() * (size * 20.0);
+                let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+                // Along the sheet it may pass by.
+                if direction.get().z.abs() < 0.1 {
+                    continue;
+                }
+                let ray = Ray { origin, direction: direction.get() };
+                let all = placed.crossings(&ray);
+                assert_eq!(all.len(), 1, "{all:?} {ray:?} toward {target}");
+            }
+        }
+    }
 }

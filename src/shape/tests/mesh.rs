@@ -203,3 +203,42 @@ fn needles_and_specks_are_met_within_their_bounds_or_left_out() {
     }
     assert!(met > tries() / 8, "{met}");
 }
+
+#[test]
+fn a_smooth_normal_has_length_1_or_is_the_faces_own() {
+    let mut random = Random(87);
+    let mut smooth = 0;
+    for _ in 0..tries() {
+        let corners: Vec<Vector> = (0..3).map(|_| random.point(1.0)).collect();
+        let one = random.direction().get();
+        let normals = match random.below(4) {
+            0 => vec![one, -one, Vector::ZERO],
+            1 => vec![Vector::ZERO; 3],
+            _ => vec![one, random.direction().get(), random.direction().get()],
+        };
+        let weights = [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.2, 0.3, 0.5]][random.below(3)];
+        let sum = |list: &[Vector]| (0..3).map(|i| list[i] * weights[i]).sum::<Vector>();
+        let (point, meant) = (sum(&corners), sum(&normals));
+        let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+        let face = Face { corners: [0, 1, 2], normals: Some([0, 1, 2]) };
+        let Some(mesh) = Mesh::new(corners, normals, vec![face], None) else { continue };
+        let normal = random.direction().get();
+        let placed = placed(&mut random, Body::Mesh(mesh));
+        let point = placed.placement.world_point(point);
+        let surface = SurfacePoint { point, normal, error: 0.0, face: 0 };
+        let Some(found) = placed.shading_normal(&surface) else { continue };
+        smooth += 1;
+        assert!((found.length() - 1.0).abs() <= 4.0 * EPS, "{found}");
+        let meant = placed.placement.world_normal(meant).normalize();
+        let clear = area > 0.05 && sum(&placed_normals(&placed)).length() > 0.1;
+        assert!(!clear || (found - meant).length() < 1e-3, "{found} {meant} {placed:?}");
+    }
+    assert!(smooth > tries() / 2, "{smooth}");
+}
+
+fn placed_normals(placed: &Placed) -> Vec<Vector> {
+    match &*placed.body {
+        Body::Mesh(mesh) => mesh.normals.clone(),
+        other => panic!("a mesh, and not a {}", other.word()),
+    }
+}
