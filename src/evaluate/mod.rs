@@ -22,6 +22,7 @@ mod include;
 mod lint;
 mod probe;
 mod report;
+mod run;
 mod scope;
 mod spline;
 mod stream;
