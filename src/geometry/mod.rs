@@ -240,7 +240,16 @@ impl Geometry {
                 Solid::Placed(copy(&mut self.placed, world.placed[i as usize].clone()))
             }
         };
-        let sides = if !world.materials[object.material as usize].finish.seed {
+        // A sheet has no outside: it is seen from both.
+        let is_sheet = match solid {
+            Solid::Placed(i) => self.placed[i as usize].body.is_sheet(),
+            Solid::Sphere(_)
+            | Solid::Plane(_)
+            | Solid::Box(_)
+            | Solid::Ellipsoid(_)
+            | Solid::Whole(_) => false,
+        };
+        let sides = if is_sheet || !world.materials[object.material as usize].finish.seed {
             Sides::Both
         } else if object.inverse {
             Sides::Inside
