@@ -21,7 +21,7 @@ pub use occluder::Occluder;
 pub use work::Work;
 
 use crate::math::Vector;
-use crate::shape::body::Met;
+use crate::shape::body::{Local, Met};
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Shape, Sphere, SurfacePoint,
     sphere,
