@@ -5,6 +5,7 @@
 //! is an index, shared and never copied, and stands before its parents.
 
 pub mod light;
+pub mod mesh;
 pub mod print;
 pub mod solid;
 

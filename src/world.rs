@@ -11,6 +11,7 @@ use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
+use crate::shape::body::Local;
 use crate::shape::csg::{self, Node};
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site};
@@ -69,6 +70,14 @@ impl World {
             let whole = self.objects[i as usize].whole;
             whole.is_none_or(|whole| self.wholes[whole as usize].first == i)
         })
+    }
+
+    /// Whether an object has no inside.
+    pub fn is_sheet(&self, object: u32) -> bool {
+        match self.objects[object as usize].shape {
+            Shape::Placed(i) => self.placed[i as usize].body.is_sheet(),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => false,
+        }
     }
 
     /// Whether both are parts of one whole, or the same.

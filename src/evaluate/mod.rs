@@ -23,6 +23,7 @@ mod lint;
 mod probe;
 mod remembered;
 mod report;
+mod run;
 mod scope;
 mod silent;
 mod spline;

@@ -166,6 +166,10 @@ impl Probe {
         let ray = Ray { origin, direction: direction.get() };
         let hit = self.geometry.nearest(&ray)?;
         let surface = geometry::surface(&self.world, &ray, &hit);
+        // As given, whichever side is seen.
+        if let Some(smooth) = geometry::shading_normal(&self.world, &hit, &surface) {
+            return Some((surface.point, smooth + Vector::ZERO));
+        }
         // Out of an inverse object it points into the shape. Zero has no sign where people read it.
         let inverse = self.world.objects[hit.object as usize].inverse;
         let normal = if inverse { -surface.normal } else { surface.normal };

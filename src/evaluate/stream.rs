@@ -24,7 +24,7 @@ pub(super) struct Frame {
     pub(super) at: u32,
     pub(super) end: u32,
     /// Elements already taken of the number run at `at`.
-    taken: u32,
+    pub(super) taken: u32,
     pub(super) kind: FrameKind,
 }
 
@@ -285,17 +285,6 @@ impl Evaluator<'_> {
     pub(super) fn skip_commas(&mut self) {
         while matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
             self.next();
-        }
-    }
-
-    /// Passes over a run of numbers, if one comes next: there may be megabytes of them.
-    pub(super) fn skip_run(&mut self) {
-        if self.peeked.is_none()
-            && let Some(frame) = self.frames.last_mut()
-            && frame.at < frame.end
-            && let ItemKind::Numbers { .. } = frame.here.unit.ast.items[frame.at as usize].kind
-        {
-            (frame.at, frame.taken) = (frame.at + 1, 0);
         }
     }
 

@@ -21,7 +21,7 @@ pub use occluder::Occluder;
 pub use work::Work;
 
 use crate::math::Vector;
-use crate::shape::body::Met;
+use crate::shape::body::{Local, Met};
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Shape, Sphere, SurfacePoint,
     sphere,
@@ -241,7 +241,16 @@ impl Geometry {
                 Solid::Placed(copy(&mut self.placed, world.placed[i as usize].clone()))
             }
         };
-        let sides = if !world.materials[object.material as usize].finish.seed {
+        // A sheet has no outside: it is seen from both.
+        let is_sheet = match solid {
+            Solid::Placed(i) => self.placed[i as usize].body.is_sheet(),
+            Solid::Sphere(_)
+            | Solid::Plane(_)
+            | Solid::Box(_)
+            | Solid::Ellipsoid(_)
+            | Solid::Whole(_) => false,
+        };
+        let sides = if is_sheet || !world.materials[object.material as usize].finish.seed {
             Sides::Both
         } else if object.inverse {
             Sides::Inside
@@ -377,6 +386,15 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
         Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
         Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
+    }
+}
+
+/// The unit normal by which the surface at a hit is lit, on either side; `None` where that is its own.
+#[inline(always)]
+pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Option<Vector> {
+    match world.objects[hit.object as usize].shape {
+        Shape::Placed(i) => world.placed[i as usize].shading_normal(surface),
+        Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => None,
     }
 }
 

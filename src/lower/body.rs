@@ -8,11 +8,13 @@ use std::sync::Arc;
 use super::Fault;
 use super::shape::{FLAT, no_size};
 use super::transform::{Affine, exact};
-use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
-use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Placed, Torus};
+use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
+use crate::scene::mesh::Triangles;
+use crate::shape::mesh::Face;
+use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Mesh, Placed, Torus};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -112,8 +114,45 @@ fn frame(axis: DoubleVector) -> Result<(DoubleVector, DoubleVector, DoubleVector
     Ok((across, unit.cross(across), unit))
 }
 
+/// Triangles around the middle of the box that holds them, of size about 1; `None` where not one is left
+/// that is no line or point. The middle is rounded to 1/256 of the size, and the size to a power of two, so
+/// that of most numbers no digit is lost.
+pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
+    if triangles.faces.is_empty() {
+        return Ok(None);
+    }
+    let used = || triangles.faces.iter().flat_map(|face| face.vertices);
+    let (low, high) = used().fold((Vector::INFINITY, Vector::NEG_INFINITY), |(low, high), i| {
+        let vertex = triangles.vertices[i as usize];
+        (low.min(vertex), high.max(vertex))
+    });
+    let (low, high) = (low * 0.5, high * 0.5);
+    if !(low.is_finite() && high.is_finite()) {
+        return Err(Fault::not_finite("this mesh"));
+    }
+    let inverse_size = reciprocal_power_of_two((high - low).max_element());
+    let size = 1.0 / inverse_size;
+    let step = size / 256.0;
+    let middle = ((low + high) / step).round() * step;
+    let middle = if middle.is_finite() { middle } else { low + high };
+    let local = |vertex: &Vector| (*vertex * inverse_size - middle * inverse_size) * 0.5;
+    let corners = triangles.vertices.iter().map(local).collect();
+    let faces =
+        triangles.faces.iter().map(|face| Face { corners: face.vertices, normals: face.normals });
+    let inside = triangles.inside.and_then(UnitVector::from_direction);
+    // One that is zero tells nothing, and the others of its face count alone.
+    let unit =
+        |normal: &Vector| UnitVector::from_direction(*normal).map_or(Vector::ZERO, |n| n.get());
+    let normals = triangles.normals.iter().map(unit).collect();
+    let body = Mesh::new(corners, normals, faces.collect(), inside);
+    let size = Double::from(2.0 * size);
+    let columns = [0, 1, 2].map(|axis| DoubleVector::axis(axis) * size);
+    let frame = Affine::from_columns(columns, exact(middle));
+    Ok(body.map(|mesh| (Body::Mesh(mesh), frame)))
+}
+
 /// A body under a map, as it stands in the world.
-pub fn place(body: Body, map: &Affine) -> Result<Placed, Fault> {
+pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     let what = format!("this {}", body.word());
     if !map.is_finite() {
         return Err(Fault::not_finite(&what));
@@ -127,5 +166,5 @@ pub fn place(body: Body, map: &Affine) -> Result<Placed, Fault> {
     if !placement.local_from_world.is_finite() || !placement.world_from_local.is_finite() {
         return Err(Fault::not_finite(&what));
     }
-    Ok(Placed { body: Arc::new(body), placement })
+    Ok(Placed { body, placement })
 }

@@ -21,10 +21,12 @@ mod unseen;
 mod view;
 
 use std::collections::{BTreeMap, HashSet};
+use std::sync::Arc;
 
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::scene::{Scene, TransformId};
+use crate::scene::{ObjectId, Scene, TransformId};
+use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
 use crate::world::{Dropped, NearSingular, Origins, Settings, World};
 
@@ -59,6 +61,7 @@ pub fn lower(
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         building: None,
+        meshes: BTreeMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -92,6 +95,8 @@ struct Lowering<'s, 'd> {
     unpainted: BTreeMap<Span, Site>,
     /// The solid made of others that is under way.
     building: Option<csg::Building>,
+    /// What each mesh became, stored once however often it is used; `None` where nothing is left of it.
+    meshes: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
 }
 
 impl Lowering<'_, '_> {

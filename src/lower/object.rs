@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
 
+use std::sync::Arc;
+
 use super::csg::{Making, Open};
 use super::modifier::{Calls, Flags, Modified};
 use super::shape::{LocalFace, Round};
@@ -215,7 +217,7 @@ impl<'s> Lowering<'s, '_> {
                 self.light(light, &here.world_from_here, object.site, item);
             }
             ObjectKind::Solid(solid) => {
-                let spent = self.solid(solid, &here, object.site);
+                let spent = self.solid(target, solid, &here, object.site);
                 if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
                     self.drop_part(object.site, self.word(target), NO_SIZE);
                 }
@@ -226,7 +228,13 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
-    fn solid(&mut self, solid: &Solid, here: &Inherited, site: Site) -> Result<(), Fault> {
+    fn solid(
+        &mut self,
+        id: ObjectId,
+        solid: &Solid,
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
         let map = &here.world_from_here;
         if !map.is_finite() {
             return Err(Fault::not_finite("this solid's place"));
@@ -266,34 +274,59 @@ impl<'s> Lowering<'s, '_> {
                 self.place(shape, here, here.flags.inverse, &faces, site)
             }
             Solid::Cylinder { ends, radius, open } => {
-                self.place_body(body::cylinder(ends, radius, open)?, here, site)
+                self.place_made(body::cylinder(ends, radius, open)?, here, site)
+            }
+            Solid::Triangles { ref triangles, .. } => {
+                let known = match self.meshes.get(&id) {
+                    Some(known) => known.clone(),
+                    None => {
+                        let made = body::mesh(triangles)?;
+                        let made = made.map(|(body, frame)| (Arc::new(body), frame));
+                        self.meshes.entry(id).or_insert(made).clone()
+                    }
+                };
+                match known {
+                    Some((body, frame)) => self.place_body(body, &frame, here, site),
+                    None => Ok(()),
+                }
             }
             Solid::Cone { ends, radii, open } => {
-                self.place_body(body::cone(ends, radii, open)?, here, site)
+                self.place_made(body::cone(ends, radii, open)?, here, site)
             }
             Solid::Disc { centre, normal, radius, hole } => {
-                self.place_body(body::disc(centre, normal, radius, hole)?, here, site)
+                self.place_made(body::disc(centre, normal, radius, hole)?, here, site)
             }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {
                 let ball = Solid::Sphere { centre: Vector::ZERO, radius: minor };
-                self.solid(&ball, here, site)
+                self.solid(id, &ball, here, site)
             }
-            Solid::Torus { major, minor } => self.place_body(body::torus(major, minor), here, site),
+            Solid::Torus { major, minor } => self.place_made(body::torus(major, minor), here, site),
             Solid::Polynomial { degree, ref terms, .. } => {
-                self.place_body(body::polynomial(degree, terms)?, here, site)
+                self.place_made(body::polynomial(degree, terms)?, here, site)
             }
         }
     }
 
-    /// A body and the map to it from its own space.
-    fn place_body(
+    /// A body that nothing else shares, and the map to it from its own space.
+    fn place_made(
         &mut self,
         (body, frame): (Body, Affine),
         here: &Inherited,
         site: Site,
     ) -> Result<(), Fault> {
-        let placed = body::place(body, &here.world_from_here.after(&frame))?;
+        self.place_body(Arc::new(body), &frame, here, site)
+    }
+
+    /// A body and the map to it from its own space.
+    fn place_body(
+        &mut self,
+        body: Arc<Body>,
+        frame: &Affine,
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        let placed = body::place(body, &here.world_from_here.after(frame))?;
         let shape = Shape::Placed(next(&mut self.world.placed, placed));
         self.place(shape, here, here.flags.inverse, &[], site)
     }

@@ -6,6 +6,7 @@ mod drift;
 mod fault;
 mod form;
 mod interior;
+mod mesh;
 mod seed_rules;
 mod spelling;
 mod texture;

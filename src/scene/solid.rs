@@ -1,7 +1,9 @@
 //! Solids as they were written: their own numbers, before any transform.
 
 use std::fmt;
+use std::sync::Arc;
 
+use super::mesh::Triangles;
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -59,6 +61,12 @@ pub enum Solid {
         /// All coefficients, in the order of [`crate::math::terms::exponents`].
         terms: Vec<f64>,
     },
+    /// A lone triangle or a mesh. Stored once, however often it is used.
+    Triangles {
+        /// The word that opens it.
+        word: Word,
+        triangles: Arc<Triangles>,
+    },
 }
 
 impl Solid {
@@ -73,6 +81,7 @@ impl Solid {
             Self::Disc { .. } => Word::Disc,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
+            Self::Triangles { word, .. } => *word,
         }
     }
 
@@ -93,6 +102,7 @@ impl Solid {
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
             }
+            Self::Triangles { triangles, .. } => triangles.faces.is_empty(),
         }
     }
 }
@@ -120,6 +130,14 @@ impl fmt::Display for Solid {
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;
                 terms.iter().try_for_each(|term| write!(f, " {term}"))
+            }
+            Self::Triangles { triangles, .. } => {
+                let Triangles { vertices, faces, inside, .. } = &**triangles;
+                write!(f, " of {} faces, {} vertices", faces.len(), vertices.len())?;
+                match inside {
+                    Some(way) => write!(f, ", inside_vector {}", written(*way)),
+                    None => Ok(()),
+                }
             }
         }
     }

@@ -10,6 +10,7 @@ use super::algebraic::Algebraic;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
+use super::mesh::Mesh;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -38,6 +39,12 @@ pub trait Local {
     /// It has no inside: a ray goes through and is neither in it before nor after.
     fn is_sheet(&self) -> bool {
         false
+    }
+
+    /// The normal by which a part is lit at a point, of any length and on either side; `None` where it is
+    /// the surface's own.
+    fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
+        None
     }
 }
 
@@ -178,6 +185,12 @@ macro_rules! bodies {
                     $(Self::$kind(body) => body.is_sheet(),)*
                 }
             }
+
+            fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {
+                match self {
+                    $(Self::$kind(body) => body.shading_normal(part, point),)*
+                }
+            }
         }
     };
 }
@@ -186,6 +199,7 @@ bodies! {
     Algebraic "polynomial"
     Cone "cone"
     Cylinder "cylinder"
+    Mesh "mesh"
     Disc "disc"
     Torus "torus"
 }

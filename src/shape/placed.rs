@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
 use super::{Bounds, Ray, SurfacePoint, U};
 use crate::math::placement::Placement;
-use crate::math::{Matrix, Vector, Vector3};
+use crate::math::{Matrix, UnitVector, Vector, Vector3};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
@@ -69,6 +69,15 @@ impl Placed {
             / steepness
             + 2.0 * U * normal.abs_dot(point);
         SurfacePoint { point, normal, error, face: part }
+    }
+
+    /// The unit normal by which the surface is lit at a point of it, on either side; `None` where it is the
+    /// surface's own, as of most.
+    #[inline(never)]
+    pub fn shading_normal(&self, surface: &SurfacePoint) -> Option<Vector> {
+        let local = self.placement.local_point(surface.point);
+        let normal = self.body.shading_normal(surface.face, local)?;
+        Some(UnitVector::from_direction(self.placement.world_normal(normal))?.get())
     }
 
     /// How long the local gradient is of which this is the world's.

@@ -9,6 +9,7 @@ use leave::assert_leaves_for_good;
 
 mod algebraic;
 mod leave;
+mod mesh;
 mod placed;
 
 const EPS: f64 = f64::EPSILON;

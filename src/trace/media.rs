@@ -77,7 +77,11 @@ impl Media {
             if let Some(place) = known {
                 self.behind.remove(place);
             }
-            let enters = crossed.leaving == world.objects[crossed.object as usize].inverse;
+            // A sheet has no sides: whoever is not in it goes in.
+            let enters = match world.is_sheet(crossed.object) {
+                true => known.is_none(),
+                false => crossed.leaving == world.objects[crossed.object as usize].inverse,
+            };
             if enters {
                 self.behind.push(crossed.object);
             } else if known.is_none() && self.inside.is_empty() {

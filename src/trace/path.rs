@@ -9,7 +9,7 @@
 //! others stand beside it.
 
 use super::media::Border;
-use super::shade::Place;
+use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
 use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
@@ -151,7 +151,9 @@ impl<'a> Tracer<'a> {
                     break clamped(local);
                 }
                 if self.parts(finish, &paint) {
-                    let behind = surface.spawn(-place.normal);
+                    let behind = place
+                        .flat
+                        .map_or_else(|| surface.spawn(-place.normal), |Flat { behind, .. }| behind);
                     let met = Met { hit, place, paint, behind, local };
                     let Some(next) = self.part(walk, way, &met) else { break clamped(local) };
                     way = next;
@@ -200,13 +202,23 @@ impl<'a> Tracer<'a> {
         let Material { pigment, finish } = &self.world.materials[object.material as usize];
         let normal = if hit.leaving { -surface.normal } else { surface.normal };
         let paint = pigment::on_surface(self, pigment, ray, hit, &surface);
+        let origin = surface.spawn(normal);
+        let (normal, flat) = match geometry::shading_normal(self.world, hit, &surface) {
+            None => (normal, None),
+            Some(smooth) => {
+                let behind = surface.spawn(-normal);
+                let smooth = if smooth.dot(ray.direction) > 0.0 { -smooth } else { smooth };
+                (smooth, Some(Flat { normal, behind }))
+            }
+        };
         let place = Place {
             finish,
             color: paint.rgb,
             body: paint.body(),
             point: surface.point,
-            origin: surface.spawn(normal),
+            origin,
             normal,
+            flat,
             to_viewer: -ray.direction,
         };
         Stand { surface, paint, place }
@@ -218,7 +230,8 @@ impl<'a> Tracer<'a> {
     #[inline(never)]
     fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: Hit) -> Rgb {
         let Stand { surface, place, .. } = self.stand(&ray, &hit);
-        shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-place.normal))
+        let normal = place.flat.map_or(place.normal, |Flat { normal, .. }| normal);
+        shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-normal))
     }
 
     /// What a ray under way can meet.
@@ -386,7 +399,7 @@ impl Way {
     fn mirrored(self, place: &Place, weight: f64) -> Self {
         let direction = reflection::mirrored(self.ray.direction, place.normal);
         Self {
-            ray: Ray { origin: place.origin, direction },
+            ray: Ray { origin: place.start(direction), direction },
             weight,
             level: self.level + 1,
             mirrored: true,

@@ -22,10 +22,33 @@ pub(super) struct Place<'a> {
     pub point: Vector,
     /// Where rays that leave the surface start: `point` moved along `normal` by its error.
     pub origin: Vector,
-    /// Of length 1, toward the viewer's side.
+    /// Of length 1, toward the viewer's side: of a smooth surface the one by which it is lit.
     pub normal: Vector,
+    /// Of a smooth surface, which is lit otherwise than it lies.
+    pub flat: Option<Flat>,
     /// Of length 1.
     pub to_viewer: Vector,
+}
+
+/// How a surface lies that is lit by another normal.
+#[derive(Clone, Copy)]
+pub(super) struct Flat {
+    /// Of length 1, toward the viewer's side.
+    pub normal: Vector,
+    /// Where rays start that leave the surface on the other side.
+    pub behind: Vector,
+}
+
+impl Place<'_> {
+    /// Where a ray starts: on the side that it leaves to. By its smooth normal a surface may see what lies
+    /// behind it.
+    #[inline(always)]
+    pub fn start(&self, direction: Vector) -> Vector {
+        match &self.flat {
+            Some(Flat { normal, behind }) if normal.dot(direction) < 0.0 => *behind,
+            _ => self.origin,
+        }
+    }
 }
 
 /// `B·glow + Σ I·(B·diffuse·(N·L)^brilliance + Σ lobes)` over the lights that are visible, where B is
@@ -49,9 +72,15 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         if !(height > 0.0 || (finish.seed && height == 0.0)) {
             continue;
         }
-        let Some(aim) = shadow::aim(&light.kind, place.origin) else { continue };
+        let origin = match &place.flat {
+            Some(flat) if shadow::height(&light.kind, place.point, flat.normal) < 0.0 => {
+                flat.behind
+            }
+            _ => place.origin,
+        };
+        let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        let arriving = arriving::<SHADOWS>(tracer, walk, (number, light), place.origin, &aim);
+        let arriving = arriving::<SHADOWS>(tracer, walk, (number, light), origin, &aim);
         let Some(color) = arriving else { continue };
         sum += color * answer(place, light, aim.to_light, cosine);
     }

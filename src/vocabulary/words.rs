@@ -48,8 +48,8 @@ vocabulary! {
         Isosurface "isosurface" statement later "where a function of space is zero";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
         Lathe "lathe" statement later "a curve turned about the y axis";
-        Mesh "mesh" statement later "many triangles as one object";
-        Mesh2 "mesh2" statement later "many triangles as lists of vertices and faces";
+        Mesh "mesh" statement built "many triangles as one object";
+        Mesh2 "mesh2" statement built "many triangles as lists of vertices and faces";
         Ovus "ovus" statement later "an egg from two radii";
         Parametric "parametric" statement later "a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
@@ -59,14 +59,14 @@ vocabulary! {
         Prism "prism" statement later "a flat outline drawn up along y";
         Quadric "quadric" statement built "`quadric { <A, B, C>, <D, E, F>, <G, H, I>, J }`: a polynomial surface of degree 2";
         Quartic "quartic" statement built "`quartic { <35 numbers> }`: a polynomial surface of degree 4";
-        SmoothTriangle "smooth_triangle" statement later "a triangle with a normal at each corner";
+        SmoothTriangle "smooth_triangle" statement built "a triangle with a normal at each corner";
         Sor "sor" statement later "a solid of revolution";
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement later "a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement later "a box with rounded edges, by two exponents";
         Text "text" statement later "letters of a font as a solid";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
-        Triangle "triangle" statement later "`triangle { <a>, <b>, <c> }`: a flat triangle";
+        Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }
     ShapeItem {
         Accuracy "accuracy" statement later "how exactly a surface or a normal is found";
@@ -79,11 +79,11 @@ vocabulary! {
         Cube "cube" statement later "the third power, in a julia_fractal";
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
         Evaluate "evaluate" statement later "lets an isosurface learn its gradient";
-        FaceIndices "face_indices" statement later "the triangles of a mesh2, as indices of vertices";
+        FaceIndices "face_indices" statement built "the triangles of a mesh2, as indices of vertices";
         Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
-        InsideVector "inside_vector" statement later "gives a mesh an inside";
+        InsideVector "inside_vector" statement built "gives a mesh an inside";
         LinearSpline "linear_spline" statement built "a spline of straight lines";
         LinearSweep "linear_sweep" statement later "a prism with parallel sides";
         MajorRadius "major_radius" statement later "measures a torus-shaped pattern or warp";
@@ -91,8 +91,8 @@ vocabulary! {
         MaxIteration "max_iteration" statement later "the most turns of a fractal's formula";
         MaxTrace "max_trace" statement later "the most crossings of an isosurface";
         NaturalSpline "natural_spline" statement built "a spline with free ends";
-        NormalIndices "normal_indices" statement later "the normals of each face of a mesh2";
-        NormalVectors "normal_vectors" statement later "the normals of a mesh2";
+        NormalIndices "normal_indices" statement built "the normals of each face of a mesh2";
+        NormalVectors "normal_vectors" statement built "the normals of a mesh2";
         Open "open" statement built "leaves the ends out of sight";
         Orientation "orientation" statement later "how a shape is turned";
         Precision "precision" statement later "how exactly a julia_fractal is found";
@@ -110,10 +110,10 @@ vocabulary! {
         Ttf "ttf" statement later "a TrueType font";
         Type "type" statement later "the method by which a patch is drawn";
         USteps "u_steps" statement later "how often a patch is divided along u";
-        UvIndices "uv_indices" statement later "the uv coordinates of each face of a mesh2";
-        UvVectors "uv_vectors" statement later "the uv coordinates of a mesh or patch";
+        UvIndices "uv_indices" statement built "the uv coordinates of each face of a mesh2";
+        UvVectors "uv_vectors" statement built "the uv coordinates of a mesh or patch";
         VSteps "v_steps" statement later "how often a patch is divided along v";
-        VertexVectors "vertex_vectors" statement later "the vertices of a mesh2";
+        VertexVectors "vertex_vectors" statement built "the vertices of a mesh2";
         WaterLevel "water_level" statement later "cuts off the low part of a height_field";
         Xyz "xyz" function built "`xyz(i, j, k): number` in a `polynomial`: what x to the i, y to the j and z to the k is times";
     }

@@ -27,6 +27,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "squares that are exact; others are scaled first",
     ),
     ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
+    ("shape/tree.rs", "STEEPEST", "stands for 1/0"),
     ("evaluate/turn.rs", "1e-9 * step", "relative: of a loop's step"),
     (
         "evaluate/value.rs",

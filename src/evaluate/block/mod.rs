@@ -11,6 +11,7 @@ mod habit;
 mod inert;
 mod interior;
 mod light;
+mod mesh;
 mod modifier;
 mod object;
 mod part;

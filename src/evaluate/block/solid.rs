@@ -25,6 +25,10 @@ impl Evaluator<'_> {
             Word::Quartic => Self::quartic,
             Word::Poly => Self::poly,
             Word::Polynomial => Self::polynomial,
+            Word::Triangle => Self::triangle,
+            Word::SmoothTriangle => Self::smooth_triangle,
+            Word::Mesh => Self::mesh,
+            Word::Mesh2 => Self::mesh2,
             _ => return None,
         })
     }

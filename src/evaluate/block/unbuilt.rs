@@ -22,8 +22,6 @@ enum Kind {
 /// The parts of a shape that come before its modifiers, where their number is fixed.
 fn parts_not_built(word: Word) -> Option<&'static [Part]> {
     use Kind::{Number, Optional, Vector};
-    const CORNER: Part = (Vector, "a vector for a corner");
-    const NORMAL: Part = (Vector, "a vector for a normal");
     const CAP: Part = (Vector, "a vector for the other end");
     const RADIUS: Part = (Number, "a number for the radius");
     Some(match word {
@@ -42,8 +40,6 @@ fn parts_not_built(word: Word) -> Option<&'static [Part]> {
             RADIUS,
             (Optional, "a number for the radius of the hole"),
         ],
-        Word::Triangle => &[CORNER, CORNER, CORNER],
-        Word::SmoothTriangle => &[CORNER, NORMAL, CORNER, NORMAL, CORNER, NORMAL],
         _ => return None,
     })
 }

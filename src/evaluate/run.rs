@@ -1,0 +1,49 @@
+//! Runs of numbers taken or passed over as they lie: there may be megabytes of them.
+
+use crate::syntax::ast::{Item, ItemKind};
+
+use super::Evaluator;
+
+impl Evaluator<'_> {
+    /// Passes over a run of numbers, if one comes next: there may be megabytes of them.
+    pub(super) fn skip_run(&mut self) {
+        if self.peeked.is_none()
+            && let Some(frame) = self.frames.last_mut()
+            && frame.at < frame.end
+            && let ItemKind::Numbers { .. } = frame.here.unit.ast.items[frame.at as usize].kind
+        {
+            (frame.at, frame.taken) = (frame.at + 1, 0);
+        }
+    }
+
+    /// Moves up to `most` vectors of `width` numbers from the run of numbers that comes next, if one does,
+    /// to `entries`, each filled up with zeros: there may be megabytes of them.
+    pub(super) fn take_run(&mut self, width: usize, most: usize, entries: &mut Vec<[f64; 3]>) {
+        if self.peeked.is_some() || self.halted {
+            return;
+        }
+        let Some(frame) = self.frames.last_mut() else { return };
+        if frame.at == frame.end {
+            return;
+        }
+        let unit = frame.here.unit.clone();
+        let Item { kind, span } = unit.ast.items[frame.at as usize];
+        let ItemKind::Numbers { start, count, width: found } = kind else { return };
+        if found as usize != width {
+            return;
+        }
+        let taken = (count - frame.taken).min(most as u32);
+        let first = start as usize + frame.taken as usize * width;
+        let numbers = &unit.ast.numbers[first..first + taken as usize * width];
+        entries.extend(numbers.chunks_exact(width).map(|numbers| {
+            let mut entry = [0.0; 3];
+            entry[..width].copy_from_slice(numbers);
+            entry
+        }));
+        frame.taken += taken;
+        if frame.taken == count {
+            (frame.at, frame.taken) = (frame.at + 1, 0);
+        }
+        self.taken = Some(frame.here.site(span));
+    }
+}

@@ -1,0 +1,165 @@
+//! A mesh in the World: once, at any size, anywhere.
+
+use std::sync::Arc;
+
+use crate::math::random::{Random, tries};
+use crate::math::{UnitVector, Vector};
+use crate::road::{Options, Road};
+use crate::scene::Dialect;
+use crate::shape::Ray;
+use crate::shape::body::Local;
+use crate::source::{FileError, Files, Found};
+use crate::world::World;
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str, _: &str) -> Result<Found, FileError> {
+        Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })
+    }
+}
+
+/// The World, and the codes of what was said.
+fn world(text: &str) -> (World, Vec<&'static str>) {
+    let text = format!("camera {{ location -9*z look_at 0 }}\n{text}");
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+    let file = road.read("a.scene", text.into_bytes());
+    let ast = road.parse(file);
+    let scene = road.evaluate(ast);
+    let (world, _) = road.lower(scene);
+    let codes = road.diagnostics.iter().map(|one| one.code.name()).collect();
+    (world, codes)
+}
+
+const TETRAHEDRON: &str = "mesh2 {
+    vertex_vectors { 4, <1, 1, 1>, <1, -1, -1>, <-1, 1, -1>, <-1, -1, 1> }
+    face_indices { 4, <0, 1, 2>, <0, 2, 3>, <0, 3, 1>, <1, 3, 2> }
+    inside_vector y
+}";
+
+#[test]
+fn a_mesh_placed_ten_thousand_times_is_stored_once() {
+    let scene = format!(
+        "#declare M = {TETRAHEDRON}
+        #for (I, 1, 5000) object {{ M translate I*x }} object {{ object {{ M scale I }} rotate I*y }} #end"
+    );
+    let (world, _) = world(&scene);
+    assert_eq!(world.placed.len(), 10_000);
+    let first = &world.placed[0].body;
+    assert!(world.placed.iter().all(|placed| Arc::ptr_eq(&placed.body, first)));
+    assert_eq!(Arc::strong_count(first), 10_000);
+}
+
+#[test]
+fn a_mesh2_and_a_mesh_of_the_same_triangles_are_one() {
+    let triangles = "mesh {
+        triangle { <1, 1, 1>, <1, -1, -1>, <-1, 1, -1> }
+        triangle { <1, 1, 1>, <-1, 1, -1>, <-1, -1, 1> }
+        triangle { <1, 1, 1>, <-1, -1, 1>, <1, -1, -1> }
+        triangle { <1, -1, -1>, <-1, -1, 1>, <-1, 1, -1> }
+        inside_vector y
+    }";
+    let ((one, _), (other, _)) = (world(TETRAHEDRON), world(triangles));
+    assert_eq!(one.placed, other.placed);
+}
+
+#[test]
+fn a_mesh_is_as_large_as_it_was_written_and_where() {
+    for size in ["1e-30", "1e-6", "1", "1e12", "1e100"] {
+        for place in ["0", "<1, 2, -3>", "1e3*x"] {
+            let moved = format!("object {{ {TETRAHEDRON} translate {place} scale {size} }}");
+            let (vertices, rest) = TETRAHEDRON.split_once("face_indices").expect("both");
+            let vertices = vertices.replace('>', ">)");
+            let vertices = vertices.replace('<', &format!("{size}*({place} + <"));
+            let written = format!("{vertices}face_indices{rest}");
+            let [moved, written] = [moved, written].map(|scene| world(&scene).0);
+            let [a, b] = [&moved, &written].map(|world| world.placed[0].bounds().expect("bounded"));
+            let size = size.parse::<f64>().expect("a number");
+            let off = (a.low - b.low).abs().max((a.high - b.high).abs()).max_element();
+            assert!(off <= 1e-12 * 1e3 * size, "{a:?} {b:?}");
+            let reach = written.placed[0].body.reach();
+            assert!((0.25..2.0).contains(&reach), "{reach}");
+        }
+    }
+}
+
+#[test]
+fn what_is_inside_of_a_mesh_is_told_by_its_vector_and_of_a_sheet_nothing_is() {
+    let (solid, _) = world(TETRAHEDRON);
+    let (sheet, _) = world(&TETRAHEDRON.replace("inside_vector y", ""));
+    let corner = Vector::new(0.9, 0.9, 0.9);
+    assert!(solid.placed[0].contains(corner) && !solid.placed[0].contains(-corner));
+    assert!(!sheet.placed[0].contains(corner) && sheet.placed[0].body.is_sheet());
+}
+
+#[test]
+fn a_triangle_that_is_a_line_is_told_and_left_out_of_its_mesh() {
+    let (world, codes) =
+        world("mesh { triangle { 0, x, 2*x } triangle { 0, x, y } triangle { y, y, z } }");
+    assert_eq!(world.placed[0].body.numbers(), " of 1");
+    assert_eq!(codes.iter().filter(|code| **code == "degenerate-shape").count(), 1, "{codes:?}");
+}
+
+#[test]
+fn what_does_not_fit_in_a_mesh2_is_told() {
+    let told = |from: &str, to: &str, code: &str| {
+        let (world, codes) = world(&TETRAHEDRON.replace(from, to));
+        assert!(codes.contains(&code), "{to}: {codes:?}");
+        assert_eq!(world.placed.len(), 0, "{to}");
+    };
+    told("<0, 3, 1>", "<0, 4, 1>", "out-of-range");
+    told("<0, 3, 1>", "<0, -1, 1>", "out-of-range");
+    told("{ 4, <0", "{ 5, <0", "missing-part");
+    told("{ 4, <0", "{ 3, <0", "extra-part");
+    told("inside_vector", "normal_vectors { 1, y } inside_vector", "wrong-arity");
+    told("inside_vector", "normal_indices { 1, 0 } inside_vector", "missing-part");
+    told("<0, 3, 1>", "<0, 3, 1, 2>", "wrong-type");
+    told(
+        "face_indices { 4,",
+        "texture_list { 1, texture { pigment { rgb 1 } } } face_indices { 4,",
+        "not-supported-yet",
+    );
+}
+
+#[test]
+fn numbers_are_read_alike_whether_they_stand_alone_or_are_reckoned() {
+    let reckoned =
+        TETRAHEDRON.replace("<-1, 1, -1>", "<0-1, 2-1, -1>").replace("<0, 2, 3>", "<0, 1+1, 3>");
+    assert_eq!(world(TETRAHEDRON).0.placed, world(&reckoned).0.placed);
+}
+
+#[test]
+fn a_sheet_of_squares_has_no_holes_however_far_off_it_stands() {
+    let mut random = Random(91);
+    for offset in ["0", "<148376, 1234, -223423>", "1e7*<1, -1, 1>"] {
+        for size in [1.0, 1e-3] {
+            let scene = format!(
+                "#declare S = {size}; #macro P(I, J) S*<I, J, 0> + {offset} #end
+                mesh {{ #for (I, -8, 7) #for (J, -8, 7)
+                    triangle {{ P(I, J), P(I + 1, J), P(I, J + 1) }}
+                    triangle {{ P(I + 1, J), P(I + 1, J + 1), P(I, J + 1) }}
+                #end #end }}"
+            );
+            let (world, _) = world(&scene);
+            let placed = &world.placed[0];
+            let middle = placed.placement.centre;
+            for _ in 0..tries() / 4 {
+                let at = |random: &mut Random| match random.below(3) {
+                    0 => random.below(13) as f64 - 6.0,
+                    1 => random.below(25) as f64 * 0.5 - 6.0,
+                    _ => random.number(-6.0, 6.0),
+                };
+                let target = middle + Vector::new(at(&mut random), at(&mut random), 0.0) * size;
+                let origin = middle + random.direction().get() * (size * 20.0);
+                let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+                // Along the sheet it may pass by.
+                if direction.get().z.abs() < 0.1 {
+                    continue;
+                }
+                let ray = Ray { origin, direction: direction.get() };
+                let all = placed.crossings(&ray);
+                assert_eq!(all.len(), 1, "{all:?} {ray:?} toward {target}");
+            }
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Triangles as they were written.
+
+use crate::math::Vector;
+
+/// The parts of a `mesh`, a `mesh2` or a lone triangle.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Triangles {
+    pub vertices: Vec<Vector>,
+    /// Of any length.
+    pub normals: Vec<Vector>,
+    /// Their indices are those of entries.
+    pub faces: Vec<Face>,
+    /// `inside_vector`: it has an inside. Any length but zero.
+    pub inside: Option<Vector>,
+}
+
+/// A triangle, by indices.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    pub vertices: [u32; 3],
+    /// `None` where it is flat.
+    pub normals: Option<[u32; 3]>,
+}
+
+impl Triangles {
+    /// How many bytes it holds.
+    pub fn bytes(&self) -> u64 {
+        let Self { vertices, normals, faces, .. } = self;
+        (size_of_val(&vertices[..]) + size_of_val(&normals[..]) + size_of_val(&faces[..])) as u64
+    }
+}

@@ -1,0 +1,162 @@
+//! A tree of boxes over the pieces of one body: which of them a line may meet.
+//!
+//! **In:** the pieces' bounds. **Out:** the tree, and the pieces in the order its leaves name them.
+//! **Invariant:** no box that the line passes within the given distance of is skipped; no recursion; the
+//! tree depends on the bounds and their order alone.
+//!
+//! **Source:** I. Wald, "On fast construction of SAH-based bounding volume hierarchies", RT 2007.
+
+use std::ops::Range;
+
+use smallvec::SmallVec;
+
+use super::Bounds;
+use super::body::LocalRay;
+use crate::math::Vector;
+
+const BINS: usize = 16;
+/// No more pieces in a leaf, unless they cannot be told apart.
+const LEAF: usize = 4;
+/// From here on splits are by halves.
+const DEPTH: usize = 40;
+/// Stands for 1/0.
+const STEEPEST: f64 = 1e300;
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tree {
+    /// The first is the root; there is at least one.
+    nodes: Vec<Node>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Node {
+    bounds: Bounds,
+    /// A leaf's first piece, or the first of two nodes side by side.
+    first: u32,
+    /// Pieces of a leaf; 0 of an inner node.
+    count: u32,
+}
+
+const NOWHERE: Bounds = Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY };
+
+impl Tree {
+    /// Of finite bounds, at least one.
+    pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
+        let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
+        let all = |pieces: &[u32]| {
+            pieces.iter().fold(NOWHERE, |all, &piece| all.union(&bounds[piece as usize]))
+        };
+        let mut nodes = vec![Node { bounds: all(&order), first: 0, count: order.len() as u32 }];
+        let mut tasks = vec![(0, 0)];
+        while let Some((index, depth)) = tasks.pop() {
+            let Node { first, count, .. }: Node = nodes[index];
+            let range = first as usize..(first + count) as usize;
+            let pieces = &mut order[range.clone()];
+            let Some(middle) = split(bounds, pieces, depth) else { continue };
+            let children = nodes.len();
+            nodes[index] = Node { first: children as u32, count: 0, ..nodes[index] };
+            for part in [range.start..range.start + middle, range.start + middle..range.end] {
+                let (first, count) = (part.start as u32, part.len() as u32);
+                nodes.push(Node { bounds: all(&order[part]), first, count });
+            }
+            tasks.extend([(children, depth + 1), (children + 1, depth + 1)]);
+        }
+        (Self { nodes }, order)
+    }
+
+    /// Shows `leaf` every run of pieces whose box the line passes within `slack` of.
+    pub fn along(&self, ray: &LocalRay, slack: f64, mut leaf: impl FnMut(Range<usize>)) {
+        let LocalRay { nearest, direction, .. } = *ray;
+        let steepest = Vector::splat(STEEPEST);
+        let reciprocal = direction.recip().clamp(-steepest, steepest);
+        let (past_low, past_high) = (nearest + slack, nearest - slack);
+        let meets = |Bounds { low, high }: &Bounds| {
+            let (a, b) = ((*low - past_low) * reciprocal, (*high - past_high) * reciprocal);
+            a.min(b).max_element() <= a.max(b).min_element()
+        };
+        let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
+        stack.push(0);
+        while let Some(index) = stack.pop() {
+            let Node { bounds, first, count } = &self.nodes[index as usize];
+            if !meets(bounds) {
+                continue;
+            }
+            match count {
+                0 => stack.extend([first + 1, *first]),
+                _ => leaf(*first as usize..(first + count) as usize),
+            }
+        }
+    }
+
+    /// The greatest of what `leaf` says of runs of pieces, which is no more, but for rounding, than
+    /// `along`·P comes to in their box.
+    pub fn greatest(&self, along: Vector, leaf: impl Fn(Range<usize>) -> f64) -> f64 {
+        let most = |Bounds { low, high }: &Bounds| (*low * along).max(*high * along).element_sum();
+        let mut best = f64::NEG_INFINITY;
+        let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
+        stack.push(0);
+        while let Some(index) = stack.pop() {
+            let Node { bounds, first, count } = &self.nodes[index as usize];
+            if most(bounds) <= best {
+                continue;
+            }
+            match count {
+                0 => {
+                    let [a, b] = [*first, first + 1];
+                    let is_more =
+                        most(&self.nodes[a as usize].bounds) > most(&self.nodes[b as usize].bounds);
+                    stack.extend(if is_more { [b, a] } else { [a, b] });
+                }
+                _ => best = best.max(leaf(*first as usize..(first + count) as usize)),
+            }
+        }
+        best
+    }
+}
+
+/// Half the surface; 0 of nothing.
+fn area(Bounds { low, high }: &Bounds) -> f64 {
+    let size = *high - *low;
+    if size.x < 0.0 { 0.0 } else { size.x * size.y + size.y * size.z + size.z * size.x }
+}
+
+/// Twice the centre of a piece.
+fn centre(Bounds { low, high }: &Bounds) -> Vector {
+    *low + *high
+}
+
+/// Sorts some pieces into two parts, and returns how many are in the first; `None` for a leaf.
+fn split(bounds: &[Bounds], pieces: &mut [u32], depth: usize) -> Option<usize> {
+    if pieces.len() <= LEAF {
+        return None;
+    }
+    let place = |piece: u32| centre(&bounds[piece as usize]);
+    let (low, high) = pieces.iter().fold((Vector::INFINITY, Vector::NEG_INFINITY), |(l, h), &p| {
+        (l.min(place(p)), h.max(place(p)))
+    });
+    let axis = (high - low).max_position();
+    let density = BINS as f64 / (high - low)[axis];
+    if depth >= DEPTH || !density.is_finite() {
+        return Some(pieces.len() / 2);
+    }
+    let bin = |piece: u32| (((place(piece) - low)[axis] * density) as usize).min(BINS - 1);
+    let mut bins = [(NOWHERE, 0usize); BINS];
+    for &piece in pieces.iter() {
+        let (all, count) = &mut bins[bin(piece)];
+        (*all, *count) = (all.union(&bounds[piece as usize]), *count + 1);
+    }
+    let cost = |bins: &[(Bounds, usize)]| {
+        let (all, count) = bins
+            .iter()
+            .fold((NOWHERE, 0), |(all, count), (bounds, more)| (all.union(bounds), count + more));
+        (area(&all) * count as f64, count)
+    };
+    let best = (1..BINS)
+        .map(|first| (first, cost(&bins[..first]), cost(&bins[first..])))
+        .filter(|(_, (_, left), (_, right))| *left > 0 && *right > 0)
+        .min_by(|a, b| (a.1.0 + a.2.0).total_cmp(&(b.1.0 + b.2.0)));
+    let (first, (_, left), _) = best?;
+    // Stable: what is equal keeps its order.
+    pieces.sort_by_key(|&piece| bin(piece) >= first);
+    Some(left)
+}
