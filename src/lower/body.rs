@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::Fault;
 use super::shape::{FLAT, no_size};
 use super::transform::{Affine, exact};
-use crate::math::double::{Double, DoubleVector};
+use crate::math::double::{Double, DoubleVector, power_of_two};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
@@ -42,14 +42,14 @@ pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault>
     let normalised = terms.iter().zip(&degrees).map(|(term, &d)| {
         // In two steps, of which neither overflows.
         let shift = scale * d as i32 - most;
-        term * 2f64.powi(shift / 2) * 2f64.powi(shift - shift / 2)
+        term * power_of_two(shift / 2) * power_of_two(shift - shift / 2)
     });
     let normalised: Vec<f64> = normalised.collect();
     let finite = normalised.iter().all(|term| term.is_finite());
     let surface = Algebraic::new(degree, normalised).filter(|_| finite);
     let surface = surface.ok_or_else(|| Fault::not_finite(what))?;
     let columns =
-        [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(2f64.powi(scale))));
+        [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(power_of_two(scale))));
     Ok((Body::Algebraic(surface), Affine::from_columns(columns, DoubleVector::ZERO)))
 }
 

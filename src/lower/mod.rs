@@ -14,6 +14,7 @@ mod light;
 mod lint;
 mod modifier;
 mod object;
+mod place;
 mod shape;
 mod texture;
 mod transform;

@@ -271,6 +271,11 @@ impl DoubleVector {
     }
 }
 
+/// 2 to the `exponent`, as near as a normal number comes.
+pub fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent.clamp(-1022, 1023)) as u64) << 52)
+}
+
 /// The power of two next below `value`, within the range where its inverse is one too.
 pub fn power_of_two_near(value: f64) -> f64 {
     let exponent = (value.to_bits() >> 52) & 0x7ff;

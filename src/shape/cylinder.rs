@@ -74,10 +74,14 @@ fn round(ray: &LocalRay) -> Option<(Met, Met)> {
     let across = |v: Vector| Vector::new(v.x, v.y, 0.0);
     let (nearest, direction) = (across(ray.nearest), across(ray.direction));
     let slope = direction.length();
-    if slope == 0.0 {
+    // Along the axis the side is met far beyond the body, which ends at √2, if at all; for all that is known
+    // of so small a slope, it might be met anywhere else beyond.
+    let distance = nearest.length();
+    let drift = 2.0 * slope + ray.blur_at(2.0) + 4.0 * U;
+    if distance + drift < 1.0 || slope == 0.0 {
         let met = |t, leaving| Met { t, error: 0.0, leaving, part: SIDE };
-        let inside = nearest.length_squared() < 1.0;
-        return inside.then_some((met(f64::NEG_INFINITY, false), met(f64::INFINITY, true)));
+        return (distance < 1.0)
+            .then_some((met(f64::NEG_INFINITY, false), met(f64::INFINITY, true)));
     }
     let direction = direction / slope;
     let along = nearest.dot(direction);

@@ -15,31 +15,18 @@ type Part = (Kind, &'static str);
 enum Kind {
     Vector,
     Number,
-    /// A number that may be left out.
-    Optional,
 }
 
 /// The parts of a shape that come before its modifiers, where their number is fixed.
 fn parts_not_built(word: Word) -> Option<&'static [Part]> {
-    use Kind::{Number, Optional, Vector};
-    const CAP: Part = (Vector, "a vector for the other end");
-    const RADIUS: Part = (Number, "a number for the radius");
+    use Kind::{Number, Vector};
     Some(match word {
-        Word::Cone => &[
-            (Vector, "a vector for an end"),
-            (Number, "a number for the radius at this end"),
-            CAP,
-            (Number, "a number for the radius at the other end"),
+        Word::JuliaFractal => &[(Vector, "a vector for the parameter")],
+        Word::Ovus => &[
+            (Number, "a number for the radius at the bottom"),
+            (Number, "a number for the radius at the top"),
         ],
-        Word::Torus => {
-            &[(Number, "a number for the major radius"), (Number, "a number for the minor radius")]
-        }
-        Word::Disc => &[
-            (Vector, "a vector for the centre"),
-            (Vector, "a vector for the normal"),
-            RADIUS,
-            (Optional, "a number for the radius of the hole"),
-        ],
+        Word::Superellipsoid => &[(Vector, "a vector for the two exponents")],
         _ => return None,
     })
 }
@@ -70,7 +57,7 @@ impl Evaluator<'_> {
         Reported
     }
 
-    /// `cone { Pillar … }`.
+    /// `ovus { Egg … }`.
     fn takes_declared_object(&mut self) -> bool {
         let declared = matches!(
             self.peek_declared(),
@@ -89,21 +76,11 @@ impl Evaluator<'_> {
     }
 
     fn unbuilt_part(&mut self, token: &Token, &(kind, wanted): &Part) -> Outcome<()> {
-        if kind == Kind::Optional {
-            self.skip_commas();
-            let follows = matches!(
-                self.peek().map(|next| &next.kind),
-                Some(TokenKind::Expression(_) | TokenKind::Literal(_))
-            );
-            if !follows {
-                return Ok(());
-            }
-        }
         let given = self.given(token, wanted)?;
         let fits = match (&given.value, kind) {
             (Value::Poison(_) | Value::Broken | Value::Number(_), _) => true,
             (value, Kind::Vector) => value.numbers().is_some(),
-            (_, Kind::Number | Kind::Optional) => false,
+            (_, Kind::Number) => false,
         };
         match fits {
             true => Ok(()),

@@ -1,0 +1,148 @@
+//! Placing a canonical solid: its material, where its texture stands, what it is filled with.
+
+use std::sync::Arc;
+
+use super::modifier::{Calls, Flags, Modified};
+use super::object::Inherited;
+use super::shape::LocalFace;
+use super::texture::Surface;
+use super::transform::{Affine, NEAR_SINGULAR};
+use super::{Fault, Lowering, body};
+use crate::shape::{Body, Shape};
+use crate::source::Site;
+use crate::world::{NearSingular, Object};
+
+impl Lowering<'_, '_> {
+    /// A body that nothing else shares, and the map to it from its own space.
+    pub(super) fn place_made(
+        &mut self,
+        (body, frame): (Body, Affine),
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        self.place_body(Arc::new(body), &frame, here, site)
+    }
+
+    /// A body and the map to it from its own space.
+    pub(super) fn place_body(
+        &mut self,
+        body: Arc<Body>,
+        frame: &Affine,
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        let placed = body::place(body, &here.world_from_here.after(frame))?;
+        let shape = Shape::Placed(next(&mut self.world.placed, placed));
+        self.place(shape, here, here.flags.inverse, &[], site)
+    }
+
+    pub(super) fn place(
+        &mut self,
+        shape: Shape,
+        here: &Inherited,
+        inverse: bool,
+        faces: &[LocalFace],
+        site: Site,
+    ) -> Result<(), Fault> {
+        let Flags { no_shadow, no_image, no_reflection, double_illuminate, .. } = here.flags;
+        let object = Object {
+            casts_shadow: !no_shadow,
+            in_image: !no_image,
+            in_reflections: !no_reflection,
+            double_illuminate,
+            inverse,
+            ..Object::plain(shape)
+        };
+        if let Some(by) = here.hidden_by
+            && self.building.is_none()
+            && self.drop_unseen(&object, by)
+        {
+            return Ok(());
+        }
+        let surface = &here.surface;
+        let material = match here.hidden_by {
+            Some(_) => self.bare_material(),
+            None => self.seen_material(surface, site),
+        };
+        let texture_from_world = self.texture_map(surface, material)?;
+        let faces = match faces {
+            [] => None,
+            faces => self.faces(surface, material, faces)?,
+        };
+        self.note_near_singular(here, site);
+        if object.casts_shadow {
+            self.note_filter(material, surface.pigment);
+        }
+        let interior = self.interior(here.interior, surface.finish, site);
+        let whole = self.leaf(inverse);
+        let object = Object { material, texture_from_world, faces, interior, whole, ..object };
+        self.world.objects.push(object);
+        self.origins.objects.push(site);
+        Ok(())
+    }
+
+    /// The material of an object that something may see.
+    pub(super) fn seen_material(&mut self, surface: &Surface, site: Site) -> u32 {
+        let material = self.material(surface.pigment, surface.finish, site);
+        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        // What mirrors is seen by what it mirrors.
+        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+            self.unpainted.entry(site.span).or_insert(site);
+        }
+        material
+    }
+
+    /// A part is seen and casts shadows as the whole does, whatever it says itself.
+    ///
+    /// **Source:** measured on POV-Ray 3.7, in `intersection`, `difference` and `merge`.
+    pub(super) fn drop_flags_of_part(&mut self, modified: &mut Modified, site: Site) {
+        let Modified { flags, calls, hidden_by, .. } = modified;
+        let words = [
+            (&mut flags.no_shadow, "no_shadow"),
+            (&mut flags.no_image, "no_image"),
+            (&mut flags.no_reflection, "no_reflection"),
+        ];
+        for (flag, word) in words {
+            if std::mem::take(flag) {
+                self.drop_part(site, word, "it is a part: that of the whole counts");
+            }
+        }
+        calls.no_image.clear();
+        calls.no_reflection.clear();
+        *hidden_by = None;
+    }
+
+    /// As of a single object; all of its parts are left out. Where light is bent it stays.
+    pub(super) fn drop_unseen_whole(&mut self, here: &Inherited) -> bool {
+        let Some(by) = here.hidden_by.filter(|_| !self.bends_light()) else { return false };
+        self.drop_hidden(by);
+        true
+    }
+
+    /// Notes modifiers that hold for solids made since there were `before`.
+    pub(super) fn note_calls(&mut self, calls: Calls, before: usize) {
+        if self.world.objects.len() > before {
+            self.origins.hidden.extend(calls.no_image);
+            self.origins.hidden.extend(calls.no_reflection);
+            self.origins.double_illuminate.extend(calls.double_illuminate);
+        }
+    }
+
+    /// Notes an object whose transforms together nearly flatten space, while none alone does.
+    pub(super) fn note_near_singular(&mut self, here: &Inherited, site: Site) {
+        let map = &here.world_from_here;
+        if here.strained || map.uniform_scale().is_some() {
+            return;
+        }
+        let condition = map.condition();
+        if condition >= NEAR_SINGULAR {
+            self.origins.near_singular.push(NearSingular { site, condition });
+        }
+    }
+}
+
+/// Appends and returns the new entry's index.
+pub(super) fn next<T>(list: &mut Vec<T>, item: T) -> u32 {
+    list.push(item);
+    list.len() as u32 - 1
+}
