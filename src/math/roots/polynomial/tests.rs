@@ -56,6 +56,9 @@ fn roots_that_stand_apart_are_all_found() {
     }
 }
 
+/// Coefficients, and the roots with how far they may be off.
+type Family<'a> = (&'a [f64], &'a [(f64, f64)]);
+
 #[test]
 fn the_families_of_quartic_roots_are_told() {
     let mut random = Random(72);
@@ -67,7 +70,7 @@ fn the_families_of_quartic_roots_are_told() {
         let other = (n(&mut random), random.number(0.2, 2.0) * size);
         let close = size * random.size(-12.0, -3.0);
         let far = random.size(0.0, 14.0);
-        let families: [(&[f64], &[(f64, f64)]); 9] = [
+        let families: [Family; 9] = [
             (&[a, b, c, d], &[]),
             (&[a, b], &[pair]),
             (&[], &[pair, other]),
