@@ -77,4 +77,13 @@ impl Placement {
     pub fn world_normal(&self, local: Vector) -> Vector {
         self.local_from_world.transpose() * local
     }
+
+    /// By how many roundings the two matrices may be from undoing each other: the product of their Frobenius
+    /// norms.
+    pub fn condition(&self) -> f64 {
+        let norm = |Matrix { x_axis, y_axis, z_axis }: Matrix| {
+            (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
+        };
+        norm(self.world_from_local) * norm(self.local_from_world)
+    }
 }

@@ -4,7 +4,7 @@
 use super::sphere::{Blur, Roots};
 use super::{Bounds, Chord, Ray, SurfacePoint, U};
 use crate::math::placement::Placement;
-use crate::math::{Matrix, Vector, Vector3};
+use crate::math::{Vector, Vector3};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipsoid {
@@ -69,12 +69,10 @@ impl Ellipsoid {
 
     /// Along each axis the length of that row of `world_from_local`.
     pub fn bounds(&self) -> Bounds {
-        let Placement { centre, world_from_local, local_from_world } = self.placement;
+        let Placement { centre, world_from_local, .. } = self.placement;
         let rows = world_from_local.transpose();
         let extent = Vector::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
-        // How far the two matrices may be from undoing each other.
-        let condition = norm(world_from_local) * norm(local_from_world);
-        Bounds::around(centre, extent, extent * (32.0 * U * condition))
+        Bounds::around(centre, extent, extent * (32.0 * U * self.placement.condition()))
     }
 
     /// Positive inside, zero on the surface, in units of the local sphere: 1 − |L·(P − C)|.
@@ -85,10 +83,4 @@ impl Ellipsoid {
     pub fn contains(&self, point: Vector) -> bool {
         self.signed_distance(point) > 0.0
     }
-}
-
-/// The Frobenius norm.
-fn norm(matrix: Matrix) -> f64 {
-    let Matrix { x_axis, y_axis, z_axis } = matrix;
-    (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }

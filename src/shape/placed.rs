@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
 use super::{Bounds, Ray, SurfacePoint, U};
 use crate::math::placement::Placement;
-use crate::math::{Matrix, UnitVector, Vector, Vector3};
+use crate::math::{UnitVector, Vector, Vector3};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
@@ -88,7 +88,7 @@ impl Placed {
     /// `None` where it has no end. Along each axis the body's extent along that row of
     /// `world_from_local`.
     pub fn bounds(&self) -> Option<Bounds> {
-        let Placement { centre, world_from_local, local_from_world } = self.placement;
+        let Placement { centre, world_from_local, .. } = self.placement;
         let rows = world_from_local.transpose();
         let extents = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| self.body.extent(row));
         let low = Vector::from_array(extents.map(|(low, _)| low));
@@ -96,19 +96,11 @@ impl Placed {
         if !(low.is_finite() && high.is_finite()) {
             return None;
         }
-        // How far the two matrices may be from undoing each other.
-        let condition = norm(world_from_local) * norm(local_from_world);
-        let slack = (high.abs().max(low.abs())) * (32.0 * U * condition);
+        let slack = (high.abs().max(low.abs())) * (32.0 * U * self.placement.condition());
         Some(Bounds::around(centre + (low + high) * 0.5, (high - low) * 0.5, slack))
     }
 
     pub fn contains(&self, point: Vector) -> bool {
         self.body.contains(self.placement.local_point(point))
     }
-}
-
-/// The Frobenius norm.
-fn norm(matrix: Matrix) -> f64 {
-    let Matrix { x_axis, y_axis, z_axis } = matrix;
-    (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }

@@ -124,15 +124,7 @@ impl Evaluator<'_> {
         let cap = self.point(token, "a vector for the middle of the cap");
         let radius = self.number_after(token, "a number for the radius");
         let (base, cap, radius) = (base?, cap?, radius?);
-        if base.value == cap.value {
-            let diagnostic = Diagnostic::new(
-                self.sizeless(),
-                "a cylinder whose ends are in one place is nothing",
-            )
-            .at(cap.span, "expected another place")
-            .also(base.span, "the base");
-            self.nothing(token, &cap.here, diagnostic)?;
-        }
+        self.ends_apart(token, "cylinder", &base, &cap)?;
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
@@ -142,19 +134,31 @@ impl Evaluator<'_> {
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
     }
 
+    /// Says so where a shape has no length.
+    fn ends_apart(
+        &mut self,
+        shape: &Token,
+        name: &str,
+        base: &Given<Vector>,
+        cap: &Given<Vector>,
+    ) -> Outcome<()> {
+        if base.value != cap.value {
+            return Ok(());
+        }
+        let message = format!("a {name} whose ends are in one place is nothing");
+        let diagnostic = Diagnostic::new(self.sizeless(), message)
+            .at(cap.span, "expected another place")
+            .also(base.span, "the base");
+        self.nothing(shape, &cap.here, diagnostic)
+    }
+
     fn cone(&mut self, token: &Token) -> Outcome<Solid> {
         let base = self.vector_after(token, "a vector for the middle of the base");
         let base_radius = self.number_after(token, "a number for the radius at the base");
         let cap = self.vector_after(token, "a vector for the middle of the cap");
         let cap_radius = self.number_after(token, "a number for the radius at the cap");
         let (base, base_radius, cap, cap_radius) = (base?, base_radius?, cap?, cap_radius?);
-        if base.value == cap.value {
-            let diagnostic =
-                Diagnostic::new(self.sizeless(), "a cone whose ends are in one place is nothing")
-                    .at(cap.span, "expected another place")
-                    .also(base.span, "the base");
-            self.nothing(token, &cap.here, diagnostic)?;
-        }
+        self.ends_apart(token, "cone", &base, &cap)?;
         let radii = [base_radius.value, cap_radius.value];
         if radii == [0.0; 2] {
             let diagnostic =
