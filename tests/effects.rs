@@ -26,6 +26,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     depth: None,
     adc_bailout: None,
     precision: lucarne::plan::Precision::Double,
+    root_tolerance: 0.0,
 };
 
 /// Files as they lie on disk, but for those that were changed here.

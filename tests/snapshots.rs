@@ -18,6 +18,7 @@ const PLAN: PlanOptions = PlanOptions {
     depth: None,
     adc_bailout: None,
     precision: lucarne::plan::Precision::Double,
+    root_tolerance: 0.0,
 };
 
 fn stages(name: &str, text: &str) -> String {

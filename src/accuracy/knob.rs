@@ -6,6 +6,7 @@
 
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
+use crate::shape::body::Local;
 use crate::trace::Counters;
 use crate::world::World;
 
@@ -38,6 +39,8 @@ pub enum Need {
     Effect(&'static [Effect]),
     /// Something that rays can meet.
     Object,
+    /// A solid whose crossings are found by steps that come nearer and nearer.
+    IteratedRoots,
 }
 
 impl Need {
@@ -45,6 +48,7 @@ impl Need {
         match self {
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
             Self::Object => !world.objects.is_empty(),
+            Self::IteratedRoots => world.placed.iter().any(|placed| placed.body.is_iterated()),
         }
     }
 }
@@ -118,6 +122,27 @@ pub const KNOBS: &[Knob] = &[
         factor: |double| if double > 0.0 { 1.0 } else { SINGLE },
         label: |double| precision(double).to_owned(),
         flag: |double| format!("--precision {}", precision(double)),
+    },
+    Knob {
+        name: "root-tolerance",
+        needs: Need::IteratedRoots,
+        settings: &[1e-2, 1e-4, 1e-6, 0.0],
+        between: false,
+        set: |options, tolerance| options.root_tolerance = tolerance,
+        get: |options| options.root_tolerance,
+        least: |_| 1.0,
+        // Of instructions, where nearly all that is met has iterated roots: Newton's last steps are few.
+        factor: |tolerance| match tolerance {
+            0.0 => 1.0,
+            tolerance if tolerance < 1e-5 => 0.99,
+            tolerance if tolerance < 1e-3 => 0.985,
+            _ => 0.98,
+        },
+        label: |tolerance| match tolerance {
+            0.0 => "all digits".to_owned(),
+            tolerance => format!("{tolerance:e}"),
+        },
+        flag: |tolerance| format!("--root-tolerance {tolerance:e}"),
     },
 ];
 
@@ -220,10 +245,10 @@ mod tests {
     #[test]
     fn the_cheapest_setting_costs_least_and_the_last_is_the_finest() {
         let cheapest: Vec<String> = KNOBS.iter().map(|k| (k.label)(k.cheapest())).collect();
-        assert_eq!(cheapest, ["off", "1", "1/10", "double"]);
+        assert_eq!(cheapest, ["off", "1", "1/10", "double", "1e-2"]);
         let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
         let finest: Vec<String> = KNOBS.iter().map(finest).collect();
-        assert_eq!(finest, ["32×32", "250", "1/1000000", "double"]);
+        assert_eq!(finest, ["32×32", "250", "1/1000000", "double", "all digits"]);
     }
 
     #[test]

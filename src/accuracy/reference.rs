@@ -3,13 +3,13 @@
 //! **Invariant:** made of two halves that share no sample; half their difference is the reference's
 //! own error, and is reported.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::statistics::{Deviation, Metric};
 use crate::color::{Gamma, Rgb};
 use crate::film::Film;
 use crate::geometry::Geometry;
-use crate::plan::{Plan, Precision};
+use crate::plan::{Arithmetic, Plan};
 use crate::trace::{
     self, Counters, Pixels, Sampling, TraceOptions, Traced, Watch, pixels, trace_in,
 };
@@ -39,8 +39,7 @@ pub fn colors_of(film: &Film, list: &[(u32, u32)]) -> Vec<[f64; 3]> {
 /// The same World in each arithmetic, each made when it is first asked for.
 #[derive(Default)]
 pub struct Geometries {
-    double: OnceLock<Geometry>,
-    single: OnceLock<Geometry>,
+    made: Mutex<Vec<(Arithmetic, Arc<Geometry>)>>,
 }
 
 /// What is traced, and with what.
@@ -53,23 +52,25 @@ pub struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    fn geometry(&self, plan: &Plan) -> &Geometry {
-        let made = match plan.precision {
-            Precision::Double => &self.geometry.double,
-            Precision::Single => &self.geometry.single,
-        };
-        made.get_or_init(|| trace::geometry(self.world, plan, &self.options))
+    fn geometry(&self, plan: &Plan) -> Arc<Geometry> {
+        let mut made = self.geometry.made.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, geometry)) = made.iter().find(|(made, _)| *made == plan.arithmetic()) {
+            return geometry.clone();
+        }
+        let geometry = Arc::new(trace::geometry(self.world, plan, &self.options));
+        made.push((plan.arithmetic(), geometry.clone()));
+        geometry
     }
 
     /// The whole picture under a Plan.
     pub fn picture(&self, plan: &Plan, watch: &dyn Watch) -> Traced {
-        trace_in(self.world, self.geometry(plan), plan, &self.options, watch)
+        trace_in(self.world, &self.geometry(plan), plan, &self.options, watch)
     }
 
     /// Some pixels under a Plan.
     pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
         let geometry = self.geometry(plan);
-        pixels(self.world, geometry, plan, list, sampling, &self.options, self.watch)
+        pixels(self.world, &geometry, plan, list, sampling, &self.options, self.watch)
     }
 
     /// The colours of the first pixels of a list: of all of them, unless it was stopped.

@@ -177,6 +177,8 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     };
     assert_eq!(names(PLAIN), ["antialias", "precision"]);
     assert_eq!(names(BALLS), ["antialias", "depth", "adc-bailout", "precision"]);
+    let ring = format!("{PLAIN} torus {{ 1, 0.2 pigment {{ rgb 1 }} }}");
+    assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);
     // A sky, and nothing that a ray could meet.
     assert_eq!(names("camera { } background { rgb 0.5 }"), ["antialias"]);
     // A scene that reflects and says how deep not to look is told what that costs it.

@@ -10,7 +10,7 @@ use super::measure::{Clock, Span, Timer, Times};
 use super::reference::{Reference, Studio, colors_of};
 use super::statistics::{Deviation, Metric};
 use super::{Options, Unmeasured};
-use crate::plan::{Plan, Precision};
+use crate::plan::{Arithmetic, Plan};
 use crate::trace::{Counters, Watch};
 
 /// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then one
@@ -154,7 +154,7 @@ impl Bench<'_> {
         until: f64,
         pictures: &mut [Picture],
     ) -> Result<(), Unmeasured> {
-        let work = |p: &Picture| (p.counters, candidates[p.candidate].plan.precision);
+        let work = |p: &Picture| (p.counters, candidates[p.candidate].plan.arithmetic());
         let mut runners: Vec<Runner> = Vec::new();
         let mut runner_of = Vec::new();
         for picture in pictures.iter() {
@@ -243,7 +243,7 @@ impl Bench<'_> {
 
 /// What is run again: one picture of all that are the same work.
 struct Runner<'a> {
-    work: (Counters, Precision),
+    work: (Counters, Arithmetic),
     plan: &'a Plan,
     times: Times,
 }

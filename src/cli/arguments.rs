@@ -10,7 +10,9 @@ use lucarne::road::Options;
 use super::exit::Failure;
 use super::messages;
 use super::scene::SceneArguments;
-use super::values::{MetricArgument, antialias, error, knob, region, seconds, size, weight};
+use super::values::{
+    MetricArgument, antialias, error, knob, region, seconds, size, tolerance, weight,
+};
 
 /// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
 ///
@@ -69,12 +71,12 @@ pub struct RenderArguments {
     /// Choose the settings so that the error is at most E, prove it on pixels that had no part in
     /// the choice, and exit with 5 if it cannot be
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "time_budget"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "time_budget"])]
     pub max_error: Option<f64>,
     /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
     /// one ray a pixel fits
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance"])]
     pub time_budget: Option<f64>,
     /// What `--max-error` and `--time-budget` call an error
     #[arg(long, value_enum, default_value_t, value_name = "METRIC")]
@@ -259,6 +261,11 @@ pub struct PictureArguments {
     /// The arithmetic that rays and shapes meet in
     #[arg(long, value_enum, default_value_t, value_name = "single|double")]
     precision: PrecisionArgument,
+    /// How near a crossing must be found where steps come nearer and nearer to it, as of a torus, of the
+    /// solid's size; 0 asks for all digits
+    #[arg(long, value_name = "T", value_parser = tolerance, default_value = "0")]
+    #[arg(allow_negative_numbers = true)]
+    root_tolerance: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -309,12 +316,12 @@ impl PictureArguments {
 
     /// What is asked of the plan.
     pub fn options(&self, frame: Frame) -> PlanOptions {
-        let Self { antialias, depth, adc_bailout, precision, .. } = *self;
+        let Self { antialias, depth, adc_bailout, precision, root_tolerance, .. } = *self;
         let precision = match precision {
             PrecisionArgument::Single => Precision::Single,
             PrecisionArgument::Double => Precision::Double,
         };
-        PlanOptions { frame, antialias, depth, adc_bailout, precision }
+        PlanOptions { frame, antialias, depth, adc_bailout, precision, root_tolerance }
     }
 }
 

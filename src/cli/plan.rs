@@ -48,6 +48,7 @@ struct Report<'a> {
     max_trace_level: u32,
     adc_bailout: f64,
     precision: &'a str,
+    root_tolerance: f64,
     kernel: &'a str,
     kernels_compiled: Vec<&'a str>,
     effects: Vec<Row<'a>>,
@@ -170,6 +171,7 @@ impl<'a> Report<'a> {
                 Precision::Single => "single",
                 Precision::Double => "double",
             },
+            root_tolerance: plan.root_tolerance,
             kernel: plan.kernel.name(),
             kernels_compiled: Kernel::ALL
                 .into_iter()

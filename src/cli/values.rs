@@ -92,6 +92,11 @@ pub fn weight(text: &str) -> Result<f64, String> {
     weight.ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }
 
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.parse().ok().filter(|tolerance: &f64| (0.0..=0.1).contains(tolerance));
+    tolerance.ok_or_else(|| "expected a number from 0 to 0.1, such as 1e-6".to_owned())
+}
+
 pub fn error(text: &str) -> Result<f64, String> {
     let error = text.parse().ok().filter(|error: &f64| *error > 0.0 && *error <= 1.0);
     error.ok_or_else(|| "expected an error above 0 and at most 1, such as 0.01".to_owned())

@@ -175,6 +175,12 @@ impl Geometry {
         self.parts(Self::in_single_precision)
     }
 
+    /// The same geometry, where a crossing need be found no better than `tolerance` of its solid's size.
+    pub fn within_root_tolerance(mut self, tolerance: f64) -> Self {
+        self.placed.iter_mut().for_each(|placed| placed.root_tolerance = tolerance);
+        self.parts(|part| part.within_root_tolerance(tolerance))
+    }
+
     /// The same geometry, which counts what its searches take.
     pub fn counting(mut self) -> Self {
         self.manner = match self.manner {
@@ -184,7 +190,7 @@ impl Geometry {
         self.parts(Self::counting)
     }
 
-    fn parts(mut self, change: fn(Self) -> Self) -> Self {
+    fn parts(mut self, change: impl Fn(Self) -> Self) -> Self {
         for part in [&mut self.in_image, &mut self.in_reflections] {
             *part = part.take().map(|part| Box::new(change(*part)));
         }

@@ -166,5 +166,5 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     if !placement.local_from_world.is_finite() || !placement.world_from_local.is_finite() {
         return Err(Fault::not_finite(&what));
     }
-    Ok(Placed { body, placement })
+    Ok(Placed { body, placement, root_tolerance: 0.0 })
 }

@@ -22,6 +22,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         max_trace_level,
         adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
         precision: options.precision,
+        root_tolerance: options.root_tolerance,
         kernel: Kernel { shadows: false, secondary: false },
         effects: Vec::new(),
         left_out: Vec::new(),

@@ -70,6 +70,15 @@ pub enum Precision {
     Double,
 }
 
+/// How exactly rays and shapes meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arithmetic {
+    pub precision: Precision,
+    /// How near a crossing must be found, of the size of its solid, where steps come nearer and nearer
+    /// to it; 0 asks for all that the arithmetic can tell.
+    pub root_tolerance: f64,
+}
+
 /// What the caller asks of the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanOptions {
@@ -80,13 +89,15 @@ pub struct PlanOptions {
     /// Overrides the scene's `adc_bailout`.
     pub adc_bailout: Option<f64>,
     pub precision: Precision,
+    /// See [`Arithmetic`].
+    pub root_tolerance: f64,
 }
 
 impl PlanOptions {
     /// What `render` does unless it is told otherwise.
     pub fn new(frame: Frame) -> Self {
         let (antialias, precision) = (Antialias::default(), Precision::Double);
-        Self { frame, antialias, depth: None, adc_bailout: None, precision }
+        Self { frame, antialias, depth: None, adc_bailout: None, precision, root_tolerance: 0.0 }
     }
 }
 
@@ -160,6 +171,8 @@ pub struct Plan {
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     pub precision: Precision,
+    /// See [`Arithmetic`].
+    pub root_tolerance: f64,
     pub kernel: Kernel,
     /// What will be simulated.
     pub effects: Vec<Called>,
@@ -214,6 +227,10 @@ impl Plan {
 
     pub fn called(&self, effect: Effect) -> Option<&Called> {
         self.effects.iter().find(|called| called.effect == effect)
+    }
+
+    pub fn arithmetic(&self) -> Arithmetic {
+        Arithmetic { precision: self.precision, root_tolerance: self.root_tolerance }
     }
 
     /// Rays of the camera, of the whole region.

@@ -74,6 +74,9 @@ impl Printer<'_> {
             Precision::Double => {}
             Precision::Single => writeln!(out, "precision single")?,
         }
+        if plan.root_tolerance > 0.0 {
+            writeln!(out, "root_tolerance {}", plan.root_tolerance)?;
+        }
         let compiled = Kernel::ALL.iter().filter(|kernel| kernel.is_compiled()).count();
         writeln!(out, "kernel {}, one of {compiled} compiled in", plan.kernel.name())
     }

@@ -85,7 +85,7 @@ impl Algebraic {
     /// blur and turn added to those of its point and direction, A′ − A for the line, and each coefficient
     /// of A′ times the rounding of the three.
     fn along_ray(&self, ray: &LocalRay) -> Polynomial {
-        let LocalRay { nearest, direction, blur, turn } = *ray;
+        let LocalRay { nearest, direction, blur, turn, .. } = *ray;
         let (place, way) = (nearest.abs(), direction.abs());
         let values = self.along(&self.terms, nearest, direction);
         let least = self.along(&self.sizes, place, way);
@@ -115,7 +115,7 @@ fn add(values: &mut Coefficients, more: &Coefficients, degree: usize) {
 impl Local for Algebraic {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let size = ray.nearest.length().max(1.0);
-        let roots = self.along_ray(ray).roots(size);
+        let roots = self.along_ray(ray).roots(size, ray.tolerance);
         found.extend(roots.into_iter().map(|root| Met {
             t: root.s,
             error: root.error,
@@ -137,6 +137,10 @@ impl Local for Algebraic {
 
     fn extent(&self, _: Vector) -> (f64, f64) {
         (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn reach(&self) -> f64 {

@@ -36,6 +36,11 @@ pub trait Local {
     /// What distinguishes it from others of its kind, for people to read; each after a blank.
     fn numbers(&self) -> String;
 
+    /// Its crossings are found by steps that come nearer and nearer: what [`LocalRay::tolerance`] ends.
+    fn is_iterated(&self) -> bool {
+        false
+    }
+
     /// It has no inside: a ray goes through and is neither in it before nor after.
     fn is_sheet(&self) -> bool {
         false
@@ -70,6 +75,9 @@ pub struct LocalRay {
     pub blur: f64,
     /// See `blur`.
     pub turn: f64,
+    /// A crossing need be found no better than this, of which [`Met::error`] tells; 0 asks for all that
+    /// the arithmetic can tell.
+    pub tolerance: f64,
 }
 
 impl LocalRay {
@@ -180,6 +188,12 @@ macro_rules! bodies {
                 }
             }
 
+            fn is_iterated(&self) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.is_iterated(),)*
+                }
+            }
+
             fn is_sheet(&self) -> bool {
                 match self {
                     $(Self::$kind(body) => body.is_sheet(),)*
@@ -221,7 +235,7 @@ impl Seen {
     /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
     /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
     /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.)
-    pub fn new(placement: &Placement, ray: &Ray) -> Self {
+    pub fn new(placement: &Placement, ray: &Ray, tolerance: f64) -> Self {
         let matrix = placement.local_from_world;
         let sizes = matrix.abs();
         let from_centre = ray.origin - placement.centre;
@@ -236,7 +250,8 @@ impl Seen {
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
         let blur = U * 6.0 * reach + turn * start.abs();
         let start_error = blur + turn * nearest.length();
-        Self { line: LocalRay { nearest, direction, blur, turn }, start, speed, start_error }
+        let line = LocalRay { nearest, direction, blur, turn, tolerance };
+        Self { line, start, speed, start_error }
     }
 
     /// A crossing of the line, as one of the ray.

@@ -72,7 +72,7 @@ impl Cone {
             }
             let is_here = (guesses.0 - deepest) * far > 0.0;
             let start = if is_here { guesses.0 } else { guesses.1 };
-            let found = root(height, far, deepest, start);
+            let found = root(height, (far, deepest), start, 0.0);
             Met { t: found.t, error: found.error, leaving, part: SIDE }
         };
         Some((end(-FAR, false), end(FAR, true)))

@@ -12,6 +12,8 @@ pub struct Placed {
     /// Stored once, however often it is placed.
     pub body: Arc<Body>,
     pub placement: Placement,
+    /// How near its crossings must be found, of its own size: [`super::body::LocalRay::tolerance`].
+    pub root_tolerance: f64,
 }
 
 impl Placed {
@@ -19,7 +21,7 @@ impl Placed {
     #[inline(never)]
     pub fn crossings(&self, ray: &Ray) -> Crossings {
         let mut found = Crossings::new();
-        let seen = Seen::new(&self.placement, ray);
+        let seen = Seen::new(&self.placement, ray, self.root_tolerance);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;

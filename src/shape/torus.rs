@@ -168,7 +168,7 @@ impl<'a> Line<'a> {
 
     fn met(&self, outside: f64, inside: &Found, leaving: bool) -> Met {
         let start = inside.guess((outside - inside.s).signum());
-        let found = root(|s| self.height(s), outside, inside.s, start);
+        let found = root(|s| self.height(s), (outside, inside.s), start, self.ray.tolerance);
         Met { t: found.t, error: found.error, leaving, part: 0 }
     }
 }
@@ -232,6 +232,10 @@ impl Local for Torus {
         let half =
             self.major * Vector::new(along.x, along.y, 0.0).length() + self.minor * along.length();
         (-half, half)
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn reach(&self) -> f64 {

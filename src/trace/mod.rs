@@ -216,6 +216,10 @@ pub fn trace_in(
 pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry {
     let geometry = Geometry::build(world);
     let geometry = if options.count_work { geometry.counting() } else { geometry };
+    let geometry = match plan.root_tolerance {
+        0.0 => geometry,
+        tolerance => geometry.within_root_tolerance(tolerance),
+    };
     match plan.precision {
         Precision::Double => geometry,
         Precision::Single => geometry.in_single_precision(),

@@ -38,11 +38,17 @@ pub struct Root {
 }
 
 /// The root between `outside`, where the function is certainly positive, and `inside`, where it is
-/// certainly negative, in either order; `start` is a guess. Newton's steps, and half of the bracket
+/// certainly negative, in either order; `start` is a guess, and `tolerance` how far the root may be off
+/// beyond what the samples' errors ask for. Newton's steps, and half of the bracket
 /// where one would leave it or come on too slowly; then the bound, sought outward from the root.
 ///
 /// **Source:** W. Press et al., "Numerical Recipes in C", 2nd ed. (1992), § 9.4 (`rtsafe`).
-pub fn root(sample: impl Fn(f64) -> Sample, outside: f64, inside: f64, start: f64) -> Root {
+pub fn root(
+    sample: impl Fn(f64) -> Sample,
+    (outside, inside): (f64, f64),
+    start: f64,
+    tolerance: f64,
+) -> Root {
     let between = |t: f64, a: f64, b: f64| (t - a) * (t - b) < 0.0;
     let (mut above, mut below) = (outside, inside);
     let mut t = if between(start, above, below) { start } else { 0.5 * (above + below) };
@@ -67,10 +73,13 @@ pub fn root(sample: impl Fn(f64) -> Sample, outside: f64, inside: f64, start: f6
             break;
         }
         t = next;
+        if step.abs() <= 0.5 * tolerance {
+            break;
+        }
         here = sample(t);
     }
     // How far one must go from the root until the sign is certain.
-    let least = (2.0 * here.error / here.slope.abs()).max(4.0 * U * t.abs());
+    let least = (2.0 * here.error / here.slope.abs()).max(4.0 * U * t.abs()).max(tolerance);
     let reach = |end: f64, is_certain: fn(&Sample) -> bool| {
         let (far, way) = ((end - t).abs(), (end - t).signum());
         let mut step = least;
@@ -106,7 +115,7 @@ mod tests {
             // What was meant, and off by nearly as much as is claimed.
             let off = random.number(-0.9, 0.9) * error;
             let start = random.number(-5.0, 5.0);
-            let root = root(cube(meant * meant * meant + off, error), 3.0, -3.0, start);
+            let root = root(cube(meant * meant * meant + off, error), (3.0, -3.0), start, 0.0);
             assert!((root.t - meant).abs() <= root.error, "{root:?} {meant} {error:e}");
             if meant.abs() > 0.5 {
                 assert!(root.error <= 10.0 * error, "{root:?} {meant} {error:e}");
@@ -115,10 +124,34 @@ mod tests {
     }
 
     #[test]
+    fn a_root_that_need_not_be_near_is_found_sooner_and_lies_within_its_bound() {
+        let mut random = Random(8);
+        let count = std::cell::Cell::new(0);
+        for _ in 0..1000 {
+            let meant = random.number(-2.0, 2.0);
+            let cube = cube(meant * meant * meant, 1e-15);
+            let start = random.number(-3.0, 3.0);
+            let counted = |t| {
+                count.set(count.get() + 1);
+                cube(t)
+            };
+            let taken = |tolerance| {
+                count.set(0);
+                let root = root(counted, (3.0, -3.0), start, tolerance);
+                assert!((root.t - meant).abs() <= root.error, "{root:?} {meant} {tolerance}");
+                (count.get(), root.error)
+            };
+            let ((rough, error), (all, _)) = (taken(1e-2), taken(0.0));
+            assert!(rough < all, "{rough} {all}");
+            assert!(meant.abs() < 0.1 || error < 0.1, "{error} {meant}");
+        }
+    }
+
+    #[test]
     fn a_slope_that_is_wrong_costs_time_and_no_digits() {
         let wrong = |slope: f64| move |x: f64| Sample { value: x - 0.3, slope, error: 1e-15 };
         for slope in [f64::NAN, 0.0, -1.0, 1e-300, f64::INFINITY] {
-            let root = root(wrong(slope), 1.0, -1.0, f64::NAN);
+            let root = root(wrong(slope), (1.0, -1.0), f64::NAN, 0.0);
             assert!((root.t - 0.3).abs() < 2e-15, "{slope}: {root:?}");
             assert!((root.t - 0.3).abs() <= root.error, "{slope}: {root:?}");
         }

@@ -62,17 +62,19 @@ impl Polynomial {
     }
 
     /// Where it changes its sign on the whole line, in order. `size` is about how far from 0 most of them
-    /// are to be expected: it costs time where it is far from right, and nothing else.
-    pub fn roots(&self, size: f64) -> Roots {
+    /// are to be expected: it costs time where it is far from right, and nothing else. A root nearer than
+    /// that need be found no better than `tolerance`.
+    pub fn roots(&self, size: f64, tolerance: f64) -> Roots {
         let mut roots = Roots::new();
         let Some((near, scale)) = self.parted(size) else { return roots };
         let far = near.reversed();
         let odd = near.degree % 2 == 1;
         // From −∞ to −σ: w = σ/s goes from 0 down to −1.
-        let before = far.between(-1.0, 0.0).into_iter().rev();
+        let before = far.between((-1.0, 0.0), 0.0).into_iter().rev();
         roots.extend(before.filter_map(|bracket| bracket.outer(scale, odd)));
-        roots.extend(near.between(-1.0, 1.0).into_iter().map(|bracket| bracket.root(scale)));
-        let behind = far.between(0.0, 1.0).into_iter().rev();
+        let within = near.between((-1.0, 1.0), tolerance / scale);
+        roots.extend(within.into_iter().map(|bracket| bracket.root(scale)));
+        let behind = far.between((0.0, 1.0), 0.0).into_iter().rev();
         roots.extend(behind.filter_map(|bracket| bracket.outer(scale, false)));
         roots
     }
@@ -123,7 +125,7 @@ impl Polynomial {
     }
 
     /// The certain changes of sign from `low` to `high`, in order.
-    fn between(&self, low: f64, high: f64) -> Brackets {
+    fn between(&self, (low, high): (f64, f64), tolerance: f64) -> Brackets {
         let mut roots = Brackets::new();
         let values = &self.values[..=self.degree];
         if certainly_one_sign(&self.values, &self.slack, self.degree, low, high) {
@@ -131,41 +133,41 @@ impl Polynomial {
         }
         let turns = turning_points(values, low, high);
         let (mut before, mut last) = (None, low);
-        self.advance(&mut before, low, &mut roots);
+        self.advance(&mut before, low);
         for turn in turns.into_iter().chain([high]) {
             // Also between them, for where the ends of a piece tell nothing.
-            self.advance(&mut before, 0.5 * (last + turn), &mut roots);
-            self.advance(&mut before, turn, &mut roots);
+            for at in [0.5 * (last + turn), turn] {
+                let change = self.advance(&mut before, at);
+                roots.extend(change.map(|change| self.root(change, tolerance)));
+            }
             last = turn;
         }
         roots
     }
 
     /// Goes on to `at`, if its sign is certain there.
-    fn advance(&self, before: &mut Option<(f64, i8)>, at: f64, roots: &mut Brackets) {
+    fn advance(&self, before: &mut Option<(f64, i8)>, at: f64) -> Option<Change> {
         let sign = self.sign(at);
         if sign == 0 {
-            return;
+            return None;
         }
-        if let Some((from, old)) = before.replace((at, sign))
-            && old != sign
-        {
-            roots.push(self.root(from, at, sign > 0));
-        }
+        let (low, old) = before.replace((at, sign))?;
+        (old != sign).then_some(Change { low, high: at, rising: sign > 0 })
     }
 
-    /// The root between two places of certain and opposite signs, with as little around it as has such
-    /// places at its ends.
-    fn root(&self, low: f64, high: f64, rising: bool) -> Bracket {
+    /// The root at a change of sign, with as little around it as has certain signs at its ends, or no more
+    /// than `tolerance` to each side.
+    fn root(&self, change: Change, tolerance: f64) -> Bracket {
+        let Change { low, high, rising } = change;
         let values = &self.values[..=self.degree];
-        let s = root_between(values, low, high, rising);
+        let s = root_between(values, change, tolerance);
         let (_, slope) = value_and_slope(values, s);
         let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
         let after = if rising { 1 } else { -1 };
         // Where the slope is as good as 0, this is far too much: it grows as it has to.
         let most = (high - low) * f64::from(f32::EPSILON);
         let likely = (1.5 * slack / slope.abs()).min(most);
-        let start = (likely + 4.0 * U * s.abs()).max(f64::MIN_POSITIVE);
+        let start = (likely + 4.0 * U * s.abs()).max(f64::MIN_POSITIVE).max(tolerance);
         let reach = |way: f64, end: f64| {
             let mut reach = start;
             loop {
@@ -181,6 +183,14 @@ impl Polynomial {
         };
         Bracket { low: reach(-1.0, low), s, high: reach(1.0, high), rising }
     }
+}
+
+/// Two places of certain and opposite signs.
+#[derive(Debug, Clone, Copy)]
+struct Change {
+    low: f64,
+    high: f64,
+    rising: bool,
 }
 
 /// A root and two places that it is certainly between.
@@ -264,7 +274,8 @@ fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
             if above == 0.0 && to < high {
                 found.push(to);
             } else if (below < 0.0 && above > 0.0) || (below > 0.0 && above < 0.0) {
-                found.push(root_between(derivative, from, to, above > 0.0));
+                let change = Change { low: from, high: to, rising: above > 0.0 };
+                found.push(root_between(derivative, change, 0.0));
             }
             (from, below) = (to, above);
         }
@@ -273,9 +284,10 @@ fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
     points
 }
 
-/// Where a polynomial changes its sign between two places at which it has opposite ones: by Newton's
-/// steps while they stay between the places known best, else by halves.
-fn root_between(values: &[f64], mut low: f64, mut high: f64, rising: bool) -> f64 {
+/// Where a polynomial changes its sign between two places at which it has opposite ones, or about within
+/// `tolerance` of it: by Newton's steps while they stay between the places known best, else by halves.
+fn root_between(values: &[f64], change: Change, tolerance: f64) -> f64 {
+    let Change { mut low, mut high, rising } = change;
     let mut s = 0.5 * (low + high);
     // Newton's steps square the error at a simple root; at others halves have to do.
     for turn in 0..128 {
@@ -292,7 +304,10 @@ fn root_between(values: &[f64], mut low: f64, mut high: f64, rising: bool) -> f6
         let middle = 0.5 * (low + high);
         let halve = turn % 4 == 3 || !(newton > low && newton < high);
         let next = if halve { middle } else { newton };
-        if (newton - s).abs() <= U * s.abs() || next == low && middle == low || next == high {
+        if (newton - s).abs() <= (U * s.abs()).max(0.5 * tolerance)
+            || next == low && middle == low
+            || next == high
+        {
             return s;
         }
         s = next;

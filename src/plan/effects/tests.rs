@@ -71,6 +71,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     depth: None,
     adc_bailout: None,
     precision: Precision::Double,
+    root_tolerance: 0.0,
 };
 
 /// Changes the lit mirror and asks why the effect is left out.

@@ -178,7 +178,8 @@ impl Local for Mesh {
         if point.length() > self.reach {
             return false;
         }
-        let ray = LocalRay { nearest: point, direction: way.get(), blur: 0.0, turn: 0.0 };
+        let ray =
+            LocalRay { nearest: point, direction: way.get(), blur: 0.0, turn: 0.0, tolerance: 0.0 };
         let mut ahead = 0u32;
         self.pierced(&ray, |met| ahead += u32::from(met.t > 0.0));
         ahead % 2 == 1

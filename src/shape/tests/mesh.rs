@@ -63,7 +63,7 @@ fn ball(times: u32, inside: bool) -> Mesh {
 fn line(through: Vector, toward: Vector) -> LocalRay {
     let direction = UnitVector::from_direction(toward).unwrap_or(UnitVector::Z).get();
     let nearest = through - direction * through.dot(direction);
-    LocalRay { nearest, direction, blur: 4.0 * EPS, turn: EPS }
+    LocalRay { nearest, direction, blur: 4.0 * EPS, turn: EPS, tolerance: 0.0 }
 }
 
 fn crossings(mesh: &Mesh, ray: &LocalRay) -> Crossings {

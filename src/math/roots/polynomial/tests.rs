@@ -27,15 +27,21 @@ fn assert_finds(roots: &[f64], pairs: &[(f64, f64)], size: f64) -> usize {
     let mut roots = roots.to_vec();
     roots.sort_by(f64::total_cmp);
     let polynomial = product(&roots, pairs);
-    let found = polynomial.roots(size);
+    let found = polynomial.roots(size, 0.0);
+    assert_eq!(found.len(), assert_fits(&polynomial.roots(size, 1e-4 * size), &roots).len());
     assert_eq!(found.len() % 2, roots.len() % 2, "{found:?} {roots:?} {pairs:?}");
+    assert_fits(&found, &roots).len()
+}
+
+/// The roots found are in order, go up and down in turn, and each has a true one within its bound.
+fn assert_fits<'a>(found: &'a Roots, roots: &[f64]) -> &'a Roots {
     for (i, root) in found.iter().enumerate() {
         assert_eq!(root.rising, (found.len() - i) % 2 == 1, "{found:?} {roots:?}");
         let near = roots.iter().any(|true_one| (true_one - root.s).abs() <= root.error);
-        assert!(near, "{root:?} {roots:?} {pairs:?}");
+        assert!(near, "{root:?} {roots:?}");
         assert!(i == 0 || found[i - 1].s <= root.s, "{found:?}");
     }
-    found.len()
+    found
 }
 
 #[test]
@@ -90,9 +96,9 @@ fn the_families_of_quartic_roots_are_told() {
 
 #[test]
 fn what_touches_zero_is_no_root_and_what_crosses_it_thrice_at_once_is_one() {
-    assert!(product(&[1.0, 1.0], &[]).roots(1.0).is_empty());
-    assert!(product(&[0.3; 4], &[]).roots(1.0).is_empty());
-    let thrice = product(&[0.3; 3], &[]).roots(1.0);
+    assert!(product(&[1.0, 1.0], &[]).roots(1.0, 0.0).is_empty());
+    assert!(product(&[0.3; 4], &[]).roots(1.0, 0.0).is_empty());
+    let thrice = product(&[0.3; 3], &[]).roots(1.0, 0.0);
     assert_eq!(thrice.len(), 1);
     assert!((thrice[0].s - 0.3).abs() <= thrice[0].error && thrice[0].error < 1e-3);
 }
@@ -100,7 +106,7 @@ fn what_touches_zero_is_no_root_and_what_crosses_it_thrice_at_once_is_one() {
 #[test]
 fn the_line_has_no_end() {
     for far in [1e3, 1e9, 1e12] {
-        let found = product(&[-far, 0.5, far], &[]).roots(1.0);
+        let found = product(&[-far, 0.5, far], &[]).roots(1.0, 0.0);
         assert_eq!(found.len(), 3, "{far}: {found:?}");
         assert!((found[2].s - far).abs() <= found[2].error && found[2].error < far * 1e-12);
         assert!((found[0].s + far).abs() <= found[0].error && found[0].error < far * 1e-12);
@@ -109,10 +115,10 @@ fn the_line_has_no_end() {
 
 #[test]
 fn nothing_is_found_of_what_may_be_zero_everywhere() {
-    assert!(Polynomial::new([0.0; 16], [0.0; 16]).roots(1.0).is_empty());
-    assert!(Polynomial::new([1e-17; 16], [1e-16; 16]).roots(1.0).is_empty());
-    assert!(Polynomial::new([f64::NAN; 16], [0.0; 16]).roots(1.0).is_empty());
-    assert!(Polynomial::new([1e300; 16], [0.0; 16]).roots(f64::INFINITY).is_empty());
+    assert!(Polynomial::new([0.0; 16], [0.0; 16]).roots(1.0, 0.0).is_empty());
+    assert!(Polynomial::new([1e-17; 16], [1e-16; 16]).roots(1.0, 0.0).is_empty());
+    assert!(Polynomial::new([f64::NAN; 16], [0.0; 16]).roots(1.0, 0.0).is_empty());
+    assert!(Polynomial::new([1e300; 16], [0.0; 16]).roots(f64::INFINITY, 0.0).is_empty());
 }
 
 #[test]
