@@ -72,6 +72,11 @@ impl World {
         })
     }
 
+    /// Whether the crossings of any solid are found by steps that come nearer and nearer.
+    pub fn has_iterated_roots(&self) -> bool {
+        self.placed.iter().any(|placed| placed.body.is_iterated())
+    }
+
     /// Whether an object has no inside.
     pub fn is_sheet(&self, object: u32) -> bool {
         match self.objects[object as usize].shape {

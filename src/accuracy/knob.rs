@@ -6,7 +6,6 @@
 
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
-use crate::shape::body::Local;
 use crate::trace::Counters;
 use crate::world::World;
 
@@ -48,7 +47,7 @@ impl Need {
         match self {
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
             Self::Object => !world.objects.is_empty(),
-            Self::IteratedRoots => world.placed.iter().any(|placed| placed.body.is_iterated()),
+            Self::IteratedRoots => world.has_iterated_roots(),
         }
     }
 }
@@ -132,12 +131,7 @@ pub const KNOBS: &[Knob] = &[
         get: |options| options.root_tolerance,
         least: |_| 1.0,
         // Of instructions, where nearly all that is met has iterated roots: Newton's last steps are few.
-        factor: |tolerance| match tolerance {
-            0.0 => 1.0,
-            tolerance if tolerance < 1e-5 => 0.99,
-            tolerance if tolerance < 1e-3 => 0.985,
-            _ => 0.98,
-        },
+        factor: |tolerance| if tolerance > 0.0 { 0.985 } else { 1.0 },
         label: |tolerance| match tolerance {
             0.0 => "all digits".to_owned(),
             tolerance => format!("{tolerance:e}"),
