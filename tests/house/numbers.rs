@@ -8,8 +8,8 @@ use crate::{assert_none, files};
 /// Numbers that look like an epsilon or a far limit, by file and by what stands on their line, and
 /// why each is neither: none is compared with a length of a scene. A reason is for one line.
 const NUMBERS: &[(&str, &str, &str)] = &[
-    ("accuracy/knob.rs", "1e-6", "a weight at which reflections are no longer followed"),
-    ("accuracy/knob.rs", "settings: &[1e-2, 1e-4", "shares of a solid's own size, for comparison"),
+    ("accuracy/knob.rs", "4096.0, 1e-6", "a weight at which reflections are no longer followed"),
+    ("accuracy/knob.rs", "1e-2, 1e-4, 1e-6", "shares of a solid's own size, for comparison"),
     ("accuracy/statistics.rs", "BAD", "of a colour's full scale"),
     ("accuracy/afford.rs", "MOST_RAYS", "rays of a sample"),
     ("accuracy/reference.rs", "ROUNDING", "of a colour's full scale"),

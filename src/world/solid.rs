@@ -1,0 +1,56 @@
+//! What the World's solids answer: what is inside of which, and which are one.
+
+use super::{Object, World};
+use crate::math::Vector;
+use crate::shape::Shape;
+use crate::shape::body::Local;
+use crate::shape::csg;
+
+impl World {
+    /// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
+    pub fn contains(&self, object: &Object, point: Vector) -> bool {
+        let inside = match object.shape {
+            Shape::Sphere(i) => self.spheres[i as usize].contains(point),
+            Shape::Plane(i) => self.planes[i as usize].contains(point),
+            Shape::Box(i) => self.boxes[i as usize].contains(point),
+            Shape::Ellipsoid(i) => self.ellipsoids[i as usize].contains(point),
+            Shape::Placed(i) => self.placed[i as usize].contains(point),
+        };
+        inside != object.inverse
+    }
+
+    /// Whether a point lies inside an object, or the whole that it is a part of.
+    pub fn whole_contains(&self, object: &Object, point: Vector) -> bool {
+        let Some(whole) = object.whole else { return self.contains(object, point) };
+        let whole = &self.wholes[whole as usize];
+        let leaf = |object: &Object| self.contains(object, point) != object.inverse;
+        csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
+    }
+
+    /// Those of the objects that are no parts, and of each whole the first part.
+    pub fn solids(&self) -> impl Iterator<Item = u32> {
+        (0..self.objects.len() as u32).filter(|&i| {
+            let whole = self.objects[i as usize].whole;
+            whole.is_none_or(|whole| self.wholes[whole as usize].first == i)
+        })
+    }
+
+    /// Whether the crossings of any solid are found by steps that come nearer and nearer.
+    pub fn has_iterated_roots(&self) -> bool {
+        self.placed.iter().any(|placed| placed.body.is_iterated())
+    }
+
+    /// Whether an object has no inside.
+    pub fn is_sheet(&self, object: u32) -> bool {
+        match self.objects[object as usize].shape {
+            Shape::Placed(i) => self.placed[i as usize].body.is_sheet(),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => false,
+        }
+    }
+
+    /// Whether both are parts of one whole, or the same.
+    pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
+        let whole = |object: u32| self.objects[object as usize].whole;
+        a == b || whole(a).is_some() && whole(a) == whole(b)
+    }
+}
