@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::Fault;
-use super::shape::{FLAT, no_size};
+use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
 use crate::math::double::{Double, DoubleVector, power_of_two};
 use crate::math::placement::Placement;
@@ -163,8 +163,6 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
         world_from_local: map.matrix(Double::ONE),
         local_from_world: inverse.matrix(Double::ONE),
     };
-    if !placement.local_from_world.is_finite() || !placement.world_from_local.is_finite() {
-        return Err(Fault::not_finite(&what));
-    }
+    let placement = traceable(placement, &what)?;
     Ok(Placed { body, placement, root_tolerance: 0.0 })
 }

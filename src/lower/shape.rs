@@ -8,7 +8,7 @@ use super::transform::{Affine, Cofactors, exact};
 use crate::diagnostic::Code;
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Placement;
-use crate::math::{UnitVector, Vector};
+use crate::math::{Matrix, UnitVector, Vector};
 use crate::shape::{Box_, Ellipsoid, Plane, Sphere};
 
 /// What a sphere becomes.
@@ -44,14 +44,35 @@ pub fn sphere(centre: Vector, radius: f64, map: &Affine) -> Result<Round, Fault>
         world_from_local: world_from_local.matrix(radius),
         local_from_world: local_from_world.matrix(Double::ONE / radius),
     };
-    if !centre.is_finite()
-        || !placement.world_from_local.is_finite()
-        || !placement.local_from_world.is_finite()
-    {
-        return Err(Fault::not_finite("this sphere"));
-    }
+    let placement = traceable(placement, "this sphere")?;
     Ok(Round::Ellipsoid(Ellipsoid { placement }))
 }
+
+/// A placement of which the squares of all lengths are numbers, with room for sums of them and for what lies
+/// around: what a ray is compared with in a solid's own space.
+pub fn traceable(placement: Placement, what: &str) -> Result<Placement, Fault> {
+    let Placement { centre, world_from_local, local_from_world } = placement;
+    let maps = [world_from_local, local_from_world];
+    if !(centre.is_finite() && maps.iter().all(Matrix::is_finite)) {
+        return Err(Fault::not_finite(what));
+    }
+    let size =
+        |map: &Matrix| [map.x_axis, map.y_axis, map.z_axis].map(|axis| axis.abs().max_element());
+    let greatest = |map: &Matrix| size(map).into_iter().fold(0.0, f64::max);
+    match maps.iter().all(|map| greatest(map) < LARGEST) {
+        true => Ok(placement),
+        false => {
+            let end = if greatest(&world_from_local) < LARGEST { "small" } else { "large" };
+            let message = format!("{what} is too {end} to be traced");
+            Err(Fault::new(Code::OutOfRange, message)
+                .label("spheres and boxes may be of any size, other solids of 10⁻¹⁴⁴ to 10¹⁴⁴"))
+        }
+    }
+}
+
+/// 2⁴⁸⁰: its square, times any number of lengths that one can write down, is a number, and so is that of its
+/// reciprocal.
+const LARGEST: f64 = 3.1217485503159922e+144;
 
 /// The plane `normal · p = distance · |normal|`; inside out when `inverse`.
 pub fn plane(
