@@ -1,10 +1,13 @@
 //! What accuracy costs: each kernel beside the formulas of a textbook, in `f32` and `f64`, against
 //! 320 bits.
 //!
-//! `cargo bench --bench numerics` prints the table of `docs/numerics.md`, as it stands there. The
+//! `cargo bench --bench numerics` prints the table of `docs/numerics.md`, as it stands there; with names of
+//! rows behind `--`, those alone. The
 //! naive kernels live here only: the quadratic formula with the origin where it is, planes and slabs
 //! without bounds, sines of degrees times π/180.
 
+#[path = "numerics/bodies.rs"]
+mod bodies;
 #[path = "../dice/mod.rs"]
 #[allow(dead_code, reason = "more is drawn by the tests")]
 mod dice;
@@ -12,6 +15,8 @@ mod dice;
 mod naive;
 #[path = "numerics/rows.rs"]
 mod rows;
+#[path = "numerics/sturm.rs"]
+mod sturm;
 #[path = "numerics/subjects.rs"]
 mod subjects;
 #[path = "../hard/wide.rs"]
@@ -25,6 +30,7 @@ use std::time::Instant;
 use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::shape::{Crossing, Ray};
 
+use bodies::{Bar, Quadric, Ring, Stands, Stump, Triangle};
 use dice::Dice;
 use subjects::{Answer, Ball, Block, Egg, Floor, Planet, Rounded, Single, Subject};
 use wide::Wide;
@@ -154,7 +160,9 @@ fn sine(name: &str, far: f64) {
 fn main() {
     println!("{}", rows::HEADER);
     println!("|{}", "---|".repeat(rows::HEADER.matches('|').count() - 1));
-    for (name, distances) in rows::ROWS {
+    let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let is_asked = |name: &str| asked.is_empty() || asked.iter().any(|one| one == name);
+    for (name, distances) in rows::ROWS.into_iter().filter(|(name, _)| is_asked(name)) {
         for &far in distances {
             match name {
                 rows::SPHERE => shape::<Ball>(name, far),
@@ -162,6 +170,11 @@ fn main() {
                 rows::PLANE => shape::<Floor>(name, far),
                 rows::BOX => shape::<Block>(name, far),
                 rows::ELLIPSOID => shape::<Egg>(name, far),
+                rows::CYLINDER => shape::<Stands<Bar>>(name, far),
+                rows::CONE => shape::<Stands<Stump>>(name, far),
+                rows::TORUS => shape::<Stands<Ring>>(name, far),
+                rows::QUADRIC => shape::<Stands<Quadric>>(name, far),
+                rows::TRIANGLE => shape::<Stands<Triangle>>(name, far),
                 rows::SPHERE_SINGLE => shape::<Single<Ball>>(name, far),
                 rows::PLANE_SINGLE => shape::<Single<Floor>>(name, far),
                 rows::BOX_SINGLE => shape::<Single<Block>>(name, far),

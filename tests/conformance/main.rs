@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 mod examples;
+mod pictures;
 mod syntax;
 
 const SCENES: &str = "/usr/share/doc/povray/examples";

@@ -1,5 +1,5 @@
-//! Crossings as textbooks have them: the quadratic formula with the origin where it is, planes and
-//! slabs without bounds; the same code in `f32` and in `f64`.
+//! Crossings as textbooks have them: the quadratic formula and Ferrari's with the origin where it is, planes
+//! and slabs without bounds; the same code in `f32` and in `f64`.
 
 pub type V32 = [f32; 3];
 pub type V64 = [f64; 3];
@@ -53,18 +53,132 @@ macro_rules! naive {
                 if enter <= leave { Some((enter, leave)) } else { None }
             }
 
-            /// `rows` map a point to the unit sphere's space: three factors and an offset each.
-            pub fn ellipsoid(
-                s: $vector,
-                d: $vector,
-                rows: &[[$real; 4]; 3],
-            ) -> Option<($real, $real)> {
+            /// `rows` map a point to the local space: three factors and an offset each.
+            pub fn local(s: $vector, d: $vector, rows: &[[$real; 4]; 3]) -> ($vector, $vector) {
                 let local = |v: $vector, w: $real| {
                     let map = |r: &[$real; 4]| r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + r[3] * w;
                     [map(&rows[0]), map(&rows[1]), map(&rows[2])]
                 };
-                let (f, d) = (local(s, 1.0), local(d, 0.0));
+                (local(s, 1.0), local(d, 0.0))
+            }
+
+            pub fn ellipsoid(f: $vector, d: $vector) -> Option<($real, $real)> {
                 quadratic(dot(d, d), 2.0 * dot(f, d), dot(f, f) - 1.0)
+            }
+
+            /// x² + y² ≤ 1, |z| ≤ 1.
+            pub fn cylinder(f: $vector, d: $vector) -> Option<$real> {
+                let flat = |v: $vector| [v[0], v[1], 0.0];
+                let (e, g) = (flat(d), flat(f));
+                let (enter, leave) = quadratic(dot(e, e), 2.0 * dot(g, e), dot(g, g) - 1.0)?;
+                let (one, other) = ((-1.0 - f[2]) / d[2], (1.0 - f[2]) / d[2]);
+                let (enter, leave) = (enter.max(one.min(other)), leave.min(one.max(other)));
+                if enter <= leave { Some(enter) } else { None }
+            }
+
+            /// x² + y² ≤ (`cap` + (1 − `cap`)·(1 − z)/2)², |z| ≤ 1.
+            pub fn cone(f: $vector, d: $vector, cap: $real) -> Option<$real> {
+                let slope = 0.5 * (1.0 - cap);
+                let (width, growth) = (cap + slope * (1.0 - f[2]), -slope * d[2]);
+                let a = d[0] * d[0] + d[1] * d[1] - growth * growth;
+                let b = 2.0 * (f[0] * d[0] + f[1] * d[1] - width * growth);
+                let c = f[0] * f[0] + f[1] * f[1] - width * width;
+                let mut first: Option<$real> = None;
+                let mut see = |t: $real| first = Some(first.map_or(t, |first| first.min(t)));
+                if let Some((one, other)) = quadratic(a, b, c) {
+                    let is_on = |t: &$real| (f[2] + t * d[2]).abs() <= 1.0;
+                    [one, other].into_iter().filter(is_on).for_each(&mut see);
+                }
+                for (z, radius) in [(-1.0, 1.0), (1.0, cap)] {
+                    let t = (z - f[2]) / d[2];
+                    let (x, y) = (f[0] + t * d[0], f[1] + t * d[1]);
+                    if x * x + y * y <= radius * radius {
+                        see(t);
+                    }
+                }
+                first
+            }
+
+            /// The greatest real root of m³ + a·m² + b·m + c.
+            fn cubic(a: $real, b: $real, c: $real) -> $real {
+                let (p, q) = (b - a * a / 3.0, 2.0 * a * a * a / 27.0 - a * b / 3.0 + c);
+                let discriminant = q * q / 4.0 + p * p * p / 27.0;
+                let m = if discriminant >= 0.0 {
+                    let root = discriminant.sqrt();
+                    (root - q / 2.0).cbrt() + (-root - q / 2.0).cbrt()
+                } else {
+                    let angle = (1.5 * q / p * (-3.0 / p).sqrt()).clamp(-1.0, 1.0).acos();
+                    2.0 * (-p / 3.0).sqrt() * (angle / 3.0).cos()
+                };
+                m - a / 3.0
+            }
+
+            /// The least real root, by Ferrari's resolvent; the coefficient of t⁴ comes first.
+            pub fn quartic([e, a, b, c, d]: [$real; 5]) -> Option<$real> {
+                let (a, b, c, d) = (a / e, b / e, c / e, d / e);
+                let p = b - 3.0 * a * a / 8.0;
+                let q = c - a * b / 2.0 + a * a * a / 8.0;
+                let r = d - a * c / 4.0 + a * a * b / 16.0 - 3.0 * a * a * a * a / 256.0;
+                let m = cubic(p, p * p / 4.0 - r, -q * q / 8.0);
+                let s = (2.0 * m.max(0.0)).sqrt();
+                let part = if s > 0.0 { q / (2.0 * s) } else { 0.0 };
+                let one = quadratic(1.0, s, p / 2.0 + m - part);
+                let other = quadratic(1.0, -s, p / 2.0 + m + part);
+                let least = one.into_iter().chain(other).map(|(y, _)| y).reduce($real::min)?;
+                Some(least - a / 4.0)
+            }
+
+            /// (√(x² + y²) − `major`)² + z² = `minor`².
+            pub fn torus(f: $vector, d: $vector, major: $real, minor: $real) -> Option<$real> {
+                let (dd, fd, ff) = (dot(d, d), dot(f, d), dot(f, f));
+                let k = ff + major * major - minor * minor;
+                let m = 4.0 * major * major;
+                quartic([
+                    dd * dd,
+                    4.0 * dd * fd,
+                    2.0 * dd * k + 4.0 * fd * fd - m * (d[0] * d[0] + d[1] * d[1]),
+                    4.0 * k * fd - 2.0 * m * (f[0] * d[0] + f[1] * d[1]),
+                    k * k - m * (f[0] * f[0] + f[1] * f[1]),
+                ])
+            }
+
+            /// Σ `terms` of x², xy, xz, x, y², yz, y, z², z, 1.
+            pub fn quadric(f: $vector, d: $vector, terms: &[f64; 10]) -> Option<($real, $real)> {
+                let [xx, xy, xz, x, yy, yz, y, zz, z, one] = terms.map(|term| term as $real);
+                let form = |a: $vector, b: $vector| {
+                    xx * a[0] * b[0]
+                        + yy * a[1] * b[1]
+                        + zz * a[2] * b[2]
+                        + 0.5 * xy * (a[0] * b[1] + a[1] * b[0])
+                        + 0.5 * xz * (a[0] * b[2] + a[2] * b[0])
+                        + 0.5 * yz * (a[1] * b[2] + a[2] * b[1])
+                };
+                let line = [x, y, z];
+                quadratic(
+                    form(d, d),
+                    2.0 * form(f, d) + dot(line, d),
+                    form(f, f) + dot(line, f) + one,
+                )
+            }
+
+            fn cross(a: $vector, b: $vector) -> $vector {
+                let part = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+                [part(1, 2), part(2, 0), part(0, 1)]
+            }
+
+            /// **Source:** T. Möller, B. Trumbore, "Fast, minimum storage ray-triangle intersection"
+            /// (1997).
+            pub fn triangle(f: $vector, d: $vector, corners: &[[f64; 3]; 3]) -> Option<$real> {
+                let [a, b, c] = corners.map(|corner| corner.map(|x| x as $real));
+                let (one, other) = (minus(b, a), minus(c, a));
+                let across = cross(d, other);
+                let over = 1.0 / dot(one, across);
+                let start = minus(f, a);
+                let u = dot(start, across) * over;
+                let up = cross(start, one);
+                let v = dot(d, up) * over;
+                let is_in = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+                if is_in { Some(dot(other, up) * over) } else { None }
             }
         }
     };

@@ -4,12 +4,17 @@
 pub const HEADER: &str = "| what | distance | f32: wrong | error | ns | f64: wrong | error | ns | ours: wrong | error | bound | share | ns | × |";
 
 /// Each kernel, and the distances from which it is tried.
-pub const ROWS: [(&str, &[f64]); 9] = [
+pub const ROWS: [(&str, &[f64]); 14] = [
     (SPHERE, FAR),
     (PLANET, &[1e4, 1e6, 1e8, 1e10, 1e12]),
     (PLANE, FAR),
     (BOX, FAR),
     (ELLIPSOID, FAR),
+    (CYLINDER, FAR),
+    (CONE, FAR),
+    (TORUS, FAR),
+    (QUADRIC, FAR),
+    (TRIANGLE, FAR),
     (SPHERE_SINGLE, NEAR),
     (PLANE_SINGLE, NEAR),
     (BOX_SINGLE, NEAR),
@@ -21,6 +26,11 @@ pub const PLANET: &str = "planet";
 pub const PLANE: &str = "plane";
 pub const BOX: &str = "box";
 pub const ELLIPSOID: &str = "ellipsoid";
+pub const CYLINDER: &str = "cylinder";
+pub const CONE: &str = "cone";
+pub const TORUS: &str = "torus";
+pub const QUADRIC: &str = "quadric";
+pub const TRIANGLE: &str = "triangle";
 pub const SPHERE_SINGLE: &str = "sphere, single";
 pub const PLANE_SINGLE: &str = "plane, single";
 pub const BOX_SINGLE: &str = "box, single";

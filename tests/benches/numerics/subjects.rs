@@ -11,22 +11,22 @@ use crate::wide::{Wide, WideVector};
 
 type Narrow = <f32 as Real>::Vector;
 
-fn v32(v: Vector) -> V32 {
+pub fn v32(v: Vector) -> V32 {
     v.as_vec3().to_array()
 }
 
-fn v64(v: Vector) -> V64 {
+pub fn v64(v: Vector) -> V64 {
     v.to_array()
 }
 
-fn wide(v: Vector) -> WideVector {
+pub fn wide(v: Vector) -> WideVector {
     WideVector::of(v.to_array())
 }
 
 /// The same ray in `f32`.
 pub struct Rounded {
-    origin: V32,
-    direction: V32,
+    pub origin: V32,
+    pub direction: V32,
 }
 
 impl Rounded {
@@ -103,7 +103,7 @@ impl<S: Narrowed> Subject for Single<S> {
 }
 
 /// Of the roots of a·t² + 2·b·t + c the first.
-fn root(a: &Wide, b: &Wide, c: &Wide) -> Answer {
+pub fn root(a: &Wide, b: &Wide, c: &Wide) -> Answer {
     let discriminant = b * b - &(a * c);
     let share = (discriminant.clone() / a).to_f64();
     if share.abs() < 1e-12 {
@@ -306,21 +306,33 @@ impl Narrowed for Block {
     }
 }
 
+/// Some map that turns and stretches, and its rows with their offsets.
+pub fn somewhere(dice: &mut Dice, sizes: Vector) -> (Placement, [[f64; 4]; 3]) {
+    let a = dice.direction();
+    let b = UnitVector::from_direction(a.cross(dice.direction())).unwrap_or(UnitVector::Y).get();
+    let turn = Matrix::from_cols(a, b, a.cross(b).normalize());
+    let world_from_local = turn * Matrix::from_diagonal(sizes);
+    let (centre, local_from_world) = (dice.point(3.0), world_from_local.inverse());
+    let rows = local_from_world.transpose();
+    let offset = local_from_world * -centre;
+    let rows = [(rows.x_axis, offset.x), (rows.y_axis, offset.y), (rows.z_axis, offset.z)]
+        .map(|(row, offset)| [row.x, row.y, row.z, offset]);
+    (Placement { centre, world_from_local, local_from_world }, rows)
+}
+
+/// A ray in a local space, exactly.
+pub fn local(placement: &Placement, ray: &Ray) -> (WideVector, WideVector) {
+    let rows = placement.local_from_world.transpose();
+    let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(wide);
+    let local = |v: &WideVector| WideVector(rows.each_ref().map(|row| row.dot(v)));
+    (local(&wide(ray.origin).minus(&wide(placement.centre))), local(&wide(ray.direction)))
+}
+
 pub struct Egg(Ellipsoid, [[f64; 4]; 3]);
 
 impl Subject for Egg {
     fn new(dice: &mut Dice, _: f64) -> Self {
-        let a = dice.direction();
-        let b =
-            UnitVector::from_direction(a.cross(dice.direction())).unwrap_or(UnitVector::Y).get();
-        let turn = Matrix::from_cols(a, b, a.cross(b).normalize());
-        let world_from_local = turn * Matrix::from_diagonal(Vector::new(1.0, 0.3, 0.1));
-        let (centre, local_from_world) = (dice.point(3.0), world_from_local.inverse());
-        let rows = local_from_world.transpose();
-        let offset = local_from_world * -centre;
-        let rows = [(rows.x_axis, offset.x), (rows.y_axis, offset.y), (rows.z_axis, offset.z)]
-            .map(|(row, offset)| [row.x, row.y, row.z, offset]);
-        let placement = Placement { centre, world_from_local, local_from_world };
+        let (placement, rows) = somewhere(dice, Vector::new(1.0, 0.3, 0.1));
         Self(Ellipsoid { placement }, rows)
     }
     fn centre(&self) -> Vector {
@@ -334,18 +346,16 @@ impl Subject for Egg {
         self.0.chord(ray).map(|chord| chord.enter)
     }
     fn single(&self, ray: &Rounded) -> Option<f32> {
-        let rows = self.1.map(|row| row.map(|c| c as f32));
-        single::ellipsoid(ray.origin, ray.direction, &rows).map(|(t, _)| t)
+        let (f, d) =
+            single::local(ray.origin, ray.direction, &self.1.map(|row| row.map(|c| c as f32)));
+        single::ellipsoid(f, d).map(|(t, _)| t)
     }
     fn double(&self, ray: &Ray) -> Option<f64> {
-        double::ellipsoid(v64(ray.origin), v64(ray.direction), &self.1).map(|(t, _)| t)
+        let (f, d) = double::local(v64(ray.origin), v64(ray.direction), &self.1);
+        double::ellipsoid(f, d).map(|(t, _)| t)
     }
     fn exact(&self, ray: &Ray) -> Answer {
-        let rows = self.0.placement.local_from_world.transpose();
-        let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(wide);
-        let local = |v: &WideVector| WideVector(rows.each_ref().map(|row| row.dot(v)));
-        let f = local(&wide(ray.origin).minus(&wide(self.0.placement.centre)));
-        let d = local(&wide(ray.direction));
+        let (f, d) = local(&self.0.placement, ray);
         root(&d.square(), &f.dot(&d), &(f.square() - &Wide::one()))
     }
 }

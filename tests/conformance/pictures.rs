@@ -1,0 +1,159 @@
+//! Every example that is whole looks as POV-Ray 3.7 shows it: `pictures.list` has a line for each.
+//!
+//! Both render it at 160×120 without antialiasing. A line is the scene and `same`, where the mean of FLIP's
+//! errors is at most [`SAME`], or that mean; after `—` it says why. Each sixth is tried, all with
+//! `LUCARNE_LONG` set. `LUCARNE_UPDATE=1` tries all, writes the list anew, and keeps what is said;
+//! `LUCARNE_PICTURES=FOLDER` keeps the pictures that differ: ours, theirs, and FLIP's map.
+//!
+//! **Source:** P. Andersson et al., "FLIP: a difference evaluator for alternating images", Proceedings of the
+//! ACM on Computer Graphics and Interactive Techniques 3 (2020).
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use image::RgbImage;
+use nv_flip::{
+    DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut,
+};
+
+use super::{SCENES, is_installed};
+
+const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/pictures.list");
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
+
+/// The mean of FLIP's errors up to which two pictures are the same.
+const SAME: f32 = 0.05;
+
+const WIDTH: u32 = 160;
+const HEIGHT: u32 = 120;
+
+/// A picture by one of the two, or what it said instead.
+fn picture(run: &mut Command, file: &Path) -> Result<RgbImage, String> {
+    let told = run.output().expect("it runs");
+    let lines = String::from_utf8_lossy(&told.stderr).into_owned();
+    let last = || lines.lines().rev().take(8).collect::<Vec<_>>().join(" / ");
+    let picture = image::open(file).map_err(|_| last())?.into_rgb8();
+    if told.status.success() { Ok(picture) } else { Err(last()) }
+}
+
+/// The pictures of both, ours first.
+fn both(scene: &Path) -> Result<[RgbImage; 2], String> {
+    let place = tempfile::tempdir().expect("a folder");
+    let [ours, theirs] = ["ours.png", "theirs.png"].map(|name| place.path().join(name));
+    let run = |program: &str| {
+        let mut run = Command::new(program);
+        run.current_dir(&place);
+        run
+    };
+    let mine =
+        picture(
+            run(env!("CARGO_BIN_EXE_lucarne")).arg("render").arg(scene).arg("-o").arg(&ours).args(
+                ["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"],
+            ),
+            &ours,
+        );
+    let folder = scene.parent().expect("below the examples").display();
+    let other = picture(
+        run("povray").args(["-D", "-GA", "-A"]).args([
+            format!("+I{}", scene.display()),
+            format!("+O{}", theirs.display()),
+            format!("+L{folder}"),
+            format!("+W{WIDTH}"),
+            format!("+H{HEIGHT}"),
+        ]),
+        &theirs,
+    );
+    Ok([mine?, other.map_err(|told| format!("POV-Ray: {told}"))?])
+}
+
+/// FLIP's errors, of pictures of one size.
+fn errors(pictures: &[RgbImage; 2]) -> FlipImageFloat {
+    let [ours, theirs] = pictures.each_ref().map(|picture| {
+        FlipImageRgb8::with_data(picture.width(), picture.height(), picture.as_raw())
+    });
+    flip(theirs, ours, DEFAULT_PIXELS_PER_DEGREE)
+}
+
+/// What becomes of a scene, as its line has it.
+fn outcome(scene: &Path, name: &str) -> String {
+    let pictures = match both(scene) {
+        Ok(pictures) => pictures,
+        Err(told) => return format!("no picture: {told}"),
+    };
+    let errors = errors(&pictures);
+    let mean = FlipPool::from_image(&errors).mean();
+    println!("{name}: {mean:.4}");
+    if mean <= SAME {
+        return "same".to_owned();
+    }
+    if let Some(folder) = std::env::var_os("LUCARNE_PICTURES") {
+        let map = errors.apply_color_lut(&magma_lut()).to_vec();
+        let map = RgbImage::from_raw(WIDTH, HEIGHT, map).expect("as large");
+        let mut all = RgbImage::new(3 * WIDTH, HEIGHT);
+        for (place, one) in pictures.iter().chain([&map]).enumerate() {
+            image::imageops::replace(&mut all, one, i64::from(WIDTH) * place as i64, 0);
+        }
+        let file = Path::new(&folder).join(name.replace('/', "_")).with_extension("png");
+        all.save(file).expect("the folder is there");
+    }
+    format!("{mean:.2}")
+}
+
+/// The examples that are whole, by their path below all of them.
+fn whole() -> Vec<String> {
+    let list = std::fs::read_to_string(EXAMPLES).unwrap_or_default();
+    list.lines().filter_map(|line| Some(line.split_once(": whole")?.0.to_owned())).collect()
+}
+
+#[test]
+fn every_example_that_is_whole_looks_as_the_list_says() {
+    let paths: Vec<PathBuf> = super::files(SCENES, &["pov"]);
+    if !is_installed("povray-examples", &paths) {
+        return;
+    }
+    if Command::new("povray").arg("--version").output().is_err() {
+        is_installed("povray", &[]);
+        return;
+    }
+    let list = std::fs::read_to_string(LIST).unwrap_or_default();
+    let listed: BTreeMap<&str, (&str, Option<&str>)> = list
+        .lines()
+        .filter_map(|line| line.split_once(": "))
+        .map(|(name, rest)| match rest.split_once(" — ") {
+            Some((outcome, said)) => (name, (outcome, Some(said))),
+            None => (name, (rest, None)),
+        })
+        .collect();
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    let update = is_set("LUCARNE_UPDATE");
+    let step = if update || is_set("LUCARNE_LONG") { 1 } else { 6 };
+    let (mut text, mut wrong) = (String::new(), String::new());
+    for name in whole().iter().step_by(step) {
+        let found = outcome(&Path::new(SCENES).join(name), name);
+        let (was, said) = listed.get(name.as_str()).copied().unwrap_or(("not listed", None));
+        let said = said.map_or(String::new(), |said| format!(" — {said}"));
+        let _ = writeln!(text, "{name}: {found}{said}");
+        if was != found {
+            let _ = writeln!(wrong, "{name}:\n  was {was}\n  now {found}");
+        }
+    }
+    if update {
+        std::fs::write(LIST, text).expect("the list is written");
+        return;
+    }
+    assert!(wrong.is_empty(), "`LUCARNE_UPDATE=1` writes the list anew\n{wrong}");
+}
+
+#[test]
+fn a_picture_is_the_same_as_itself_and_not_as_one_with_a_spot() {
+    let plain = RgbImage::from_fn(64, 48, |x, y| image::Rgb([x as u8 * 3, y as u8 * 4, 90]));
+    let mut spotted = plain.clone();
+    (0..12 * 12).for_each(|i| spotted.put_pixel(20 + i % 12, 20 + i / 12, image::Rgb([255; 3])));
+    let mean =
+        |other: &RgbImage| FlipPool::from_image(&errors(&[plain.clone(), other.clone()])).mean();
+    assert_eq!(mean(&plain), 0.0);
+    let spot = mean(&spotted);
+    assert!(spot > SAME / 2.0, "{spot}");
+}
