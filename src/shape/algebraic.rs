@@ -32,12 +32,26 @@ impl Algebraic {
 
     /// Its value at `start + s · step` as a polynomial in s, for the polynomial of these terms.
     fn along(&self, terms: &[f64], start: Vector, step: Vector) -> Coefficients {
+        // Room for as many coefficients as there are: most have few.
+        match self.degree {
+            0..=2 => self.along_in::<3>(terms, start, step),
+            3..=4 => self.along_in::<5>(terms, start, step),
+            _ => self.along_in::<{ MOST + 1 }>(terms, start, step),
+        }
+    }
+
+    fn along_in<const ROOM: usize>(
+        &self,
+        terms: &[f64],
+        start: Vector,
+        step: Vector,
+    ) -> Coefficients {
         let mut terms = terms.iter();
-        let mut all = [0.0; MOST + 1];
+        let mut all = [0.0; ROOM];
         for i in 0..=self.degree {
-            let mut plane = [0.0; MOST + 1];
+            let mut plane = [0.0; ROOM];
             for j in 0..=i {
-                let mut row = [0.0; MOST + 1];
+                let mut row = [0.0; ROOM];
                 for (k, term) in terms.by_ref().take(j + 1).enumerate() {
                     multiply(&mut row, k, start.z, step.z);
                     row[0] += term;
@@ -48,7 +62,9 @@ impl Algebraic {
             multiply(&mut all, i, start.x, step.x);
             add(&mut all, &plane, i);
         }
-        all
+        let mut coefficients = [0.0; MOST + 1];
+        coefficients[..ROOM].copy_from_slice(&all);
+        coefficients
     }
 
     /// The value at a point and its gradient, for the polynomial of these terms.
@@ -99,14 +115,14 @@ impl Algebraic {
 }
 
 /// A polynomial of degree `before` − 1 times (start + s · step).
-fn multiply(values: &mut Coefficients, before: usize, start: f64, step: f64) {
+fn multiply(values: &mut [f64], before: usize, start: f64, step: f64) {
     for k in (1..=before).rev() {
         values[k] = values[k] * start + values[k - 1] * step;
     }
     values[0] *= start;
 }
 
-fn add(values: &mut Coefficients, more: &Coefficients, degree: usize) {
+fn add(values: &mut [f64], more: &[f64], degree: usize) {
     for (value, more) in values.iter_mut().zip(&more[..=degree]) {
         *value += more;
     }

@@ -65,6 +65,9 @@ impl Polynomial {
     /// are to be expected: it costs time where it is far from right, and nothing else. A root nearer than
     /// that need be found no better than `tolerance`.
     pub fn roots(&self, size: f64, tolerance: f64) -> Roots {
+        if let Some(roots) = self.roots_of_parabola() {
+            return roots;
+        }
         let mut roots = Roots::new();
         let Some((near, scale)) = self.parted(size) else { return roots };
         let far = near.reversed();
@@ -77,6 +80,39 @@ impl Polynomial {
         let behind = far.between((0.0, 1.0), 0.0).into_iter().rev();
         roots.extend(behind.filter_map(|bracket| bracket.outer(scale, false)));
         roots
+    }
+
+    /// Those of degree 2 by the formula, each then held to its sign on both sides; `None` where it is of
+    /// another degree, or its ends or its middle tell nothing.
+    fn roots_of_parabola(&self) -> Option<Roots> {
+        let [c, b, a, ..] = self.values;
+        if self.degree != 2 || a == 0.0 {
+            return None;
+        }
+        let opens_up = a > 0.0;
+        let outside = if opens_up { 1 } else { -1 };
+        let middle = -0.5 * b / a;
+        let discriminant = b * b - 4.0 * a * c;
+        let root = discriminant.max(0.0).sqrt();
+        // Both half as far beyond each root as they are apart.
+        let width = root / a.abs();
+        let (low, high) = (middle - width, middle + width);
+        if self.sign(low) != outside || self.sign(high) != outside {
+            return None;
+        }
+        if self.sign(middle) != -outside {
+            return Some(Roots::new());
+        }
+        // The farther root first: nothing cancels.
+        let q = -0.5 * (b + root.copysign(b));
+        let (one, other) = (q / a, c / q);
+        let (first, last) = if one < other { (one, other) } else { (other, one) };
+        let sides = [
+            (first, Change { low, high: middle, rising: !opens_up }),
+            (last, Change { low: middle, high, rising: opens_up }),
+        ];
+        let found = sides.map(|(s, change)| self.held(s, change, 0.0).root(1.0));
+        found.iter().all(|root| root.error.is_finite()).then(|| found.into_iter().collect())
     }
 
     /// The polynomial of s/σ, and a power of two σ near `size` where it is certainly not 0, nor at −σ. `None`
@@ -158,9 +194,14 @@ impl Polynomial {
     /// The root at a change of sign, with as little around it as has certain signs at its ends, or no more
     /// than `tolerance` to each side.
     fn root(&self, change: Change, tolerance: f64) -> Bracket {
+        let s = root_between(&self.values[..=self.degree], change, tolerance);
+        self.held(s, change, tolerance)
+    }
+
+    /// As [`Self::root`], where about `s` is the root.
+    fn held(&self, s: f64, change: Change, tolerance: f64) -> Bracket {
         let Change { low, high, rising } = change;
         let values = &self.values[..=self.degree];
-        let s = root_between(values, change, tolerance);
         let (_, slope) = value_and_slope(values, s);
         let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
         let after = if rising { 1 } else { -1 };
