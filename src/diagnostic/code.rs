@@ -104,6 +104,7 @@ codes! {
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
     NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
+    LowIor "low-ior" lint "an index of refraction is below 1";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
     SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant, or the reverse";
@@ -142,6 +143,7 @@ codes! {
     AuthorWarning "author-warning" warning "the scene's own `#warning`";
     AuthorDebug "author-debug" note "the scene's own `#debug`";
     SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
+    Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
     OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
 }
 

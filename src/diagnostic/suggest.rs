@@ -3,6 +3,8 @@
 //! **Invariant:** a suggestion is made only when it is likely right, and does not depend on the order
 //! of the candidates.
 
+use std::borrow::Cow;
+
 #[cfg(test)]
 thread_local! {
     /// How often this thread has looked for a closest word.
@@ -20,6 +22,7 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     SEARCHES.with(|searches| searches.set(searches.get() + 1));
     let lower = word.to_lowercase();
     let (count, set) = letters(&lower);
+    let spelled = spelling(&lower);
     let bound = match count {
         0..3 => 0,
         3..6 => 1,
@@ -36,8 +39,10 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             let far = other_count.abs_diff(count) > bound
                 || (other_set ^ set).count_ones() as usize > 2 * bound;
             let other = (!far).then(|| candidate.to_lowercase())?;
-            let distance =
-                if other == lower { 0 } else { strsim::osa_distance(&lower, &other).max(1) };
+            let distance = match other == lower || spelling(&other) == spelled {
+                true => 0,
+                false => strsim::osa_distance(&lower, &other).max(1),
+            };
             // Of two equally near, the one with the same first letter, then the alphabet's first.
             let first = lower.chars().next() != other.chars().next();
             (distance <= bound).then_some((distance, first, candidate))
@@ -65,6 +70,29 @@ pub fn are_of_a_series(a: &str, b: &str) -> bool {
         _ => false,
     };
     a != b && (numbered || (lettered && !a.eq_ignore_ascii_case(b)))
+}
+
+/// A word in lower case as it is spelt in America, its numbers without zeros before them: `Grey5` and
+/// `Gray05` are one.
+fn spelling(word: &str) -> Cow<'_, str> {
+    let mut spelt = Cow::Borrowed(word);
+    for (theirs, ours) in [("grey", "gray"), ("colour", "color"), ("centre", "center")] {
+        if spelt.contains(theirs) {
+            spelt = Cow::Owned(spelt.replace(theirs, ours));
+        }
+    }
+    if !spelt.contains('0') {
+        return spelt;
+    }
+    let mut plain = String::with_capacity(spelt.len());
+    let mut rest = spelt.chars().peekable();
+    while let Some(c) = rest.next() {
+        let leads = c == '0' && !plain.ends_with(|last: char| last.is_ascii_digit());
+        if !(leads && rest.peek().is_some_and(char::is_ascii_digit)) {
+            plain.push(c);
+        }
+    }
+    Cow::Owned(plain)
 }
 
 /// How many letters a word has in lower case, and which (one bit for each, some sharing one).
@@ -149,6 +177,8 @@ const FOREIGN: &[(&str, &str)] = &[
     // surfaces
     ("diffuse_color", "pigment"),
     ("albedo", "pigment"),
+    ("base_color", "pigment"),
+    ("basecolor", "pigment"),
     ("paint", "pigment"),
     ("surface", "finish"),
     ("shader", "finish"),
@@ -195,6 +225,12 @@ const FOREIGN: &[(&str, &str)] = &[
     ("move", "translate"),
     ("translation", "translate"),
     ("rotation", "rotate"),
+    ("rotatex", "rotate"),
+    ("rotate_x", "rotate"),
+    ("rotatey", "rotate"),
+    ("rotate_y", "rotate"),
+    ("rotatez", "rotate"),
+    ("rotate_z", "rotate"),
     ("rot", "rotate"),
     ("turn", "rotate"),
     ("resize", "scale"),
@@ -229,6 +265,22 @@ const FOREIGN: &[(&str, &str)] = &[
     ("normalize", "vnormalize"),
     ("round", "int"),
     ("random", "rand"),
+    ("trunc", "int"),
+    ("ceiling", "ceil"),
+    ("fabs", "abs"),
+    ("absolute", "abs"),
+    ("rad", "radians"),
+    ("deg", "degrees"),
+    ("deg2rad", "radians"),
+    ("rad2deg", "degrees"),
+    ("substring", "substr"),
+    ("upper", "strupr"),
+    ("toupper", "strupr"),
+    ("lower", "strlwr"),
+    ("tolower", "strlwr"),
+    ("tostring", "str"),
+    ("parsefloat", "val"),
+    ("atof", "val"),
     ("fmod", "mod"),
     ("power", "pow"),
 ];
@@ -257,6 +309,15 @@ mod tests {
         assert_eq!(near("colour_map"), Some("color_map"));
         assert_eq!(near("colormap"), Some("color_map"));
         assert_eq!(near("bxo"), Some("box"));
+    }
+
+    #[test]
+    fn another_spelling_of_a_word_is_nearer_than_a_slip() {
+        let grays = ["Grey", "Gray05", "Gray10", "Gray50", "Gray15"];
+        assert_eq!(closest("Grey5", grays), Some("Gray05"));
+        assert_eq!(closest("Grey50", grays), Some("Gray50"));
+        assert_eq!(closest("LightColour", ["LightColor", "LightColours"]), Some("LightColor"));
+        assert_eq!(closest("A0", ["A00", "A10"]), None);
     }
 
     #[test]

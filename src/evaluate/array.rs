@@ -153,8 +153,15 @@ impl Evaluator<'_> {
             let filled = self.inside_block(&here, contents, span, |evaluator| {
                 evaluator.fill(&mut array, 0, &mut at, (&here, span))
             });
-            if let Some(poison) = filled? {
-                return Ok(poison);
+            match filled {
+                Ok(Some(poison)) => return Ok(poison),
+                Ok(None) => {}
+                // It has its size all the same, and what it lacks was told.
+                Err(Reported) => {
+                    for element in array.elements.iter_mut().filter(|element| element.is_none()) {
+                        *element = Some(Value::Broken);
+                    }
+                }
             }
         }
         Ok(Value::Array(Arc::new(array)))

@@ -202,7 +202,7 @@ impl Evaluator<'_> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
         let indices = self.target_indices(here, target);
-        let value = self.declared_value(here, target);
+        let value = self.declared_value(here, head, target);
         if !target.indices.is_empty() {
             return self.assign_element(here, target, indices, value);
         }
@@ -235,7 +235,7 @@ impl Evaluator<'_> {
 
     /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a
     /// limit ends that.
-    fn declared_value(&mut self, here: &Here, target: &Target) -> Outcome<Value> {
+    fn declared_value(&mut self, here: &Here, head: Span, target: &Target) -> Outcome<Value> {
         let limit = self.options.limits.nesting;
         // A macro that gives the value may declare something itself, and call itself for it.
         if self.declaring >= limit.saturating_add(self.macro_depth) {
@@ -259,9 +259,7 @@ impl Evaluator<'_> {
                 None => Err(self.expected("a value", None, (here, target.span.after()))),
             }
         });
-        if matches!(self.peek_on().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
-            self.next();
-        }
+        self.end_of_declaration(head, value.as_ref().ok());
         self.declaring -= 1;
         (self.poison, self.hold) = (outer_poison, outer_hold);
         value

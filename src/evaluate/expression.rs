@@ -288,10 +288,23 @@ impl Evaluator<'_> {
                     format!("{what} works on numbers, vectors and colours, not on {kind}"),
                 )
                 .at(spans[index], format!("this is {kind}"));
-                if matches!(values[index], Value::String(_)) && what == "`+`" {
-                    diagnostic.help("strings are joined by `concat(a, b)`")
-                } else {
-                    diagnostic
+                let text = self.sources.text(spans[index]);
+                match values[index] {
+                    Value::String(found) if found.trim().parse::<f64>().is_ok() => {
+                        let meant = format!("val({text})");
+                        diagnostic
+                            .help(format!("write `{meant}` for the number in it"))
+                            .fix(spans[index], meant)
+                    }
+                    Value::String(_) if what == "`+`" => {
+                        diagnostic.help("strings are joined by `concat(a, b)`")
+                    }
+                    Value::Object(_) if what == "`*`" => diagnostic.help(format!(
+                        "an object is scaled in its block: `object {{ {text} scale … }}`"
+                    )),
+                    Value::Object(_) if matches!(what, "`+`" | "`-`") => diagnostic
+                        .help("objects are put together in a `union`, and moved by `translate`"),
+                    _ => diagnostic,
                 }
             }
             OperationError::DivisionByZero => {

@@ -41,7 +41,14 @@ impl Evaluator<'_> {
                             .fix(span, quoted);
                     return Err(self.report(here, diagnostic));
                 }
-                None => self.string(here, file)?,
+                None => {
+                    let name = self.string(here, file);
+                    if name.is_err() {
+                        self.lacks_include = true;
+                        self.unread.insert(self.name_behind(head));
+                    }
+                    name?
+                }
             },
         };
         if self.including.len() as u32 > self.options.limits.include_depth {
@@ -99,6 +106,13 @@ impl Evaluator<'_> {
             self.scene.expansions.add(here.expansion, call, ExpansionKind::Include, name);
         self.push_include(&unit, expansion, path);
         Ok(())
+    }
+
+    /// What stands on the line behind `#include`, without the signs around it: `“colors.inc”`.
+    fn name_behind(&self, head: Span) -> String {
+        let rest = self.sources.get(head.file).text.get(head.end as usize..).unwrap_or("");
+        let line = rest.lines().next().unwrap_or("");
+        line.trim_matches(|c: char| !c.is_alphanumeric()).to_owned()
     }
 
     /// `colors.inc` or `<colors.inc>`: a path without its quotes.

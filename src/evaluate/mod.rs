@@ -25,6 +25,7 @@ mod remembered;
 mod report;
 mod run;
 mod scope;
+mod semicolon;
 mod silent;
 mod spline;
 mod stream;
@@ -268,6 +269,8 @@ struct Evaluator<'a> {
     missing_at: Option<Site>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
     bounds: Vec<ObjectId>,
+    /// The names that were told as not declared, and count as declared since, in this order.
+    assumed: Vec<Symbol>,
     /// Set by `#error` and by limits: nothing further is evaluated.
     halted: bool,
     macro_depth: u32,
@@ -277,8 +280,9 @@ struct Evaluator<'a> {
     calculating: u64,
     /// Bytes of what the scene holds beside its objects, about.
     stored: u64,
-    /// Turns of all loops so far.
+    /// Turns of all loops so far, and of those in which something was reported.
     turns: u64,
+    faulty_turns: u64,
     /// A file was not understood whole, so a loop may lack what ends it.
     misread: bool,
     /// How often something was reported, repetitions included.
@@ -380,12 +384,14 @@ impl<'a> Evaluator<'a> {
             unread: BTreeSet::new(),
             missing_at: None,
             bounds: Vec::new(),
+            assumed: Vec::new(),
             halted: false,
             macro_depth: 0,
             declaring: 0,
             calculating: 0,
             stored: 0,
             turns: 0,
+            faulty_turns: 0,
             misread: false,
             reports: 0,
             remembered: Remembered::default(),

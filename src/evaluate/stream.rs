@@ -16,6 +16,8 @@ use super::{Evaluator, Here, Outcome, Reported, Unit};
 
 /// A loop in which mistakes were reported ends after so many turns without another word.
 pub(super) const FAULTY_TURNS: u64 = 1_000;
+/// So many turns with mistakes may all loops together have: those that hold each other soon have more.
+pub(super) const ALL_FAULTY_TURNS: u64 = 10 * FAULTY_TURNS;
 
 /// Items being walked.
 #[derive(Debug)]
@@ -69,6 +71,8 @@ pub(super) enum FrameKind {
         body: Items,
         turns: u64,
         directive: DirectiveId,
+        /// How much had been reported when it started.
+        reports: u64,
     },
     /// A macro's body: `#break` does not reach out of it.
     Macro,
@@ -167,10 +171,11 @@ impl Evaluator<'_> {
         directive: DirectiveId,
     ) {
         let empty = Items { start: body.end, end: body.end };
+        let (turns, reports) = (0, self.reports);
         self.push(
             here,
             empty,
-            FrameKind::For { symbol, value: from, to, step, body, turns: 0, directive },
+            FrameKind::For { symbol, value: from, to, step, body, turns, directive, reports },
         );
     }
 

@@ -2,7 +2,7 @@
 
 use crate::syntax::ast::{Case, CaseKind};
 
-use super::stream::{FAULTY_TURNS, Frame, FrameKind};
+use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, endless};
 
@@ -10,6 +10,12 @@ impl Evaluator<'_> {
     /// One more turn of the innermost loop, or its end.
     #[inline(never)]
     pub(super) fn turn(&mut self) {
+        let worn_out = match self.frames.last().map(|frame| &frame.kind) {
+            Some(
+                &FrameKind::While { turns, reports, .. } | &FrameKind::For { turns, reports, .. },
+            ) => self.is_worn_out(turns, reports),
+            _ => false,
+        };
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
         self.turns += 1;
@@ -25,13 +31,12 @@ impl Evaluator<'_> {
             return;
         }
         match kind {
-            FrameKind::While { condition, body, turns, directive, reports } => {
+            FrameKind::While { condition, body, turns, directive, .. } => {
                 *turns += 1;
-                let reports = *reports;
                 let (here, condition, body, turns, directive) =
                     (here.clone(), *condition, *body, *turns, *directive);
                 // What a mistake in it keeps from being computed may be what ends the loop.
-                let faulty = turns > FAULTY_TURNS && (self.reports > reports || self.misread);
+                let faulty = worn_out || (turns > FAULTY_TURNS && self.misread);
                 if !faulty && self.condition(&here, condition) == Ok(true) {
                     if turns > limit {
                         let message =
@@ -60,7 +65,8 @@ impl Evaluator<'_> {
                     self.pop_frame();
                 }
             }
-            FrameKind::For { symbol, value, to, step, body, turns, directive } => {
+            FrameKind::For { .. } if worn_out => self.pop_frame(),
+            FrameKind::For { symbol, value, to, step, body, turns, directive, .. } => {
                 // The body may have set the counter.
                 let set = match *turns {
                     0 => None,
@@ -101,6 +107,13 @@ impl Evaluator<'_> {
             | FrameKind::Macro
             | FrameKind::Include => {}
         }
+    }
+
+    /// Whether a loop has had enough turns since the first mistake in it.
+    fn is_worn_out(&mut self, turns: u64, reports: u64) -> bool {
+        let faulty = turns > 0 && self.reports > reports;
+        self.faulty_turns += u64::from(faulty);
+        faulty && (turns > FAULTY_TURNS || self.faulty_turns > ALL_FAULTY_TURNS)
     }
 
     /// The items of the case that `value` chooses, up to the end of the switch: cases fall through.

@@ -48,7 +48,24 @@ impl Evaluator<'_> {
         }
         // Known from now on, so that it is said once.
         self.scopes.assign(symbol, Value::Broken);
+        self.assumed.push(symbol);
         Reported
+    }
+
+    /// How much was told so far, for [`Self::take_back`].
+    pub(super) fn told(&self) -> Told {
+        Told { diagnostics: self.diagnostics.len(), assumed: self.assumed.len() }
+    }
+
+    /// Takes back what was told since: it was about text that does not count. A name that was told there is
+    /// told where it stands next.
+    pub(super) fn take_back(&mut self, since: Told) {
+        self.diagnostics.forget_after(since.diagnostics);
+        for symbol in self.assumed.drain(since.assumed.min(self.assumed.len())..) {
+            if let Some(Value::Broken) = self.scopes.read(symbol) {
+                self.scopes.undefine(symbol);
+            }
+        }
     }
 
     /// `None` where it may be the lack of an include, which was told.
@@ -226,9 +243,29 @@ impl Evaluator<'_> {
             "random" | "rnd" | "randf" | "frand" | "drand" if value.is_none() => stays(
                 "`#declare R = seed(1);` once, then `rand(R)` is another number from 0 to 1 each time",
             ),
+            "mix" | "lerp" => stays("between two values: `A + (B - A)*T`"),
+            "saturate" => stays("within 0 and 1: `min(max(A, 0), 1)`"),
+            "clamp" if !self.has_read("math.inc") => {
+                stays("within two values: `min(max(A, low), high)`")
+            }
+            "distance" => stays("from one point to another: `vlength(B - A)`"),
+            "hypot" => stays("the length of a vector: `vlength(<A, B, 0>)`"),
+            "fract" | "frac" => stays("what is behind the point: `mod(A, 1)`"),
+            "cbrt" => stays("the third root: `pow(A, 1/3)`"),
+            "sign" | "sgn" if !self.has_read("math.inc") => {
+                stays("`select(A, -1, 0, 1)` is below 0, 0, or above")
+            }
+            "step" => stays("0 or 1: `(X >= Edge)`"),
             _ => None,
         }
     }
+}
+
+/// How much was told at some time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Told {
+    diagnostics: usize,
+    assumed: usize,
 }
 
 /// What to write for a call of another language.

@@ -8,7 +8,7 @@ use super::ast::{
     ExpressionKind, ItemKind, Items, NameId, Parameter, Test,
 };
 use super::nest::{Frame, FrameKind, Nest};
-use super::token::{Bracket, Head, Mark, TokenKind};
+use super::token::{Bracket, Head, Mark, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -136,13 +136,13 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn stray_directive(&mut self, span: Span, expected: &str) {
-        let text = self.slice(span);
+        let word = directive_word(self.slice(span));
         // A misspelt word has been told.
-        if Head::from_word(text.trim_start_matches(['#', ' ', '\t'])) == Head::Unknown {
+        if Head::from_word(word) == Head::Unknown {
             return;
         }
         self.report(
-            Diagnostic::new(Code::StrayDirective, format!("this `{text}` belongs to nothing"))
+            Diagnostic::new(Code::StrayDirective, format!("this `#{word}` belongs to nothing"))
                 .at(span, format!("expected {expected} before it")),
         );
     }

@@ -28,6 +28,7 @@ mod numbers;
 mod numeric;
 mod operand;
 mod print;
+mod prose;
 mod repair;
 mod spelling;
 mod tally;
@@ -78,6 +79,7 @@ pub fn parse(
     let mut quiet = comment::quiet(&source.text, file, &mut found);
     quiet.text = control::blank(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);
+    quiet.text = prose::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
     let tokens = habits::translate(tokens, &quiet.text, file, &mut found);

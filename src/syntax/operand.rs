@@ -90,7 +90,7 @@ impl<'a> Nest<'a> {
 
     pub(super) fn number(&mut self, token: Token) {
         let mut span = self.span(token);
-        if self.number_to_another_base(span) {
+        if self.number_to_another_base(span) || self.grouped_number(span) {
             return;
         }
         // `1.2.3` and `1e+` come as two tokens that touch.
@@ -150,6 +150,31 @@ impl<'a> Nest<'a> {
         );
         self.at += 1;
         self.operand(ExpressionKind::Number(f64::from(value)), whole, false);
+        true
+    }
+
+    /// `1_000`, as other languages group digits.
+    fn grouped_number(&mut self, first: Span) -> bool {
+        let Some(&next) = self.tokens.get(self.at + 1) else { return false };
+        let rest = self.span(next);
+        let groups = self.slice(rest);
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let grouped = groups.strip_prefix('_').is_some_and(|rest| rest.split('_').all(digits));
+        if next.kind != TokenKind::Name || rest.start != first.end || !grouped {
+            return false;
+        }
+        let whole = first.to(rest);
+        let text = self.slice(whole);
+        let meant = text.replace('_', "");
+        let Ok(value) = meant.parse::<f64>() else { return false };
+        self.report(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(whole, "no sign stands between the digits of a number")
+                .help(format!("write `{meant}`"))
+                .fix(whole, meant),
+        );
+        self.at += 1;
+        self.operand(ExpressionKind::Number(value), whole, false);
         true
     }
 

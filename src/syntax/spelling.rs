@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::habits::color_at;
-use super::token::{Bracket, Head, Mark, Token, TokenKind};
+use super::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
 
@@ -38,7 +38,7 @@ pub(super) fn correct_heads(
             continue;
         }
         let span = Span::new(file, token.start as usize, token.end as usize);
-        let word = text.get(span.range()).unwrap_or("").trim_start_matches(['#', ' ', '\t']);
+        let word = directive_word(text.get(span.range()).unwrap_or(""));
         if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {
             // A colour, as the web writes it (habits/web.rs).
             continue;
@@ -62,6 +62,11 @@ pub(super) fn correct_heads(
         } else if text.get(span.range()).is_some_and(|head| head[1..].starts_with([' ', '\t'])) {
             // A comment, as other languages write it (habits/sign.rs).
             continue;
+        }
+        if diagnostic.help.is_empty()
+            && let Some(ours) = suggest::foreign(word).find(|ours| Head::WORDS.contains(ours))
+        {
+            diagnostic = diagnostic.help(format!("did you mean `#{ours}`?"));
         }
         diagnostics.push(diagnostic);
     }

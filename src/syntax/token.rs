@@ -177,7 +177,19 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
                         _ => mark(token),
                     };
                     let end = start + token.len();
-                    tokens.push(Token { kind, start: start as u32, end: end as u32 });
+                    match (kind, tokens.last_mut()) {
+                        // The word may stand on a line after its `#`.
+                        (TokenKind::Word(_) | TokenKind::Name, Some(hash))
+                            if hash.kind == TokenKind::Stray
+                                && text.get(hash.start as usize..hash.end as usize)
+                                    == Some("#")
+                                && Head::WORDS.contains(&token) =>
+                        {
+                            hash.kind = TokenKind::Directive(Head::from_word(token));
+                            hash.end = end as u32;
+                        }
+                        _ => tokens.push(Token { kind, start: start as u32, end: end as u32 }),
+                    }
                     end
                 }
             };
@@ -185,6 +197,11 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
         at += length;
     }
     tokens
+}
+
+/// The word of a directive, without its `#` and the blanks between the two.
+pub(super) fn directive_word(directive: &str) -> &str {
+    directive.trim_start_matches(|c: char| c == '#' || c.is_whitespace())
 }
 
 /// A word of the language, or a name.
@@ -249,6 +266,16 @@ mod tests {
                 (TokenKind::Stray, "#"),
                 (TokenKind::Word(Word::X), "x"),
             ]
+        );
+    }
+
+    #[test]
+    fn a_directive_may_have_its_word_on_the_next_line() {
+        let head = |head| TokenKind::Directive(head);
+        assert_eq!(kinds("#\n declare"), [(head(Head::Declare), "#\n declare")]);
+        assert_eq!(
+            kinds("#\nend#\n\nelse"),
+            [(head(Head::End), "#\nend"), (head(Head::Else), "#\n\nelse")]
         );
     }
 

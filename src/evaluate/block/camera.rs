@@ -55,7 +55,11 @@ impl Evaluator<'_> {
                     return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
                 }
             },
-            TokenKind::Comma | TokenKind::Semicolon => return Ok(()),
+            TokenKind::Comma => return Ok(()),
+            TokenKind::Semicolon => {
+                self.unexpected(token, Place::CAMERA);
+                return Ok(());
+            }
             _ => {
                 self.unexpected(token, Place::CAMERA);
                 return Err(Reported);

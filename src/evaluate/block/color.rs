@@ -33,6 +33,9 @@ impl Evaluator<'_> {
                     };
                 }
                 _ => {
+                    if let Some(reported) = self.unknown_part_of_color() {
+                        return Err(reported);
+                    }
                     let given = self.given(token, "a colour")?;
                     self.bare_components(token, &given)?;
                     (self.plain_color(&given, "a colour")?, given.site())

@@ -104,6 +104,9 @@ impl Evaluator<'_> {
             self.end_of_entry(token)?;
             return Ok((vec![(from, color)], None));
         }
+        if let Some(reported) = self.misspelt_color(token) {
+            return Err(reported);
+        }
         let second = self.given(token, "a colour")?;
         let entries = match second.value {
             Value::Number(to) => {

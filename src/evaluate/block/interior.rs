@@ -28,7 +28,7 @@ impl Evaluator<'_> {
         match token.kind {
             TokenKind::Word(Word::Ior) => {
                 let before = interior.ior;
-                interior.ior = self.more_than_zero(token, Word::Ior)?;
+                interior.ior = self.index_of_refraction(token)?;
                 // What is as the air hides what was before it.
                 if before == 1.0 || interior.ior == 1.0 {
                     interior.sites.clear();

@@ -269,12 +269,25 @@ impl Evaluator<'_> {
 
     /// A number that may be left out.
     pub(super) fn optional_number(&mut self, after: &Token, otherwise: f64) -> Outcome<f64> {
+        // Rather the next word, misspelt.
+        if self.peeks_unknown_name() {
+            return Ok(otherwise);
+        }
         match self.peek().map(|token| &token.kind) {
             Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
                 Ok(self.number_after(after, "a number")?.value)
             }
             _ => Ok(otherwise),
         }
+    }
+
+    /// Whether a name comes next that was never declared.
+    fn peeks_unknown_name(&mut self) -> bool {
+        let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else {
+            return false;
+        };
+        let (id, here) = (*id, here.clone());
+        self.unknown_name(&here, id).is_some()
     }
 
     /// A truth value that may be left out: then true.
@@ -344,11 +357,21 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn more_than_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {
+        let given = self.number_of(after, word)?;
+        self.lint_highlight(&given, word);
+        Ok(given.value)
+    }
+
+    /// A number above zero.
+    pub(in crate::evaluate) fn number_of(
+        &mut self,
+        after: &Token,
+        word: Word,
+    ) -> Outcome<Given<f64>> {
         let given = self.number_after(after, "a number")?;
         if given.value <= 0.0 {
             return Err(self.out_of_range(&given, word, "more than 0"));
         }
-        self.lint_highlight(&given, word);
-        Ok(given.value)
+        Ok(given)
     }
 }

@@ -151,11 +151,15 @@ impl Place {
             (None, Word::Floor) if has_block => Some(Word::Plane),
             (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
+            // As modellers call where an object is.
+            (Some(_), Word::Location) if self.families.contains(&Family::Transform) => {
+                Some(Word::Translate)
+            }
             _ => None,
         }
     }
 
-    pub(super) fn name(self) -> String {
+    pub(in crate::evaluate) fn name(self) -> String {
         match self.word {
             Some(word) => format!("in `{}`", word.name()),
             None => "at the top level".to_owned(),

@@ -13,7 +13,7 @@ use super::place::home;
 impl Evaluator<'_> {
     /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
     pub(super) fn skip_missing_block(&mut self, token: &Token) {
-        let before = self.diagnostics.len();
+        let before = self.told();
         self.skip_values();
         self.skip_color(token);
         while let Some(Token { kind: TokenKind::Entry(_), .. }) = self.peek() {
@@ -37,7 +37,7 @@ impl Evaluator<'_> {
             }
             _ => {}
         }
-        self.diagnostics.forget_after(before);
+        self.take_back(before);
     }
 
     /// Passes over a colour that was the value of a word that is not known.
@@ -45,16 +45,16 @@ impl Evaluator<'_> {
         if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
             && word.family() == Family::Color
         {
-            let before = self.diagnostics.len();
+            let before = self.told();
             let _ = self.color_after(after, "a colour");
-            self.diagnostics.forget_after(before);
+            self.take_back(before);
         }
     }
 
     /// Passes over what is left of parts that were reported: they are no second mistake. A name that is
     /// not declared is one, and stays.
     pub(super) fn skip_parts(&mut self) {
-        let before = self.diagnostics.len();
+        let before = self.told();
         while let Some(token) = self.peek().cloned() {
             match token.kind {
                 TokenKind::Word(_) | TokenKind::Semicolon => break,
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
                 TokenKind::Literal(_) | TokenKind::Comma => drop(self.next()),
             }
         }
-        self.diagnostics.forget_after(before);
+        self.take_back(before);
     }
 
     /// The name that an expression is, where it was never declared.
@@ -114,9 +114,9 @@ impl Evaluator<'_> {
                         return;
                     }
                     if let Some(token) = self.next() {
-                        let before = self.diagnostics.len();
+                        let before = self.told();
                         let _ = self.expression(&token.here, id);
-                        self.diagnostics.forget_after(before);
+                        self.take_back(before);
                     }
                 }
                 _ => return,

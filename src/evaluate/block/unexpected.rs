@@ -20,7 +20,8 @@ impl Evaluator<'_> {
         // Behind a word that is not built, what stands here may belong to it.
         let of_poison = self.poison.is_some();
         match &token.kind {
-            TokenKind::Comma | TokenKind::Semicolon => {}
+            TokenKind::Comma => {}
+            TokenKind::Semicolon => self.warn_of_semicolon(token, place),
             TokenKind::Word(word) if of_poison => {
                 let poison = Poison { word: *word, site: token.here.site(token.span) };
                 self.skip_arguments(*word);
@@ -161,13 +162,14 @@ impl Evaluator<'_> {
                     .help(format!("write `{text} … }}`"))
                     .fix(token.span.to(opener(block)), text);
                 self.report(&token.here, diagnostic);
-                let before = self.diagnostics.len();
+                let before = self.told();
                 self.inside_block(&here, contents, block, Self::run_items);
-                self.diagnostics.forget_after(before);
+                self.take_back(before);
                 return;
             }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
         } else if let Some((span, number)) = self.comma_before(token.span) {
+            diagnostic.labels.iter_mut().for_each(|label| label.span = span);
             diagnostic = diagnostic
                 .help(format!("a fraction is written with a point: `{number}`"))
                 .fix(span, number);

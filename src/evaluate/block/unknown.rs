@@ -65,11 +65,11 @@ impl Evaluator<'_> {
         }
         if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
             // What is inside belongs to a word that is not known: run, but not judged.
-            let before = self.diagnostics.len();
+            let before = self.told();
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
                 self.inside_block(&here, contents, span, Self::run_items);
             }
-            self.diagnostics.forget_after(before);
+            self.take_back(before);
         }
     }
 
@@ -188,7 +188,7 @@ impl Evaluator<'_> {
     /// `use <a.scad>`, `import "a"`, `module A() { … }`: all of its line, or up to its block.
     fn foreign_directive(&mut self, token: &Token, told: &Diagnostic, span: Span) {
         self.report_again(&token.here, told);
-        let before = self.diagnostics.len();
+        let before = self.told();
         let line = |evaluator: &Self, span: Span| {
             evaluator.sources.get(span.file).position(span.start as usize).line
         };
@@ -210,7 +210,7 @@ impl Evaluator<'_> {
                 | TokenKind::Literal(_) => {}
             }
         }
-        self.diagnostics.forget_after(before);
+        self.take_back(before);
     }
 
     /// `colr rgb 1` where a colour should stand, or `intensity 2`.
@@ -253,6 +253,33 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
+    /// `color power 100`: a name that was never declared and its value, where a colour should stand.
+    pub(super) fn unknown_part_of_color(&mut self) -> Option<Reported> {
+        let token = self.peek()?.clone();
+        let TokenKind::Expression(id) = token.kind else { return None };
+        let symbol = self.unknown_name(&token.here, id)?;
+        let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
+        if !rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_ascii_digit()) {
+            return None;
+        }
+        let name = self.sources.text(token.span).to_owned();
+        let of_light = self
+            .openers
+            .last()
+            .is_some_and(|opener| self.sources.text(*opener) == Word::LightSource.name());
+        self.next();
+        let reported = match custom(&name, Place::LIGHT).filter(|_| of_light) {
+            Some(custom) => {
+                let message = format!("`{name}` is not a word {}", Place::LIGHT.name());
+                let told = Diagnostic::new(Code::ForeignWord, message).at(token.span, custom);
+                self.report(&token.here, told)
+            }
+            None => self.undeclared(&token.here, symbol, token.span),
+        };
+        self.skip_behind(token.span);
+        Some(reported)
+    }
+
     /// `camra { … }` where a value should stand.
     pub(in crate::evaluate) fn misspelt_block(
         &mut self,
@@ -287,9 +314,9 @@ impl Evaluator<'_> {
         }
         self.next();
         // What is inside belongs to a word that is not known: run, but not judged.
-        let before = self.diagnostics.len();
+        let before = self.told();
         self.inside_block(&here, contents, block, Self::run_items);
-        self.diagnostics.forget_after(before);
+        self.take_back(before);
         Some(reported)
     }
 }

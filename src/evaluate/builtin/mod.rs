@@ -249,6 +249,12 @@ impl Arguments<'_> {
             Value::Number(_) if wanted == "a string" => {
                 error.with_help("a number becomes a string by `str(n, 0, -1)`")
             }
+            Value::Vector(_) if wanted == "a string" => {
+                error.with_help("a vector becomes a string by `vstr(3, V, \", \", 0, -1)`")
+            }
+            Value::String(_) if wanted == "a number" => {
+                error.with_help("a string becomes a number by `val(s)`")
+            }
             _ => error,
         }
     }

@@ -3,9 +3,9 @@
 use super::is_literal;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::Evaluator;
-use crate::evaluate::Here;
 use crate::evaluate::block::Given;
+use crate::evaluate::stream::Token;
+use crate::evaluate::{Evaluator, Here, Outcome};
 use crate::scene::{ClassicFinish, Finish};
 use crate::source::Span;
 use crate::vocabulary::Word;
@@ -65,6 +65,23 @@ impl Evaluator<'_> {
                 .help("of a lamp it is meant: `ambient` with `diffuse 0`, or `emission`");
             self.report(&given.here, diagnostic);
         }
+    }
+
+    /// `ior 0.75`: what a light ray enters is rarely thinner than air.
+    pub(in crate::evaluate) fn index_of_refraction(&mut self, token: &Token) -> Outcome<f64> {
+        let given = self.number_of(token, Word::Ior)?;
+        let value = given.value;
+        if value < 1.0 && is_literal(self.sources.text(given.span)) {
+            let message = format!("an `ior` of {value} is below that of a vacuum");
+            let diagnostic = Diagnostic::new(Code::LowIor, message)
+                .at(given.span, "expected 1 or more: water has 1.33, glass 1.5")
+                .help(format!(
+                    "the way out of a material is known: write its own, {:.2}",
+                    1.0 / value
+                ));
+            self.report(&given.here, diagnostic);
+        }
+        Ok(value)
     }
 
     /// `roughness 30`, `phong_size 0.5`: each has the other's numbers.

@@ -16,8 +16,10 @@ impl Reader<'_> {
     /// `let A = 1`.
     pub(super) fn declarer(&mut self, meant: &mut Vec<Token>) -> bool {
         let fits = DECLARERS.contains(&self.slice(0))
-            && self.kind(1) == Some(TokenKind::Name)
-            && self.is(2, Mark::Equal);
+            // A word of the language is told as that.
+            && matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)))
+            && self.is(2, Mark::Equal)
+            && !(self.is(3, Mark::Equal) && self.touches(3));
         if fits {
             let word = self.slice(0).to_owned();
             let span = self.span(0, 0);

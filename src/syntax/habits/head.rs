@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::vocabulary::{Role, Word};
 
 impl Reader<'_> {
@@ -273,7 +273,7 @@ impl Reader<'_> {
         let assigns = colon && self.is(3, Mark::Equal) && self.touches(3);
         let misses = colon || starts(self.kind(2));
         let word = head.word();
-        let theirs = self.slice(0).trim_start_matches(['#', ' ', '\t']).to_owned();
+        let theirs = directive_word(self.slice(0)).to_owned();
         if !misses && theirs == word {
             return false;
         }

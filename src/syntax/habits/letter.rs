@@ -139,6 +139,8 @@ fn sign(text: &str) -> Option<(&'static str, &'static str)> {
         "≠" => ("`≠`", "!="),
         "°" => ("a degree sign", ""),
         "，" | "、" => ("a full-width comma", ","),
+        "‚" | "،" | "᠂" => ("a sign that looks like a comma", ","),
+        "\u{37e}" => ("a Greek question mark", ";"),
         "；" => ("a full-width semicolon", ";"),
         "：" => ("a full-width colon", ":"),
         "（" => ("a full-width parenthesis", "("),

@@ -68,12 +68,30 @@ impl Reader<'_> {
             return false;
         }
         let (first, last) = (self.span(0, open), self.span(close, close));
-        let diagnostic =
+        let before = meant.len().checked_sub(2).map(|word| meant[word]);
+        let moved = before.filter(|word| {
+            argument
+                && self.inside.len() == 1
+                && matches!(word.kind, TokenKind::Word(word) if word.family() == Family::Transform)
+        });
+        let diagnostic = if let Some(word) = moved {
+            // `translate([0, 2, 0]) sphere(…)`
+            let word = Span::new(self.file, word.start as usize, word.end as usize);
+            let name = self.text.get(word.range()).unwrap_or("");
+            let inside = Span { start: first.end, end: last.start, ..first };
+            let numbers = self.text.get(inside.range()).unwrap_or("").trim();
+            let message =
+                format!("`{name}` stands inside the object that it moves, behind its parts");
+            Diagnostic::new(Code::MisplacedBlock, message)
+                .at(word, "not before an object, as in other languages")
+                .help(format!("write `sphere {{ … {name} <{numbers}> }}`"))
+        } else {
             Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
                 .at(self.span(0, close), "expected a vector")
                 .help("write `<x, y, z>`")
                 .fix(first, "<")
-                .fix(last, ">");
+                .fix(last, ">")
+        };
         self.diagnostics.push(diagnostic);
         let sign =
             |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };

@@ -161,9 +161,9 @@ impl Evaluator<'_> {
         token: &Token,
         light: Option<&LightSource>,
     ) -> Outcome<()> {
-        let before = self.diagnostics.len();
+        let before = self.told();
         self.skip_values();
-        self.diagnostics.forget_after(before);
+        self.take_back(before);
         let (message, label) = match light.map(|light| &light.kind) {
             // Without a light there was a mistake already.
             None => return Err(Reported),

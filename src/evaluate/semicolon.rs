@@ -1,0 +1,77 @@
+//! Semicolons: one ends the declaration of a number, and nothing else has one.
+//!
+//! **Source:** measured: POV-Ray refuses a declared number, vector or colour without its `;` from version 3.5
+//! on, takes a second `;` there, and refuses every other one.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+use super::Evaluator;
+use super::block::Place;
+use super::stream::{Token, TokenKind};
+use super::value::Value;
+
+impl Evaluator<'_> {
+    /// Takes the `;` behind the value of a `#declare`, which a number has to have.
+    pub(super) fn end_of_declaration(&mut self, head: Span, value: Option<&Value>) {
+        // `#define A 1`, `int A = 1`: told as that.
+        let head = self.sources.text(head);
+        let named = head.starts_with('#') && (head.ends_with("declare") || head.ends_with("local"));
+        let numeric =
+            named && matches!(value, Some(Value::Number(_) | Value::Vector(_) | Value::Color(_)));
+        let last = self.taken;
+        let is_semicolon = |token: Option<&Token>| {
+            matches!(token.map(|token| &token.kind), Some(TokenKind::Semicolon))
+        };
+        if is_semicolon(self.peek_on()) {
+            self.next();
+            if numeric && is_semicolon(self.peek_on()) {
+                self.next();
+            }
+            return;
+        }
+        // What else stands behind the value is a mistake of its own.
+        let ends = matches!(
+            self.peek_on().map(|token| &token.kind),
+            None | Some(TokenKind::Word(_) | TokenKind::Block(_))
+        );
+        let Some(last) = last.filter(|_| numeric && ends && self.version >= SINCE) else { return };
+        let place = last.span.after();
+        let diagnostic = Diagnostic::new(Code::Semicolon, "a declared number ends with `;`")
+            .at(place, "expected `;` here")
+            .help("POV-Ray refuses it without")
+            .fix(place, ";");
+        self.report_in(last.expansion, diagnostic);
+    }
+
+    /// A `;` that ends no declaration.
+    pub(super) fn warn_of_semicolon(&mut self, token: &Token, place: Place) {
+        // A row of them is one mistake; and one behind a directive is that of `#version`, or has another.
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize).unwrap_or("").trim_end();
+        let statement = before.rsplit([';', '{', '}']).next().unwrap_or("");
+        if before.ends_with(';') || statement.contains('#') {
+            return;
+        }
+        let diagnostic =
+            Diagnostic::new(Code::Semicolon, format!("`;` has no meaning {}", place.name()))
+                .at(token.span, "only a declaration ends with one")
+                .help("leave it out: POV-Ray refuses it")
+                .fix(token.span, "");
+        // What was told of the statement itself is told: it may be another language's.
+        let start = (before.len() - statement.len()) as u32;
+        let of_statement = |span: Span| {
+            span.file == token.span.file && (start..token.span.start).contains(&span.start)
+        };
+        if self.repeats(&diagnostic)
+            || (self.diagnostics.iter())
+                .any(|one| one.primary().is_some_and(|at| of_statement(at.span)))
+        {
+            return;
+        }
+        self.report(&token.here, diagnostic);
+    }
+}
+
+/// The version of the language from which on a declared number needs its `;`.
+const SINCE: f64 = 3.5;

@@ -1,0 +1,221 @@
+//! Sentences outside of comments: what a letter, a forum or a page says around a scene.
+//!
+//! **In:** a text without comments. **Out:** the same text with blanks in their place.
+//! **Invariant:** a line is a sentence only outside of all braces, where it has several words of everyday
+//! speech, or its punctuation, and no sign that a scene is made of; one message for lines that follow each
+//! other.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, Span};
+
+/// Words that sentences are made of, and scenes are not.
+const SPEECH: &[&str] = &[
+    "a",
+    "an",
+    "and",
+    "any",
+    "are",
+    "as",
+    "at",
+    "be",
+    "but",
+    "can",
+    "cannot",
+    "do",
+    "does",
+    "doesn't",
+    "everybody",
+    "from",
+    "have",
+    "hello",
+    "help",
+    "here",
+    "hi",
+    "how",
+    "i",
+    "i'm",
+    "in",
+    "is",
+    "isn't",
+    "it",
+    "it's",
+    "know",
+    "me",
+    "my",
+    "need",
+    "not",
+    "of",
+    "or",
+    "please",
+    "should",
+    "some",
+    "somebody",
+    "somehow",
+    "that",
+    "the",
+    "there",
+    "this",
+    "to",
+    "want",
+    "was",
+    "what",
+    "what's",
+    "when",
+    "where",
+    "which",
+    "why",
+    "will",
+    "with",
+    "works",
+    "wrong",
+    "you",
+    "your",
+    "thanks",
+    "thank",
+    // of other languages
+    "das",
+    "der",
+    "die",
+    "ein",
+    "eine",
+    "ich",
+    "ist",
+    "mit",
+    "nicht",
+    "und",
+    "wie",
+    "est",
+    "je",
+    "la",
+    "le",
+    "les",
+    "mais",
+    "pas",
+    "pour",
+    "une",
+    "con",
+    "el",
+    "es",
+    "los",
+    "no",
+    "para",
+    "que",
+    "un",
+    "il",
+    "che",
+    "per",
+    "het",
+    "een",
+    "en",
+    "niet",
+];
+
+pub(super) fn blank<'a>(
+    text: Cow<'a, str>,
+    file: FileId,
+    diagnostics: &mut Diagnostics,
+) -> Cow<'a, str> {
+    let sentences = sentences(&text);
+    if sentences.is_empty() {
+        return text;
+    }
+    for lines in sentences.chunk_by(|a, b| text[a.end..b.start].trim().is_empty()) {
+        let [first, ..] = lines else { continue };
+        let span = |range: &Range<usize>| Span::new(file, range.start, range.end);
+        let told = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            "this is a sentence, and no part of a scene",
+        )
+        .at(span(first), "expected a comment around it")
+        .help("a comment begins with `//`");
+        let told = lines
+            .iter()
+            .fold(told, |told, line| told.fix(Span::new(file, line.start, line.start), "// "));
+        diagnostics.push(told);
+    }
+    let mut bytes = text.into_owned().into_bytes();
+    // Each byte of a character becomes one blank: still UTF-8.
+    sentences.into_iter().for_each(|line| bytes[line].fill(b' '));
+    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+}
+
+/// The lines that are sentences, without the blanks around them.
+fn sentences(text: &str) -> Vec<Range<usize>> {
+    let (mut found, mut start, mut depth, mut quoted) = (Vec::new(), 0, 0i64, false);
+    for line in text.split_inclusive('\n') {
+        let words = line.trim();
+        if depth == 0 && !quoted && is_sentence(words) {
+            let from = start + (line.len() - line.trim_start().len());
+            found.push(from..from + words.len());
+        } else {
+            let mut escaped = false;
+            for byte in line.bytes() {
+                match byte {
+                    b'"' if !escaped => quoted = !quoted,
+                    b'{' if !quoted => depth += 1,
+                    b'}' if !quoted => depth = (depth - 1).max(0),
+                    _ => {}
+                }
+                escaped = byte == b'\\' && !escaped;
+            }
+        }
+        start += line.len();
+    }
+    found
+}
+
+fn is_sentence(line: &str) -> bool {
+    if !line.starts_with(char::is_alphabetic) || line.contains(|c| "{}<>[]=;#\"/*+|&".contains(c)) {
+        return false;
+    }
+    let (mut count, mut of_speech, mut punctuated) = (0, 0, false);
+    for word in line.split_whitespace() {
+        let plain = word.trim_matches(|c| "()".contains(c));
+        let bare = plain.trim_end_matches(['.', ',', '!', '?', ':', '…']);
+        punctuated |= bare.len() < plain.len();
+        if !bare.chars().all(|c| c.is_alphanumeric() || "'’-._".contains(c)) {
+            return false;
+        }
+        count += 1;
+        of_speech += usize::from(SPEECH.contains(&bare.to_lowercase().replace('’', "'").as_str()));
+    }
+    count >= 3 && (of_speech >= 2 || (of_speech == 1 && punctuated))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_are_told_from_what_scenes_say() {
+        for line in [
+            "Here is my scene, I hope somebody can tell what's wrong with it.",
+            "Hello everybody, please help me",
+            "ich weiss nicht, warum es dunkel ist",
+            "this one works:",
+        ] {
+            assert!(is_sentence(line), "{line}");
+        }
+        for line in [
+            "sphere { a, 1 }",
+            "Ball Box Cone",
+            "Post(a, the, is)",
+            "my_ball",
+            "rotate a translate b scale c",
+            "open",
+            "normal in",
+        ] {
+            assert!(!is_sentence(line), "{line}");
+        }
+    }
+
+    #[test]
+    fn a_sentence_in_a_block_or_a_string_stays() {
+        assert_eq!(sentences("a {\nthis is not one, is it\n}"), []);
+        assert_eq!(sentences("#debug \"\nthis is not one, is it\n\""), []);
+        assert_eq!(sentences("\n  this is one, is it\n"), [3..21]);
+    }
+}
