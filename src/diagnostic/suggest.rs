@@ -214,6 +214,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("color_ramp", "color_map"),
     ("colorramp", "color_map"),
     ("palette", "color_map"),
+    // files of pictures
+    ("jpg", "jpeg"),
+    ("tif", "tiff"),
     // the sky
     ("skybox", "sky_sphere"),
     ("skydome", "sky_sphere"),

@@ -170,6 +170,14 @@ impl Evaluator<'_> {
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {
         if dimensions.is_empty() {
             let round = self.next_if(|kind| matches!(kind, TokenKind::Expression(_)));
+            // `array { 1, 2, 3 }`: its values are no second mistake.
+            if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
+            {
+                let before = self.told();
+                self.inside_block(&here, contents, span, Self::run_items);
+                self.take_back(before);
+            }
             let size = round.as_ref().map(|round| self.sources.text(round.span));
             let size = size.and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
             let diagnostic = Diagnostic::new(Code::MissingPart, "this array has no size");

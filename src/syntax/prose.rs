@@ -214,8 +214,8 @@ mod tests {
 
     #[test]
     fn a_sentence_in_a_block_or_a_string_stays() {
-        assert_eq!(sentences("a {\nthis is not one, is it\n}"), []);
-        assert_eq!(sentences("#debug \"\nthis is not one, is it\n\""), []);
-        assert_eq!(sentences("\n  this is one, is it\n"), [3..21]);
+        assert!(sentences("a {\nthis is not one, is it\n}").is_empty());
+        assert!(sentences("#debug \"\nthis is not one, is it\n\"").is_empty());
+        assert_eq!(sentences("\n  this is one, is it\n"), vec![3..21]);
     }
 }

@@ -98,8 +98,8 @@ impl Evaluator<'_> {
             }
             let name = self.describe(after);
             let diagnostic = match next {
-                Some(found) => {
-                    let found_text = self.describe(&found);
+                Some(ref found) => {
+                    let found_text = self.describe(found);
                     Diagnostic::new(
                         Code::MissingPart,
                         format!("expected {wanted} after {name}, found {found_text}"),
@@ -115,6 +115,22 @@ impl Evaluator<'_> {
             let diagnostic = match after.kind {
                 TokenKind::Word(word) => diagnostic.help(word.sentence().to_owned()),
                 _ => diagnostic,
+            };
+            // `size`, which is a word, for `Size`, which is declared.
+            let meant = next.as_ref().and_then(|next| match next.kind {
+                TokenKind::Word(word) => {
+                    let is_meant = |name: &&str| name.eq_ignore_ascii_case(word.name());
+                    let name = self.scopes.visible().find(is_meant)?.to_owned();
+                    Some((next.span, name))
+                }
+                _ => None,
+            });
+            let diagnostic = match meant {
+                Some((span, name)) => {
+                    self.next();
+                    diagnostic.help(format!("did you mean `{name}`?")).fix(span, name)
+                }
+                None => diagnostic,
             };
             return Err(self.report(&after.here, diagnostic));
         }

@@ -23,7 +23,7 @@ impl Reader<'_> {
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
             Head::Else => self.body(head, meant),
             Head::Unknown => self.hash_comment(),
-            Head::Declare | Head::Local => self.value(head, meant),
+            Head::Declare | Head::Local => self.two_words(meant) || self.value(head, meant),
             Head::Default => self.default_case(meant),
             _ => false,
         }

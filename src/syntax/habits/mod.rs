@@ -148,13 +148,15 @@ impl Reader<'_> {
         }
         match kind {
             TokenKind::Word(word) => {
-                (word == Word::Int && self.declarer(meant))
+                self.parted_word(meant)
+                    || (word == Word::Int && self.declarer(meant))
                     || self.head_without_hash(word, meant)
                     || self.empty_parentheses(word, meant)
                     || self.part(meant)
             }
             TokenKind::Name => {
                 self.suffix(meant)
+                    || self.parted_word(meant)
                     || self.declarer(meant)
                     || self.returns()
                     || self.changes(meant)

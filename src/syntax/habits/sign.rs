@@ -4,10 +4,13 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Family, Role};
+use crate::vocabulary::{Family, Role, Word};
 
 /// What makes a vector elsewhere.
 const MAKERS: &[&str] = &["vec2", "vec3", "vec4", "float3", "vector3", "Vector", "Vec3", "Color"];
+
+/// No word of the language is longer.
+const LONGEST_WORD: usize = 30;
 
 impl Reader<'_> {
     /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
@@ -176,6 +179,57 @@ impl Reader<'_> {
         while self.tokens.get(self.at).is_some_and(|token| token.start < end) {
             self.at += 1;
         }
+        true
+    }
+
+    /// `#declare my size = 3`: a name of two words.
+    pub(super) fn two_words(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_part = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+        let named = self.kind(1) == Some(TokenKind::Name)
+            && is_part(self.kind(2))
+            && self.is(3, Mark::Equal);
+        if !named {
+            return false;
+        }
+        let (span, plain) = (self.span(1, 2), format!("{}_{}", self.slice(1), self.slice(2)));
+        let name = self.text.get(span.range()).unwrap_or("");
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is no name"))
+                .at(span, "a name has no blank in it")
+                .help(format!("write `{plain}`"))
+                .fix(span, plain),
+        );
+        meant.push(self.tokens[self.at]);
+        let first = self.tokens[self.at + 1];
+        meant.push(Token { kind: TokenKind::Name, end: span.end, ..first });
+        self.at += 3;
+        true
+    }
+
+    /// `look at`, `light source { … }`: a word of the language in two parts.
+    pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
+        if !matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_))) {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let text = self.text.get(span.range()).unwrap_or("");
+        let Some(blank) = text.find([' ', '\t']).filter(|_| text.len() <= LONGEST_WORD) else {
+            return false;
+        };
+        let rest = text[blank..].trim_start_matches([' ', '\t']);
+        let whole = format!("{}_{rest}", &text[..blank]);
+        let Some(word) = Word::from_name(&whole).filter(|word| word.role() == Role::Statement)
+        else {
+            return false;
+        };
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnknownWord, format!("`{whole}` is one word"))
+                .at(span, format!("did you mean `{whole}`?"))
+                .help(format!("replace it with `{whole}`"))
+                .fix(span, whole),
+        );
+        meant.push(Token { kind: TokenKind::Word(word), end: span.end, ..self.tokens[self.at] });
+        self.at += 2;
         true
     }
 
