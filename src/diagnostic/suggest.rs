@@ -38,9 +38,12 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             let (other_count, other_set) = letters(candidate);
             let far = other_count.abs_diff(count) > bound
                 || (other_set ^ set).count_ones() as usize > 2 * bound;
-            let other = (!far).then(|| candidate.to_lowercase())?;
-            let distance = match other == lower || spelling(&other) == spelled {
+            // Another spelling of it changes no more than this.
+            let respelt = other_count.abs_diff(count) <= 2 && (other_set ^ set).count_ones() <= 4;
+            let other = (!far || respelt).then(|| candidate.to_lowercase())?;
+            let distance = match other == lower || (respelt && spelling(&other) == spelled) {
                 true => 0,
+                false if far => return None,
                 false => strsim::osa_distance(&lower, &other).max(1),
             };
             // Of two equally near, the one with the same first letter, then the alphabet's first.
@@ -320,7 +323,7 @@ mod tests {
         assert_eq!(closest("Grey5", grays), Some("Gray05"));
         assert_eq!(closest("Grey50", grays), Some("Gray50"));
         assert_eq!(closest("LightColour", ["LightColor", "LightColours"]), Some("LightColor"));
-        assert_eq!(closest("A0", ["A00", "A10"]), None);
+        assert_eq!(closest("A0", ["A00", "A10"]), Some("A00"));
     }
 
     #[test]

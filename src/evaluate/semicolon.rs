@@ -1,10 +1,11 @@
-//! Semicolons: one ends the declaration of a number, and nothing else has one.
+//! Semicolons: in a `.pov` file one ends the declaration of a number, and nothing else has one.
 //!
 //! **Source:** measured: POV-Ray refuses a declared number, vector or colour without its `;` from version 3.5
 //! on, takes a second `;` there, and refuses every other one.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::vocabulary::Dialect;
 
 use super::Evaluator;
 use super::block::Place;
@@ -35,17 +36,28 @@ impl Evaluator<'_> {
             self.peek_on().map(|token| &token.kind),
             None | Some(TokenKind::Word(_) | TokenKind::Block(_))
         );
-        let Some(last) = last.filter(|_| numeric && ends && self.version >= SINCE) else { return };
+        let needed = self.options.dialect == Dialect::Pov && self.version >= SINCE;
+        let Some(last) = last.filter(|_| numeric && ends && needed) else { return };
         let place = last.span.after();
         let diagnostic = Diagnostic::new(Code::Semicolon, "a declared number ends with `;`")
             .at(place, "expected `;` here")
             .help("POV-Ray refuses it without")
             .fix(place, ";");
+        // It may be told as an old form.
+        let told = |one: &Diagnostic| {
+            one.code == Code::LegacyForm && one.primary().is_some_and(|at| at.span == place)
+        };
+        if self.repeats(&diagnostic) || self.diagnostics.iter().any(told) {
+            return;
+        }
         self.report_in(last.expansion, diagnostic);
     }
 
     /// A `;` that ends no declaration.
     pub(super) fn warn_of_semicolon(&mut self, token: &Token, place: Place) {
+        if self.options.dialect == Dialect::Scene {
+            return;
+        }
         // A row of them is one mistake; and one behind a directive is that of `#version`, or has another.
         let text = &self.sources.get(token.span.file).text;
         let before = text.get(..token.span.start as usize).unwrap_or("").trim_end();

@@ -147,7 +147,9 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
     let (mut found, mut start, mut depth, mut quoted) = (Vec::new(), 0, 0i64, false);
     for line in text.split_inclusive('\n') {
         let words = line.trim();
-        if depth == 0 && !quoted && is_sentence(words) {
+        let follows =
+            found.last().is_some_and(|last: &Range<usize>| text[last.end..start].trim().is_empty());
+        if depth == 0 && !quoted && is_sentence(words, follows) {
             let from = start + (line.len() - line.trim_start().len());
             found.push(from..from + words.len());
         } else {
@@ -167,7 +169,8 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-fn is_sentence(line: &str) -> bool {
+/// `follows`: a sentence stands before it.
+fn is_sentence(line: &str, follows: bool) -> bool {
     if !line.starts_with(char::is_alphabetic) || line.contains(|c| "{}<>[]=;#\"/*+|&".contains(c)) {
         return false;
     }
@@ -179,10 +182,11 @@ fn is_sentence(line: &str) -> bool {
         if !bare.chars().all(|c| c.is_alphanumeric() || "'’-._".contains(c)) {
             return false;
         }
-        count += 1;
+        count += usize::from(bare.starts_with(char::is_alphabetic));
         of_speech += usize::from(SPEECH.contains(&bare.to_lowercase().replace('’', "'").as_str()));
     }
-    count >= 3 && (of_speech >= 2 || (of_speech == 1 && punctuated))
+    let plain = count >= 3 && (of_speech >= 2 || (of_speech == 1 && punctuated));
+    plain || (follows && count > 0 && of_speech >= 1 && punctuated)
 }
 
 #[cfg(test)]
@@ -197,7 +201,7 @@ mod tests {
             "ich weiss nicht, warum es dunkel ist",
             "this one works:",
         ] {
-            assert!(is_sentence(line), "{line}");
+            assert!(is_sentence(line, false), "{line}");
         }
         for line in [
             "sphere { a, 1 }",
@@ -207,8 +211,9 @@ mod tests {
             "rotate a translate b scale c",
             "open",
             "normal in",
+            "rgb A 1, 2, 3,",
         ] {
-            assert!(!is_sentence(line), "{line}");
+            assert!(!is_sentence(line, false), "{line}");
         }
     }
 

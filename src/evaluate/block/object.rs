@@ -231,6 +231,12 @@ impl Evaluator<'_> {
         let mut children = Vec::new();
         loop {
             self.skip_commas();
+            if let Some(token) = self.next_if(|kind| matches!(kind, TokenKind::Semicolon)) {
+                let opener = self.openers.last().map(|opener| self.sources.text(*opener));
+                let word = opener.and_then(Word::from_name).unwrap_or(Word::Union);
+                self.warn_of_semicolon(&token, Place::csg(word));
+                continue;
+            }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
             if !(matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)) {
