@@ -7,7 +7,7 @@ use crate::vocabulary::{Family, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::is_object_word;
+use super::{Place, is_object_word};
 
 /// What an object is in the end, through all uses of uses.
 #[derive(Debug, Clone, Copy)]
