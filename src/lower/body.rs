@@ -14,7 +14,7 @@ use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::mesh::Triangles;
 use crate::shape::mesh::Face;
-use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Mesh, Placed, Torus};
+use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -81,6 +81,21 @@ pub fn disc(
     let hole = (Double::from(hole).abs() / size).round();
     let columns = [across * size, aside * size, unit * size];
     Ok((Body::Disc(Disc { hole }), Affine::from_columns(columns, exact(centre))))
+}
+
+/// The ovus from z = −1 to z = 1.
+pub fn ovus(bottom: f64, top: f64) -> (Body, Affine) {
+    let (bottom, top) = (Double::from(bottom), Double::from(top));
+    let half = Double::from(0.5);
+    let size = bottom + top * half;
+    let [x, y, z] = [0, 1, 2].map(DoubleVector::axis);
+    let frame = Affine::from_columns([x * size, -z * size, y * size], y * (top * half));
+    (Body::Ovus(Ovus::new(bottom, top)), frame)
+}
+
+/// As it is written.
+pub fn superellipsoid([east, north]: [f64; 2]) -> (Body, Affine) {
+    (Body::Superellipsoid(Superellipsoid { east, north }), Affine::IDENTITY)
 }
 
 /// The torus about the z axis that reaches 1 from it.

@@ -296,6 +296,16 @@ impl<'s> Lowering<'s, '_> {
             Solid::Disc { centre, normal, radius, hole } => {
                 self.place_made(body::disc(centre, normal, radius, hole)?, here, site)
             }
+            // The greater ball holds the other.
+            Solid::Ovus { bottom, top } if top == 0.0 || top * 0.5 >= bottom => {
+                let centre = if top == 0.0 { Vector::ZERO } else { Vector::Y * bottom };
+                let ball = Solid::Sphere { centre, radius: bottom.max(top) };
+                self.solid(id, &ball, here, site)
+            }
+            Solid::Ovus { bottom, top } => self.place_made(body::ovus(bottom, top), here, site),
+            Solid::Superellipsoid { exponents } => {
+                self.place_made(body::superellipsoid(exponents), here, site)
+            }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {
                 let ball = Solid::Sphere { centre: Vector::ZERO, radius: minor };

@@ -45,6 +45,17 @@ pub enum Solid {
         /// The radius of the hole in its middle.
         hole: f64,
     },
+    /// On the y axis, the bottom ball around the origin.
+    Ovus {
+        /// The radii of the two balls, 0 or more.
+        bottom: f64,
+        top: f64,
+    },
+    /// Between −1 and 1 along each axis.
+    Superellipsoid {
+        /// East-west and north-south, more than 0.
+        exponents: [f64; 2],
+    },
     /// About the y axis.
     Torus {
         /// From the axis to the middle of the tube.
@@ -79,6 +90,8 @@ impl Solid {
             Self::Cylinder { .. } => Word::Cylinder,
             Self::Cone { .. } => Word::Cone,
             Self::Disc { .. } => Word::Disc,
+            Self::Ovus { .. } => Word::Ovus,
+            Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
             Self::Triangles { word, .. } => *word,
@@ -86,18 +99,19 @@ impl Solid {
     }
 
     /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
-    /// without length or width, a disc that is all hole, a ring of no thickness, a polynomial that is a
+    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a polynomial that is a
     /// number.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::Sphere { radius, .. } => *radius == 0.0,
-            Self::Plane { .. } => false,
+            Self::Plane { .. } | Self::Superellipsoid { .. } => false,
             Self::Box { corners: [first, second] } => {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
             Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
             Self::Cone { ends: [base, cap], radii, .. } => *radii == [0.0; 2] || base == cap,
             Self::Disc { radius, hole, .. } => radius.abs() <= hole.abs(),
+            Self::Ovus { bottom, top } => bottom.max(*top) == 0.0,
             Self::Torus { minor, .. } => *minor == 0.0,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
@@ -126,6 +140,8 @@ impl fmt::Display for Solid {
             Self::Disc { centre, normal, radius, hole } => {
                 write!(f, " {} {} {radius} {hole}", written(*centre), written(*normal))
             }
+            Self::Ovus { bottom, top } => write!(f, " {bottom} {top}"),
+            Self::Superellipsoid { exponents: [e, n] } => write!(f, " <{e}, {n}>"),
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;

@@ -11,6 +11,8 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::mesh::Mesh;
+use super::ovus::Ovus;
+use super::superellipsoid::Superellipsoid;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -215,6 +217,8 @@ bodies! {
     Cylinder "cylinder"
     Mesh "mesh"
     Disc "disc"
+    Ovus "ovus"
+    Superellipsoid "superellipsoid"
     Torus "torus"
 }
 

@@ -43,6 +43,35 @@ impl Double {
     }
 }
 
+impl Double {
+    /// By the Taylor series of a 256th of what powers of two leave.
+    pub fn exp(self) -> Self {
+        let ln_2 = Self(std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);
+        let power = (self.0 / ln_2.0).round();
+        if power < -1000.0 {
+            return Self::of(0.0);
+        }
+        let rest = (self - ln_2 * Self::of(power)) * Self::of(1.0 / 256.0);
+        let series = (1..16).rev().fold(Self::of(1.0), |sum, k| {
+            Self::of(1.0) + rest * sum / Self::of(f64::from(k))
+        });
+        let value = (0..8).fold(series, |value, _| value * value);
+        let scale = crate::math::double::power_of_two(power as i32);
+        Self(value.0 * scale, value.1 * scale)
+    }
+
+    /// Of a positive number: one step of Newton's.
+    pub fn ln(self) -> Self {
+        let near = Self::of(crate::math::elementary::log(self.0));
+        near + (self * (-near).exp() - Self::of(1.0))
+    }
+
+    /// 0 to any power is 0.
+    pub fn pow(self, exponent: Self) -> Self {
+        if self.0 <= 0.0 { Self::of(0.0) } else { (self.ln() * exponent).exp() }
+    }
+}
+
 impl Add for Double {
     type Output = Self;
     fn add(self, other: Self) -> Self {

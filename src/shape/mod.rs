@@ -12,9 +12,11 @@ pub mod cylinder;
 pub mod disc;
 pub mod ellipsoid;
 pub mod mesh;
+pub mod ovus;
 pub mod placed;
 pub mod plane;
 pub mod sphere;
+pub mod superellipsoid;
 pub mod torus;
 mod tree;
 
@@ -26,9 +28,11 @@ pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
 pub use mesh::Mesh;
+pub use ovus::Ovus;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use sphere::Sphere;
+pub use superellipsoid::Superellipsoid;
 pub use torus::Torus;
 
 use crate::math::{Real, Vector, Vector3};

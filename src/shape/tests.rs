@@ -3,14 +3,16 @@
 use super::exact::{self, Double};
 use super::*;
 use crate::math::placement::Placement;
-use crate::math::random::{Random, tries};
+use crate::math::random::{Random, tries, tries_in};
 use crate::math::{Matrix, UnitVector};
 use leave::assert_leaves_for_good;
 
 mod algebraic;
 mod leave;
 mod mesh;
+mod ovus;
 mod placed;
+mod superellipsoid;
 
 const EPS: f64 = f64::EPSILON;
 

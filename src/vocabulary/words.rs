@@ -50,7 +50,7 @@ vocabulary! {
         Lathe "lathe" statement later "a curve turned about the y axis";
         Mesh "mesh" statement built "many triangles as one object";
         Mesh2 "mesh2" statement built "many triangles as lists of vertices and faces";
-        Ovus "ovus" statement later "an egg from two radii";
+        Ovus "ovus" statement built "`ovus { bottom radius, top radius }`: an egg of two balls along the y axis";
         Parametric "parametric" statement later "a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
         Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
@@ -63,7 +63,7 @@ vocabulary! {
         Sor "sor" statement later "a solid of revolution";
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement later "a sphere moved along a spline";
-        Superellipsoid "superellipsoid" statement later "a box with rounded edges, by two exponents";
+        Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
         Text "text" statement later "letters of a font as a solid";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
         Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";

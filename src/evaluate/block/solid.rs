@@ -19,6 +19,8 @@ impl Evaluator<'_> {
             Word::Cylinder => Self::cylinder,
             Word::Cone => Self::cone,
             Word::Disc => Self::disc,
+            Word::Ovus => Self::ovus,
+            Word::Superellipsoid => Self::superellipsoid,
             Word::Torus => Self::torus,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,
@@ -234,5 +236,64 @@ impl Evaluator<'_> {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
         Ok(Solid::Torus { major: major.value, minor: minor.value })
+    }
+
+    fn ovus(&mut self, token: &Token) -> Outcome<Solid> {
+        let bottom = self.number_after(token, "a number for the radius at the bottom");
+        let top = self.number_after(token, "a number for the radius at the top");
+        let (bottom, top) = (bottom?, top?);
+        for radius in [&bottom, &top] {
+            if radius.value < 0.0 {
+                return Err(self.out_of_range(radius, Word::Ovus, "0 or more"));
+            }
+        }
+        if bottom.value.max(top.value) == 0.0 {
+            let diagnostic = Diagnostic::new(self.sizeless(), "an ovus of two radii 0 is nothing")
+                .at(top.span, "expected a number more than 0")
+                .also(bottom.span, "or here");
+            self.nothing(token, &top.here, diagnostic)?;
+        } else if top.value >= 2.0 * bottom.value {
+            let message = "the top ball of this ovus holds the bottom one: it is a sphere";
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                .at(top.span, "expected less than twice the radius at the bottom")
+                .also(bottom.span, "the radius at the bottom");
+            self.report(&top.here, diagnostic);
+        }
+        Ok(Solid::Ovus { bottom: bottom.value, top: top.value })
+    }
+
+    /// `<e, n>`, or one number for both.
+    fn superellipsoid(&mut self, token: &Token) -> Outcome<Solid> {
+        const WANTED: &str = "a vector of the two exponents";
+        let given = self.given(token, WANTED)?;
+        self.skip_commas();
+        // `0.2, 0.3` lacks its brackets.
+        let is_bare = matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        let exponents = match given.value.numbers().as_ref().map(|numbers| numbers.as_slice()) {
+            Some(&[both]) if !is_bare => [both; 2],
+            Some(&[east, north]) => [east, north],
+            Some(numbers) => {
+                let (found, what) = match numbers.len() {
+                    1 => (Code::WrongType, "bare numbers".to_owned()),
+                    count => (Code::WrongArity, format!("a vector of {count}")),
+                };
+                let diagnostic = Diagnostic::new(found, format!("expected {WANTED}, found {what}"))
+                    .at(given.span, "expected `<e, n>`")
+                    .help("east-west first, then north-south: `<1, 0.2>` is a round tin");
+                return Err(self.report(&given.here, diagnostic));
+            }
+            None => return Err(self.wrong_type(&given.here, given.span, WANTED, &given.value)),
+        };
+        if let Some(exponent) = exponents.into_iter().find(|exponent| *exponent <= 0.0) {
+            return Err(self.out_of_range(
+                &given.with(exponent),
+                Word::Superellipsoid,
+                "two exponents of more than 0",
+            ));
+        }
+        Ok(Solid::Superellipsoid { exponents })
     }
 }

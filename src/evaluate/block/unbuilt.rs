@@ -8,25 +8,10 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 
-/// What a shape wants in a place, in words, and of which kind it is.
-type Part = (Kind, &'static str);
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Vector,
-    Number,
-}
-
-/// The parts of a shape that come before its modifiers, where their number is fixed.
-fn parts_not_built(word: Word) -> Option<&'static [Part]> {
-    use Kind::{Number, Vector};
+/// The parts of a shape that come before its modifiers, where their number is fixed: vectors all.
+fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
     Some(match word {
-        Word::JuliaFractal => &[(Vector, "a vector for the parameter")],
-        Word::Ovus => &[
-            (Number, "a number for the radius at the bottom"),
-            (Number, "a number for the radius at the top"),
-        ],
-        Word::Superellipsoid => &[(Vector, "a vector for the two exponents")],
+        Word::JuliaFractal => &["a vector for the parameter"],
         _ => return None,
     })
 }
@@ -75,16 +60,12 @@ impl Evaluator<'_> {
         alone
     }
 
-    fn unbuilt_part(&mut self, token: &Token, &(kind, wanted): &Part) -> Outcome<()> {
+    fn unbuilt_part(&mut self, token: &Token, wanted: &str) -> Outcome<()> {
         let given = self.given(token, wanted)?;
-        let fits = match (&given.value, kind) {
-            (Value::Poison(_) | Value::Broken | Value::Number(_), _) => true,
-            (value, Kind::Vector) => value.numbers().is_some(),
-            (_, Kind::Number) => false,
-        };
-        match fits {
-            true => Ok(()),
-            false => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
+        match &given.value {
+            Value::Poison(_) | Value::Broken => Ok(()),
+            value if value.numbers().is_some() => Ok(()),
+            value => Err(self.wrong_type(&given.here, given.span, wanted, value)),
         }
     }
 }

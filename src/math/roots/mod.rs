@@ -1,4 +1,6 @@
 //! Roots of functions of one number, each with a bound on its error.
 
 pub mod bracket;
+pub mod convex;
+pub mod monotone;
 pub mod polynomial;

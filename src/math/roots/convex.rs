@@ -1,0 +1,126 @@
+//! Convex function: the piece of the line where it is negative, which is one piece or none.
+//!
+//! **In:** a convex function with its slope, which both say how far off they may be; two places where it is
+//! positive. **Out:** the two roots between them, each with a bound on its error. **Invariant:** none are
+//! found only where no place between is certainly negative, as far as rounding tells.
+//!
+//! **Source:** J. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8
+//! (1960), in one dimension: the function is nowhere below its tangents.
+
+use super::bracket::{Root, Sample, root};
+
+/// A convex function's tangent at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tangent {
+    pub at: Sample,
+    /// How far the slope may be off.
+    pub slope_error: f64,
+}
+
+type Place = (f64, Tangent);
+
+/// Where the function becomes negative and where it ceases to be.
+pub fn chord(tangent: impl Fn(f64) -> Tangent, low: f64, high: f64) -> Option<[Root; 2]> {
+    let (mut before, mut behind) = ((low, tangent(low)), (high, tangent(high)));
+    if !(before.1.at.is_outside() && behind.1.at.is_outside()) {
+        return None;
+    }
+    // The nearest places that are certainly positive.
+    let (mut outer_before, mut outer_behind) = (before, behind);
+    let mut width = high - low;
+    loop {
+        let next = between(before, behind, &mut width)?;
+        let here = tangent(next);
+        if here.at.is_inside() {
+            let sample = |s| tangent(s).at;
+            // From outside, Newton's step does not reach beyond the root.
+            let toward = |(s, Tangent { at, .. }): Place| s - at.value / at.slope;
+            let enter = root(sample, outer_before.0, next, toward(outer_before));
+            let leave = root(sample, outer_behind.0, next, toward(outer_behind));
+            return Some([enter, leave]);
+        }
+        // A slope of 0, or none, is as low as it goes.
+        let (end, outer_end) = match here.at.slope {
+            slope if slope > 0.0 => (&mut behind, &mut outer_behind),
+            slope if slope < 0.0 => (&mut before, &mut outer_before),
+            _ => return None,
+        };
+        *end = (next, here);
+        if here.at.is_outside() {
+            *outer_end = *end;
+        }
+    }
+}
+
+/// Where to look next: where the tangents of two places cross, or in the middle where that comes on too
+/// slowly. `None` where the function cannot be negative between the two.
+fn between((a, at_a): Place, (b, at_b): Place, width: &mut f64) -> Option<f64> {
+    let (down, up) = (-at_a.at.slope, at_b.at.slope);
+    // How far it may be below its value at each, at most.
+    let least = |tangent: Tangent, slope: f64, length: f64| {
+        let steepest = (slope + tangent.slope_error).max(0.0);
+        tangent.at.value - tangent.at.error - steepest * length.max(0.0)
+    };
+    let length = b - a;
+    let cross = a + (at_a.at.value - at_b.at.value + up * length) / (down + up);
+    if least(at_a, down, cross - a) > 0.0 && least(at_b, up, b - cross) > 0.0 {
+        return None;
+    }
+    let middle = a + 0.5 * length;
+    let is_slow = length > 0.5 * *width;
+    *width = length;
+    let next = if is_slow || !(a < cross && cross < b) { middle } else { cross };
+    (a < next && next < b).then_some(next)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::elementary::pow;
+    use crate::math::random::{Random, tries};
+
+    /// |x − c|ᵖ − `depth`, flatter on one hand; off by up to `error`.
+    fn valley(random: &mut Random, depth: f64, error: f64) -> (f64, impl Fn(f64) -> Tangent) {
+        let power = [1.0, 1.5, 2.0, 4.0, 9.0][random.below(5)];
+        let lean = [1.0, random.size(-4.0, 0.0)][random.below(2)];
+        let centre = random.number(-1.0, 1.0);
+        let sample = move |x: f64| {
+            let off = x - centre;
+            let side = if off < 0.0 { -1.0 } else { lean };
+            let value = side.abs() * pow(off.abs(), power) - depth;
+            let slope = side * power * pow(off.abs(), power - 1.0);
+            Tangent { at: Sample { value, slope, error }, slope_error: 1e-14 }
+        };
+        (centre, sample)
+    }
+
+    #[test]
+    fn a_piece_that_is_certainly_negative_is_found_between_its_ends() {
+        let mut random = Random(11);
+        for _ in 0..tries() {
+            let depth = random.size(-10.0, -1.0);
+            let error = depth * random.size(-6.0, -0.5);
+            let (centre, sample) = valley(&mut random, depth, error);
+            if !(sample(-9.0).at.is_outside() && sample(9.0).at.is_outside()) {
+                continue;
+            }
+            let [enter, leave] = chord(&sample, -9.0, 9.0).expect("negative at the centre");
+            assert!(enter.t < centre && centre < leave.t, "{enter:?} {centre} {leave:?}");
+            for (root, way) in [(enter, -1.0), (leave, 1.0)] {
+                let out = sample(root.t + way * root.error).at;
+                let within = sample(root.t - way * root.error).at;
+                assert!(out.value >= 0.0 && within.value <= 0.0, "{root:?} {out:?} {within:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_all_is_positive() {
+        let mut random = Random(12);
+        for _ in 0..tries() {
+            let height = random.size(-14.0, 0.0);
+            let (_, sample) = valley(&mut random, -height, height * 0.5);
+            assert_eq!(chord(&sample, -9.0, 9.0), None);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Superellipsoid: ((|x|^2/e + |y|^2/e)^e/n + |z|^2/n)^n/2 ≤ 1, its *gauge*, which grows in proportion to
+//! the distance from the origin. `east` is e, `north` n.
+//!
+//! No power is taken of a number above 1 but to an exponent below 1, so however small the exponents, there
+//! is nothing that overflows or vanishes. Where both are 2 or less, the gauge is a norm, and convex; else
+//! the body is hollowed out toward its axes, and a line may cross it often.
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use crate::math::Vector;
+use crate::math::elementary::pow;
+use crate::math::interval::Interval;
+use crate::math::roots::bracket::{Root, Sample};
+use crate::math::roots::convex::{Tangent, chord};
+use crate::math::roots::monotone::{Range, Walk};
+
+/// The line is followed in a box so much greater than the body's.
+const AROUND: f64 = 1.25;
+
+/// A greater gauge is as good as this.
+const MOST: f64 = 1e100;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Superellipsoid {
+    /// More than 0.
+    pub east: f64,
+    /// More than 0.
+    pub north: f64,
+}
+
+/// (aᵖ + bᵖ)^1/p for a, b ≥ 0 and 1/p = `share`, and what part of the sum each of the two is.
+fn norm(a: f64, b: f64, share: f64) -> (f64, [f64; 2]) {
+    let (most, least) = if a > b { (a, b) } else { (b, a) };
+    if most == 0.0 {
+        return (0.0, [0.5, 0.5]);
+    }
+    let part = pow(least / most, 1.0 / share);
+    let size = (most * pow(1.0 + part, share)).min(MOST);
+    let (greater, lesser) = (1.0 / (1.0 + part), part / (1.0 + part));
+    (size, if a > b { [greater, lesser] } else { [lesser, greater] })
+}
+
+/// The gauge at a point of no negative coordinate, and what part of it each coordinate makes.
+struct Gauge {
+    value: f64,
+    parts: Vector,
+}
+
+impl Superellipsoid {
+    fn is_convex(&self) -> bool {
+        self.east.max(self.north) <= 2.0
+    }
+
+    fn gauge(&self, Vector { x, y, z }: Vector) -> Gauge {
+        let (round, [of_x, of_y]) = norm(x, y, 0.5 * self.east);
+        let (value, [of_round, of_z]) = norm(round, z, 0.5 * self.north);
+        Gauge { value, parts: Vector::new(of_round * of_x, of_round * of_y, of_z) }
+    }
+
+    /// How far rounding may move a gauge, over its value: with 1/p = e/2, the sum of two powers is off by 3
+    /// roundings and its root by e/2 as many and 1; of the second root likewise.
+    fn rounding(&self) -> f64 {
+        U * (12.0 + 4.0 * self.east + 4.0 * self.north)
+    }
+
+    /// How far the line's blur may move a gauge. A norm of vectors of length `blur` is √3 of it at most.
+    fn blurred(&self, place: Vector, value: f64, blur: f64) -> f64 {
+        if self.is_convex() {
+            return 2.0 * blur;
+        }
+        let more = self.gauge(place + blur).value;
+        let less = self.gauge((place - blur).max(Vector::ZERO)).value;
+        (more - value).max(value - less)
+    }
+
+    fn at(&self, point: Vector) -> (f64, Vector, Vector) {
+        let place = point.abs();
+        let Gauge { value, parts } = self.gauge(place);
+        let slope = |axis: usize| match place[axis] {
+            0.0 => 0.0,
+            size => (value * (parts[axis] / size)).min(MOST).copysign(point[axis]),
+        };
+        (value, Vector::new(slope(0), slope(1), slope(2)), parts)
+    }
+
+    fn tangent(&self, ray: &LocalRay, s: f64) -> Tangent {
+        let point = ray.at(s);
+        let (value, gradient, parts) = self.at(point);
+        let blur = ray.blur_at(s) + 2.0 * U * s.abs();
+        let error = self.rounding() * value + self.blurred(point.abs(), value, blur);
+        let slope = gradient.dot(ray.direction);
+        // A power with the exponent p is off by p roundings of its base, and there are no two parts that
+        // are both of some size but near an edge.
+        let (p, q) = (2.0 / self.east, 2.0 / self.north);
+        let edges = p * parts.x.min(parts.y) + q * parts.z.min(1.0 - parts.z);
+        let slope_error = (U * (32.0 + 16.0 * edges) + 2.0 * ray.turn).min(4.0);
+        Tangent { at: Sample { value: value - 1.0, slope, error }, slope_error }
+    }
+
+    /// What the gauge may be, less 1, and its slope, between two places; no coordinate changes its sign
+    /// there.
+    ///
+    /// The gauge grows with each coordinate's size. With N = (xᵖ + yᵖ)^1/p, its slope has the sign of
+    /// N^(q−p)·(xᵖ⁻¹x′ + yᵖ⁻¹y′) + zᵠ⁻¹z′.
+    fn range(&self, ray: &LocalRay, Interval { low, high }: Interval) -> Range {
+        let (from, to) = (ray.at(low), ray.at(high));
+        let blur = ray.blur_at(low.abs().max(high.abs())) + 4.0 * U * (1.0 + high.abs().max(-low));
+        let (a, b) = (from.abs(), to.abs());
+        let (least, most) = ((a.min(b) - blur).max(Vector::ZERO), a.max(b) + blur);
+        let (least_gauge, most_gauge) = (self.gauge(least).value, self.gauge(most).value);
+        let rounding = self.rounding();
+        let value = Interval {
+            low: least_gauge * (1.0 - rounding) - 1.0,
+            high: most_gauge * (1.0 + rounding) - 1.0,
+        };
+        let (p, q) = (2.0 / self.east, 2.0 / self.north);
+        let power = |of: Interval, exponent: f64| of.rising(|x| pow(x.max(0.0), exponent));
+        let slope_of = |axis: usize, exponent: f64| {
+            let size = Interval { low: least[axis], high: most[axis] };
+            let way = ray.direction[axis] * if from[axis] + to[axis] < 0.0 { -1.0 } else { 1.0 };
+            let speed = Interval { low: way - ray.turn, high: way + ray.turn };
+            power(size, exponent - 1.0) * speed
+        };
+        let round = |v: Vector| norm(v.x, v.y, 0.5 * self.east).0;
+        let round = Interval { low: round(least), high: round(most) };
+        let wide = Interval { low: 1.0 - rounding, high: 1.0 + rounding };
+        let slope = power(round * wide, q - p) * (slope_of(0, p) + slope_of(1, p)) + slope_of(2, q);
+        Range { value, slope }
+    }
+
+    /// Where the line is in the box around the body.
+    fn around(&self, ray: &LocalRay) -> Option<(f64, f64)> {
+        let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
+            if speed == 0.0 {
+                if place.abs() > AROUND {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((-AROUND - place) / speed, (AROUND - place) / speed);
+            enter = enter.max(a.min(b));
+            leave = leave.min(a.max(b));
+        }
+        (enter < leave).then_some((enter, leave))
+    }
+
+    /// Its parts in the eight corners of space are met one by one.
+    fn hollow(&self, ray: &LocalRay, (low, high): (f64, f64), found: &mut Crossings) {
+        let zero = |axis: usize| -ray.nearest[axis] / ray.direction[axis];
+        let mut ends = [low, zero(0), zero(1), zero(2), high];
+        ends.sort_unstable_by(f64::total_cmp);
+        let mut walk = Walk::new(|s: f64| self.tangent(ray, s).at);
+        let mut note = |Root { t, error }: Root, leaving: bool| {
+            found.push(Met { t, error, leaving, part: 0 });
+        };
+        for pair in ends.windows(2) {
+            let (from, to) = (pair[0].max(low), pair[1].min(high));
+            if from < to {
+                walk.through((from, to), |piece| self.range(ray, piece), &mut note);
+            }
+        }
+    }
+}
+
+impl Local for Superellipsoid {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some(around) = self.around(ray) else { return };
+        if !self.is_convex() {
+            return self.hollow(ray, around, found);
+        }
+        let chord = chord(|s| self.tangent(ray, s), around.0, around.1);
+        let Some([enter, leave]) = chord else { return };
+        let met = |Root { t, error }, leaving| Met { t, error, leaving, part: 0 };
+        found.extend([met(enter, false), met(leave, true)]);
+    }
+
+    fn height(&self, _: u32, point: Vector) -> Height {
+        let (value, gradient, _) = self.at(point);
+        Height { value: value - 1.0, gradient, error: self.rounding() * value }
+    }
+
+    /// The dual norm; of a body that is hollowed out, that of the least convex one around it.
+    ///
+    /// **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), A.1.6: 1/p + 1/p′ = 1.
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let dual = |exponent: f64| (1.0 - 0.5 * exponent).max(0.0);
+        let Vector { x, y, z } = along.abs();
+        let half = match (dual(self.east), dual(self.north)) {
+            (east, north) => largest(largest(x, y, east), z, north),
+        };
+        (-half, half)
+    }
+
+    /// As far as it goes along some vector of length 1.
+    fn reach(&self) -> f64 {
+        // The farthest of (a·u, v) with uᵖ + vᵖ = 1, by Hölder's inequality.
+        let farthest = |a: f64, exponent: f64| {
+            let share = 0.5 - 0.5 * exponent;
+            if share > 0.0 { largest(a, 1.0, share) } else { a.max(1.0) }
+        };
+        farthest(farthest(1.0, self.east), self.north) * (1.0 + 16.0 * U)
+    }
+
+    fn numbers(&self) -> String {
+        format!(" {} {}", self.east, self.north)
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        self.gauge(point.abs()).value < 1.0
+    }
+}
+
+/// (aᵖ + bᵖ)^1/p for 1/p = `share`; the greater of the two where that is 0.
+fn largest(a: f64, b: f64, share: f64) -> f64 {
+    if share > 0.0 { norm(a, b, share).0 } else { a.max(b) }
+}
+
+#[cfg(test)]
+impl Superellipsoid {
+    /// The gauge, less 1, in twice the digits.
+    pub(super) fn exactly(&self, [x, y, z]: super::exact::Triple) -> super::exact::Double {
+        use super::exact::Double;
+        let one = Double::of(1.0);
+        let norm = |a: Double, b: Double, exponent: f64| {
+            let (most, least) = if (a - b).0 > 0.0 { (a, b) } else { (b, a) };
+            if most.0 == 0.0 {
+                return most;
+            }
+            let share = Double::of(exponent) * Double::of(0.5);
+            most * (one + (least / most).pow(one / share)).pow(share)
+        };
+        norm(norm(x.abs(), y.abs(), self.east), z.abs(), self.north) - one
+    }
+}
