@@ -7,6 +7,7 @@
 use smallvec::SmallVec;
 
 use super::algebraic::Algebraic;
+use super::blob::Blob;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
@@ -213,6 +214,7 @@ macro_rules! bodies {
 
 bodies! {
     Algebraic "polynomial"
+    Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
     Mesh "mesh"

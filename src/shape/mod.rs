@@ -4,6 +4,7 @@
 //! greatest distance, each crossing carries its own error bound instead.
 
 pub mod algebraic;
+pub mod blob;
 pub mod body;
 pub mod box_;
 pub mod cone;
@@ -21,6 +22,7 @@ pub mod torus;
 mod tree;
 
 pub use algebraic::Algebraic;
+pub use blob::Blob;
 pub use body::Body;
 pub use box_::Box_;
 pub use cone::Cone;

@@ -137,7 +137,7 @@ impl Local for Ovus {
             let error = error + ray.blur_at(s) + 2.0 * U * s.abs();
             Tangent { at: Sample { value, slope: gradient.dot(ray.direction), error }, slope_error }
         };
-        let Some([enter, leave]) = chord(tangent, -FAR, FAR) else { return };
+        let Some([enter, leave]) = chord(tangent, (-FAR, FAR), ray.tolerance) else { return };
         let met = |Root { t, error }, leaving| Met { t, error, leaving, part: 0 };
         found.extend([met(enter, false), met(leave, true)]);
     }
@@ -157,6 +157,10 @@ impl Local for Ovus {
 
     fn numbers(&self) -> String {
         format!(" bottom {} top {}", self.bottom, self.top)
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn contains(&self, point: Vector) -> bool {

@@ -12,7 +12,7 @@ use crate::math::elementary::pow;
 use crate::math::interval::Interval;
 use crate::math::roots::bracket::{Root, Sample};
 use crate::math::roots::convex::{Tangent, chord};
-use crate::math::roots::monotone::{Range, Walk};
+use crate::math::roots::monotone::Walk;
 
 /// The line is followed in a box so much greater than the body's.
 const AROUND: f64 = 1.25;
@@ -97,35 +97,38 @@ impl Superellipsoid {
         Tangent { at: Sample { value: value - 1.0, slope, error }, slope_error }
     }
 
-    /// What the gauge may be, less 1, and its slope, between two places; no coordinate changes its sign
-    /// there.
-    ///
-    /// The gauge grows with each coordinate's size. With N = (xᵖ + yᵖ)^1/p, its slope has the sign of
-    /// N^(q−p)·(xᵖ⁻¹x′ + yᵖ⁻¹y′) + zᵠ⁻¹z′.
-    fn range(&self, ray: &LocalRay, Interval { low, high }: Interval) -> Range {
-        let (from, to) = (ray.at(low), ray.at(high));
-        let blur = ray.blur_at(low.abs().max(high.abs())) + 4.0 * U * (1.0 + high.abs().max(-low));
-        let (a, b) = (from.abs(), to.abs());
-        let (least, most) = ((a.min(b) - blur).max(Vector::ZERO), a.max(b) + blur);
-        let (least_gauge, most_gauge) = (self.gauge(least).value, self.gauge(most).value);
+    /// The least and the greatest of each coordinate's size between two places; none changes its sign there.
+    fn sizes(ray: &LocalRay, Interval { low, high }: Interval) -> [Vector; 2] {
+        let far = high.max(-low);
+        let (a, b) = (ray.at(low).abs(), ray.at(high).abs());
+        let blur = ray.blur_at(far) + 4.0 * U * (1.0 + far);
+        [(a.min(b) - blur).max(Vector::ZERO), a.max(b) + blur]
+    }
+
+    /// What the gauge may be, less 1: it grows with each coordinate's size.
+    fn range(&self, sizes: [Vector; 2]) -> Interval {
+        let [least, most] = sizes.map(|place| self.gauge(place).value);
         let rounding = self.rounding();
-        let value = Interval {
-            low: least_gauge * (1.0 - rounding) - 1.0,
-            high: most_gauge * (1.0 + rounding) - 1.0,
-        };
+        Interval { low: least * (1.0 - rounding) - 1.0, high: most * (1.0 + rounding) - 1.0 }
+    }
+
+    /// What has the sign of the gauge's slope: with N = (xᵖ + yᵖ)^1/p,
+    /// N^(q−p)·(xᵖ⁻¹x′ + yᵖ⁻¹y′) + zᵠ⁻¹z′. `ways` are the signs of the coordinates.
+    fn slopes(&self, ray: &LocalRay, ways: Vector, [least, most]: [Vector; 2]) -> Interval {
         let (p, q) = (2.0 / self.east, 2.0 / self.north);
         let power = |of: Interval, exponent: f64| of.rising(|x| pow(x.max(0.0), exponent));
-        let slope_of = |axis: usize, exponent: f64| {
-            let size = Interval { low: least[axis], high: most[axis] };
-            let way = ray.direction[axis] * if from[axis] + to[axis] < 0.0 { -1.0 } else { 1.0 };
+        let slope = |axis: usize, exponent: f64| {
+            let way = ray.direction[axis] * ways[axis];
             let speed = Interval { low: way - ray.turn, high: way + ray.turn };
-            power(size, exponent - 1.0) * speed
+            power(Interval { low: least[axis], high: most[axis] }, exponent - 1.0) * speed
         };
+        let rounding = self.rounding();
         let round = |v: Vector| norm(v.x, v.y, 0.5 * self.east).0;
-        let round = Interval { low: round(least), high: round(most) };
-        let wide = Interval { low: 1.0 - rounding, high: 1.0 + rounding };
-        let slope = power(round * wide, q - p) * (slope_of(0, p) + slope_of(1, p)) + slope_of(2, q);
-        Range { value, slope }
+        let round = Interval {
+            low: round(least) * (1.0 - rounding),
+            high: round(most) * (1.0 + rounding),
+        };
+        power(round, q - p) * (slope(0, p) + slope(1, p)) + slope(2, q)
     }
 
     /// Where the line is in the box around the body.
@@ -151,14 +154,17 @@ impl Superellipsoid {
         let zero = |axis: usize| -ray.nearest[axis] / ray.direction[axis];
         let mut ends = [low, zero(0), zero(1), zero(2), high];
         ends.sort_unstable_by(f64::total_cmp);
-        let mut walk = Walk::new(|s: f64| self.tangent(ray, s).at);
+        let mut walk = Walk::new(|s: f64| self.tangent(ray, s).at, ray.tolerance);
         let mut note = |Root { t, error }: Root, leaving: bool| {
             found.push(Met { t, error, leaving, part: 0 });
         };
         for pair in ends.windows(2) {
             let (from, to) = (pair[0].max(low), pair[1].min(high));
             if from < to {
-                walk.through((from, to), |piece| self.range(ray, piece), &mut note);
+                let ways = ray.at(0.5 * (from + to)).signum();
+                let value = |piece| self.range(Self::sizes(ray, piece));
+                let slope = |piece| self.slopes(ray, ways, Self::sizes(ray, piece));
+                walk.through((from, to), value, slope, &mut note);
             }
         }
     }
@@ -170,7 +176,7 @@ impl Local for Superellipsoid {
         if !self.is_convex() {
             return self.hollow(ray, around, found);
         }
-        let chord = chord(|s| self.tangent(ray, s), around.0, around.1);
+        let chord = chord(|s| self.tangent(ray, s), around, ray.tolerance);
         let Some([enter, leave]) = chord else { return };
         let met = |Root { t, error }, leaving| Met { t, error, leaving, part: 0 };
         found.extend([met(enter, false), met(leave, true)]);
@@ -205,6 +211,10 @@ impl Local for Superellipsoid {
 
     fn numbers(&self) -> String {
         format!(" {} {}", self.east, self.north)
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn contains(&self, point: Vector) -> bool {

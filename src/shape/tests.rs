@@ -8,6 +8,7 @@ use crate::math::{Matrix, UnitVector};
 use leave::assert_leaves_for_good;
 
 mod algebraic;
+mod blob;
 mod leave;
 mod mesh;
 mod ovus;

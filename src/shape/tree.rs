@@ -88,6 +88,22 @@ impl Tree {
         }
     }
 
+    /// Shows `leaf` every run of pieces whose box touches the given one.
+    pub fn touching(&self, wanted: &Bounds, mut leaf: impl FnMut(Range<usize>)) {
+        let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
+        stack.push(0);
+        while let Some(index) = stack.pop() {
+            let Node { bounds, first, count } = &self.nodes[index as usize];
+            let is_near =
+                bounds.low.cmple(wanted.high).all() && wanted.low.cmple(bounds.high).all();
+            match (is_near, *count) {
+                (false, _) => {}
+                (true, 0) => stack.extend([first + 1, *first]),
+                (true, count) => leaf(*first as usize..(first + count) as usize),
+            }
+        }
+    }
+
     /// The greatest of what `leaf` says of runs of pieces, which is no more, but for rounding, than
     /// `along`·P comes to in their box.
     pub fn greatest(&self, along: Vector, leaf: impl Fn(Range<usize>) -> f64) -> f64 {

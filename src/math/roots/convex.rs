@@ -19,8 +19,13 @@ pub struct Tangent {
 
 type Place = (f64, Tangent);
 
-/// Where the function becomes negative and where it ceases to be.
-pub fn chord(tangent: impl Fn(f64) -> Tangent, low: f64, high: f64) -> Option<[Root; 2]> {
+/// Where the function becomes negative and where it ceases to be; `tolerance` is how far each may be off
+/// beyond what the samples' errors ask for.
+pub fn chord(
+    tangent: impl Fn(f64) -> Tangent,
+    (low, high): (f64, f64),
+    tolerance: f64,
+) -> Option<[Root; 2]> {
     let (mut before, mut behind) = ((low, tangent(low)), (high, tangent(high)));
     if !(before.1.at.is_outside() && behind.1.at.is_outside()) {
         return None;
@@ -35,9 +40,8 @@ pub fn chord(tangent: impl Fn(f64) -> Tangent, low: f64, high: f64) -> Option<[R
             let sample = |s| tangent(s).at;
             // From outside, Newton's step does not reach beyond the root.
             let toward = |(s, Tangent { at, .. }): Place| s - at.value / at.slope;
-            let enter = root(sample, outer_before.0, next, toward(outer_before));
-            let leave = root(sample, outer_behind.0, next, toward(outer_behind));
-            return Some([enter, leave]);
+            let end = |outer: Place| root(sample, (outer.0, next), toward(outer), tolerance);
+            return Some([end(outer_before), end(outer_behind)]);
         }
         // A slope of 0, or none, is as low as it goes.
         let (end, outer_end) = match here.at.slope {
@@ -104,7 +108,7 @@ mod tests {
             if !(sample(-9.0).at.is_outside() && sample(9.0).at.is_outside()) {
                 continue;
             }
-            let [enter, leave] = chord(&sample, -9.0, 9.0).expect("negative at the centre");
+            let [enter, leave] = chord(&sample, (-9.0, 9.0), 0.0).expect("negative at the centre");
             assert!(enter.t < centre && centre < leave.t, "{enter:?} {centre} {leave:?}");
             for (root, way) in [(enter, -1.0), (leave, 1.0)] {
                 let out = sample(root.t + way * root.error).at;
@@ -120,7 +124,7 @@ mod tests {
         for _ in 0..tries() {
             let height = random.size(-14.0, 0.0);
             let (_, sample) = valley(&mut random, -height, height * 0.5);
-            assert_eq!(chord(&sample, -9.0, 9.0), None);
+            assert_eq!(chord(&sample, (-9.0, 9.0), 0.0), None);
         }
     }
 }

@@ -296,7 +296,7 @@ fn certainly_one_sign(
 }
 
 /// Where the derivative is 0 between two places, in order, to rounding.
-fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
+pub fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
     let degree = values.len() - 1;
     let mut points: SmallVec<[f64; 8]> = SmallVec::new();
     // The derivatives of degree 1, 2, …; each over the factorial of its order, which has the same roots.

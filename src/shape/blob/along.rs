@@ -1,0 +1,179 @@
+//! The field of a blob along a line: a polynomial of degree 4 between the places where the line enters and
+//! leaves components, and goes past the ends of their bars.
+//!
+//! **Invariant:** the field and its slope do not jump at such places. So a component that is grazed may be
+//! left out, and a place may be off by a rounding; and as all pieces are walked through in one go, what is
+//! crossed where two of them meet is crossed once.
+
+use smallvec::SmallVec;
+
+use super::{Blob, Component};
+use crate::math::Vector;
+use crate::math::roots::bracket::{Root, Sample};
+use crate::math::roots::monotone::Walk;
+use crate::math::roots::polynomial::turning_points;
+use crate::shape::U;
+use crate::shape::body::{Crossings, LocalRay, Met};
+
+/// A component that the line goes through.
+struct Part<'a> {
+    component: &'a Component,
+    stretch: f64,
+    /// Where the line is nearest to the blob's origin, and its direction, in the component's space.
+    place: Vector,
+    step: Vector,
+    /// Between which places the line is inside.
+    ends: (f64, f64),
+}
+
+pub(super) struct Line<'a> {
+    ray: &'a LocalRay,
+    parts: SmallVec<[Part<'a>; 8]>,
+}
+
+/// The two places where the line is at distance 1 from the axis, or from a point of it.
+fn chord(place: Vector, step: Vector) -> Option<(f64, f64)> {
+    let speed2 = step.length_squared();
+    let middle = -place.dot(step) / speed2;
+    let room = 1.0 - (place + step * middle).length_squared();
+    let half = (room / speed2).sqrt();
+    // Also where the line does not move, and it is no number.
+    (room > 0.0 && half.is_finite()).then_some((middle - half, middle + half))
+}
+
+impl<'a> Part<'a> {
+    fn new(component: &'a Component, stretch: f64, ray: &LocalRay) -> Option<Self> {
+        let place = component.unit_from_blob * (ray.nearest - component.centre);
+        let step = component.unit_from_blob * ray.direction;
+        let part = |ends| Self { component, stretch, place, step, ends };
+        let ball = |end: f64| chord(place - Vector::Z * end, step);
+        let half = component.half;
+        if half == 0.0 {
+            return ball(0.0).map(part);
+        }
+        // Two balls and the round between them.
+        let across = |v: Vector| Vector::new(v.x, v.y, 0.0);
+        let (a, b) = ((-half - place.z) / step.z, (half - place.z) / step.z);
+        let (from, to) = if step.z == 0.0 {
+            let is_beside = place.z.abs() <= half;
+            if is_beside { (f64::NEG_INFINITY, f64::INFINITY) } else { (1.0, -1.0) }
+        } else {
+            (a.min(b), a.max(b))
+        };
+        let round = match chord(across(place), across(step)) {
+            Some((enter, leave)) => (enter.max(from), leave.min(to)),
+            None if across(place).length_squared() < 1.0 => (from, to),
+            None => (1.0, -1.0),
+        };
+        let round = (round.0 < round.1 && round.0.is_finite() && round.1.is_finite()).then_some(round);
+        let all = [ball(-half), round, ball(half)].into_iter().flatten();
+        all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d))).map(part)
+    }
+
+    /// Where it begins and ends, and where the line goes past the ends of the bar.
+    fn joints(&self) -> impl Iterator<Item = f64> {
+        let (enter, leave) = self.ends;
+        let half = self.component.half;
+        let past = [-half, half].map(|end| (end - self.place.z) / self.step.z);
+        let past = past.into_iter().filter(move |s| half > 0.0 && enter < *s && *s < leave);
+        [enter, leave].into_iter().chain(past)
+    }
+
+    fn holds(&self, s: f64) -> bool {
+        self.ends.0 <= s && s <= self.ends.1
+    }
+
+    /// Adds the field at middle + u·half as a polynomial in u, for a piece that is all on one side of each
+    /// end of the bar.
+    fn add(&self, middle: f64, half: f64, sum: &mut [f64; 5]) {
+        let point = self.place + self.step * middle;
+        let bar = self.component.half;
+        let is_beside = bar > 0.0 && point.z.abs() <= bar;
+        let (from, way) = match is_beside {
+            true => (Vector::new(point.x, point.y, 0.0), Vector::new(self.step.x, self.step.y, 0.0)),
+            false => (point - Vector::Z * bar.copysign(point.z), self.step),
+        };
+        let way = way * half;
+        let (a, b, c) = (1.0 - from.length_squared(), -2.0 * from.dot(way), -way.length_squared());
+        let terms = [a * a, 2.0 * a * b, b * b + 2.0 * a * c, 2.0 * b * c, c * c];
+        for (sum, term) in sum.iter_mut().zip(terms) {
+            *sum += self.component.strength * term;
+        }
+    }
+}
+
+impl<'a> Line<'a> {
+    pub fn new(blob: &'a Blob, ray: &'a LocalRay) -> Self {
+        let mut parts = SmallVec::new();
+        blob.tree.along(ray, ray.blur + 4.0 * U, |run| {
+            let part = |i: usize| Part::new(&blob.components[i], blob.stretches[i], ray);
+            parts.extend(run.filter_map(part));
+        });
+        Self { ray, parts }
+    }
+
+    /// What is missing to 1.
+    fn height(&self, s: f64) -> Sample {
+        let mut sample = Sample { value: 1.0, slope: 0.0, error: 2.0 * U };
+        let blur = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+        for part in self.parts.iter().filter(|part| part.holds(s)) {
+            let seen = part.component.seen(part.place + part.step * s);
+            let inner = seen.inner.max(0.0);
+            let field = part.component.strength * inner * inner;
+            sample.value -= field;
+            sample.slope += 4.0 * part.component.strength * inner * seen.from_bar.dot(part.step);
+            let error = part.component.error(&seen, part.stretch * blur);
+            sample.error += error + U * (field.abs() + sample.value.abs());
+        }
+        sample
+    }
+
+    pub fn crossings(&mut self, found: &mut Crossings) {
+        let mut joints: SmallVec<[f64; 32]> = self.parts.iter().flat_map(Part::joints).collect();
+        joints.sort_unstable_by(f64::total_cmp);
+        self.parts.sort_unstable_by(|a, b| a.ends.0.total_cmp(&b.ends.0));
+        let mut walk = Walk::new(|s| self.height(s), self.ray.tolerance);
+        let mut note = |Root { t, error }: Root, leaving: bool| {
+            found.push(Met { t, error, leaving, part: 0 });
+        };
+        // The parts that the line is in, and how many it has met.
+        let (mut open, mut met): (SmallVec<[usize; 16]>, _) = (SmallVec::new(), 0);
+        for pair in joints.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            while met < self.parts.len() && self.parts[met].ends.0 <= from {
+                open.push(met);
+                met += 1;
+            }
+            open.retain(|i| self.parts[*i].ends.1 > from);
+            let most: f64 = open.iter().map(|&i| self.parts[i].component.strength.max(0.0)).sum();
+            if from == to || most < 1.0 {
+                walk.advance(from, &mut note);
+                continue;
+            }
+            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+            let mut field = [-1.0, 0.0, 0.0, 0.0, 0.0];
+            for &i in &open {
+                self.parts[i].add(middle, half, &mut field);
+            }
+            walk.advance(from, &mut note);
+            if !has_one_sign(&field) {
+                for turn in turning_points(&field, -1.0, 1.0) {
+                    walk.advance(middle + turn * half, &mut note);
+                }
+            }
+        }
+        if let Some(&last) = joints.last() {
+            walk.advance(last, &mut note);
+        }
+    }
+}
+
+/// Whether a polynomial of degree 4 has but one sign from −1 to 1: all of its Bernstein coefficients have.
+fn has_one_sign(&[a, b, c, d, e]: &[f64; 5]) -> bool {
+    let (even, odd) = (a + c + e, b + d);
+    let (half_even, half_odd) = (a - e, 0.5 * (b - d));
+    let coefficients =
+        [even - odd, half_even - half_odd, a - c / 3.0 + e, half_even + half_odd, even + odd];
+    let slack = 64.0 * U * (a.abs() + b.abs() + c.abs() + d.abs() + e.abs());
+    coefficients.iter().all(|c| *c > slack) || coefficients.iter().all(|c| *c < -slack)
+}
