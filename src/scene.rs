@@ -4,6 +4,7 @@
 //! what precedes it); numbers and degrees are still the author's. All trees are arenas: a child
 //! is an index, shared and never copied, and stands before its parents.
 
+pub mod blob;
 pub mod light;
 pub mod mesh;
 pub mod print;

@@ -14,7 +14,9 @@ use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::mesh::Triangles;
 use crate::shape::mesh::Face;
-use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus};
+use crate::shape::{
+    Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus,
+};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -119,7 +121,9 @@ fn along_axis([a, b]: [Vector; 2], radius: Double) -> Result<Affine, Fault> {
 }
 
 /// Three vectors of length 1 at right angles; the last goes along `axis`.
-fn frame(axis: DoubleVector) -> Result<(DoubleVector, DoubleVector, DoubleVector), Fault> {
+pub(super) fn frame(
+    axis: DoubleVector,
+) -> Result<(DoubleVector, DoubleVector, DoubleVector), Fault> {
     let unit = axis.normalized().ok_or_else(|| no_size("this solid has no length"))?;
     // The coordinate axis that is farthest from it.
     let sizes = unit.round().abs();

@@ -5,6 +5,7 @@
 //! of the World was computed in extended precision and rounded once. Specified in `docs/world.md`.
 
 pub mod alone;
+mod blob;
 mod body;
 mod camera;
 mod csg;
@@ -62,7 +63,7 @@ pub fn lower(
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         building: None,
-        meshes: BTreeMap::new(),
+        shared: BTreeMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -96,8 +97,9 @@ struct Lowering<'s, 'd> {
     unpainted: BTreeMap<Span, Site>,
     /// The solid made of others that is under way.
     building: Option<csg::Building>,
-    /// What each mesh became, stored once however often it is used; `None` where nothing is left of it.
-    meshes: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
+    /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of
+    /// it.
+    shared: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
 }
 
 impl Lowering<'_, '_> {

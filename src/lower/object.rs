@@ -10,11 +10,11 @@ use super::place::next;
 use super::shape::Round;
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, body, shape};
+use super::{Fault, Lowering, NO_SIZE, blob, body, shape};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
-use crate::shape::Shape;
+use crate::shape::{Body, Shape};
 use crate::source::Site;
 
 /// What a child takes from above.
@@ -277,17 +277,22 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::cylinder(ends, radius, open)?, here, site)
             }
             Solid::Triangles { ref triangles, .. } => {
-                let known = match self.meshes.get(&id) {
-                    Some(known) => known.clone(),
-                    None => {
-                        let made = body::mesh(triangles)?;
-                        let made = made.map(|(body, frame)| (Arc::new(body), frame));
-                        self.meshes.entry(id).or_insert(made).clone()
-                    }
-                };
-                match known {
+                let made = self.shared(id, |_| body::mesh(triangles))?;
+                match made {
                     Some((body, frame)) => self.place_body(body, &frame, here, site),
                     None => Ok(()),
+                }
+            }
+            Solid::Blob(ref written) => {
+                let made =
+                    self.shared(id, |lowering| blob::blob(written, &mut lowering.transforms))?;
+                match made {
+                    Some((body, frame)) => self.place_body(body, &frame, here, site),
+                    None => {
+                        self.drop_part(site, "blob", "nowhere is it as strong as its threshold");
+                        self.nothing(here.flags.inverse);
+                        Ok(())
+                    }
                 }
             }
             Solid::Cone { ends, radii, open } => {
@@ -316,6 +321,19 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::polynomial(degree, terms)?, here, site)
             }
         }
+    }
+
+    /// What a solid became when it was first used, or becomes now.
+    fn shared(
+        &mut self,
+        id: ObjectId,
+        make: impl FnOnce(&mut Self) -> Result<Option<(Body, Affine)>, Fault>,
+    ) -> Result<Option<(Arc<Body>, Affine)>, Fault> {
+        if let Some(known) = self.shared.get(&id) {
+            return Ok(known.clone());
+        }
+        let made = make(self)?.map(|(body, frame)| (Arc::new(body), frame));
+        Ok(self.shared.entry(id).or_insert(made).clone())
     }
 }
 

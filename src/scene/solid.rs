@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::blob::Blob;
 use super::mesh::Triangles;
 use crate::math::Vector;
 use crate::math::vector::written;
@@ -23,6 +24,8 @@ pub enum Solid {
     Box {
         corners: [Vector; 2],
     },
+    /// Stored once, however often it is used.
+    Blob(Arc<Blob>),
     Cylinder {
         /// The middles of its two ends.
         ends: [Vector; 2],
@@ -87,6 +90,7 @@ impl Solid {
             Self::Sphere { .. } => Word::Sphere,
             Self::Plane { .. } => Word::Plane,
             Self::Box { .. } => Word::Box,
+            Self::Blob(_) => Word::Blob,
             Self::Cylinder { .. } => Word::Cylinder,
             Self::Cone { .. } => Word::Cone,
             Self::Disc { .. } => Word::Disc,
@@ -108,6 +112,7 @@ impl Solid {
             Self::Box { corners: [first, second] } => {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
+            Self::Blob(blob) => blob.is_weak(),
             Self::Cylinder { ends: [base, cap], radius, .. } => *radius == 0.0 || base == cap,
             Self::Cone { ends: [base, cap], radii, .. } => *radii == [0.0; 2] || base == cap,
             Self::Disc { radius, hole, .. } => radius.abs() <= hole.abs(),
@@ -130,6 +135,10 @@ impl fmt::Display for Solid {
             Self::Sphere { centre, radius } => write!(f, " {} {radius}", written(*centre)),
             Self::Plane { normal, distance } => write!(f, " {} {distance}", written(*normal)),
             Self::Box { corners: [a, b] } => write!(f, " {} {}", written(*a), written(*b)),
+            Self::Blob(blob) => {
+                let Blob { threshold, components } = &**blob;
+                write!(f, " of {} components, threshold {threshold}", components.len())
+            }
             Self::Cylinder { ends: [a, b], radius, open: is_open } => {
                 write!(f, " {} {} {radius}{}", written(*a), written(*b), open(*is_open))
             }

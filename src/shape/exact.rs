@@ -52,9 +52,9 @@ impl Double {
             return Self::of(0.0);
         }
         let rest = (self - ln_2 * Self::of(power)) * Self::of(1.0 / 256.0);
-        let series = (1..16).rev().fold(Self::of(1.0), |sum, k| {
-            Self::of(1.0) + rest * sum / Self::of(f64::from(k))
-        });
+        let series = (1..16)
+            .rev()
+            .fold(Self::of(1.0), |sum, k| Self::of(1.0) + rest * sum / Self::of(f64::from(k)));
         let value = (0..8).fold(series, |value, _| value * value);
         let scale = crate::math::double::power_of_two(power as i32);
         Self(value.0 * scale, value.1 * scale)

@@ -118,9 +118,7 @@ impl Ovus {
         match self.faces(out, along.z) {
             Part::Bottom => low * along.z + self.bottom * along.length(),
             Part::Top => high * along.z + self.top * along.length(),
-            Part::Side => {
-                self.centre * along.z - self.beyond * out + self.arc * along.length()
-            }
+            Part::Side => self.centre * along.z - self.beyond * out + self.arc * along.length(),
         }
     }
 }

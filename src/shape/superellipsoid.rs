@@ -124,10 +124,8 @@ impl Superellipsoid {
         };
         let rounding = self.rounding();
         let round = |v: Vector| norm(v.x, v.y, 0.5 * self.east).0;
-        let round = Interval {
-            low: round(least) * (1.0 - rounding),
-            high: round(most) * (1.0 + rounding),
-        };
+        let round =
+            Interval { low: round(least) * (1.0 - rounding), high: round(most) * (1.0 + rounding) };
         power(round, q - p) * (slope(0, p) + slope(1, p)) + slope(2, q)
     }
 

@@ -38,7 +38,7 @@ vocabulary! {
     }
     Shape {
         BicubicPatch "bicubic_patch" statement later "a surface of 16 Bézier control points";
-        Blob "blob" statement later "spheres and cylinders that melt into one surface";
+        Blob "blob" statement built "spheres and cylinders, each with a strength, that melt into one surface";
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
         Cone "cone" statement built "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
@@ -73,7 +73,7 @@ vocabulary! {
         AllIntersections "all_intersections" statement later "an isosurface counts all its crossings";
         BSpline "b_spline" statement later "a spline near its points";
         BezierSpline "bezier_spline" statement later "a spline of Bézier segments";
-        Component "component" statement later "the old word for a part of a blob";
+        Component "component" statement built "the old word for a part of a blob";
         ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
         ContainedBy "contained_by" statement later "the sphere or box that holds a function's surface";
         Cube "cube" statement later "the third power, in a julia_fractal";
@@ -102,10 +102,10 @@ vocabulary! {
         Slice "slice" statement later "the three-dimensional cut of a julia_fractal";
         Smooth "smooth" statement later "rounds a height_field by its normals";
         Spline "spline" statement built "a curve through points at given times";
-        Strength "strength" statement later "how strongly a part of a blob pulls";
+        Strength "strength" statement built "how strongly a part of a blob pulls";
         Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
         TextureList "texture_list" statement later "the textures of a mesh2";
-        Threshold "threshold" statement later "the value at which a blob or isosurface ends";
+        Threshold "threshold" statement built "the value at which a blob or isosurface ends";
         Tolerance "tolerance" statement later "how exactly a sphere_sweep is found";
         Ttf "ttf" statement later "a TrueType font";
         Type "type" statement later "the method by which a patch is drawn";

@@ -3,6 +3,7 @@
 //! **Invariant:** a mistake inside a block costs that block's object and no other; the items after it are
 //! read as if nothing had happened.
 
+mod blob;
 mod camera;
 mod color;
 mod color_map;

@@ -129,6 +129,12 @@ impl Place {
         Self { word: Some(word), families: FAMILIES, others: &[Word::Photons, Word::Radiosity] }
     }
 
+    /// The block of a part of a blob.
+    pub fn component(word: Word) -> Self {
+        let families = &[Family::Transform, Family::Texture];
+        Self { word: Some(word), families, others: &[] }
+    }
+
     /// The block of a union and its kin: shapes and modifiers.
     pub fn csg(word: Word) -> Self {
         const FAMILIES: &[Family] = &[

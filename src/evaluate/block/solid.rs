@@ -22,6 +22,7 @@ impl Evaluator<'_> {
             Word::Ovus => Self::ovus,
             Word::Superellipsoid => Self::superellipsoid,
             Word::Torus => Self::torus,
+            Word::Blob => Self::blob,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,
             Word::Quartic => Self::quartic,

@@ -65,7 +65,8 @@ impl<'a> Part<'a> {
             None if across(place).length_squared() < 1.0 => (from, to),
             None => (1.0, -1.0),
         };
-        let round = (round.0 < round.1 && round.0.is_finite() && round.1.is_finite()).then_some(round);
+        let round =
+            (round.0 < round.1 && round.0.is_finite() && round.1.is_finite()).then_some(round);
         let all = [ball(-half), round, ball(half)].into_iter().flatten();
         all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d))).map(part)
     }
@@ -90,7 +91,9 @@ impl<'a> Part<'a> {
         let bar = self.component.half;
         let is_beside = bar > 0.0 && point.z.abs() <= bar;
         let (from, way) = match is_beside {
-            true => (Vector::new(point.x, point.y, 0.0), Vector::new(self.step.x, self.step.y, 0.0)),
+            true => {
+                (Vector::new(point.x, point.y, 0.0), Vector::new(self.step.x, self.step.y, 0.0))
+            }
             false => (point - Vector::Z * bar.copysign(point.z), self.step),
         };
         let way = way * half;

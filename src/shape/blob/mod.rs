@@ -82,7 +82,8 @@ impl Component {
     /// How far its field may be off where the point may be by `off` in its own space.
     fn error(&self, Seen { from_bar, inner }: &Seen, off: f64) -> f64 {
         let square = 2.0 * from_bar.length() * off + off * off + 4.0 * U;
-        self.strength.abs() * (2.0 * inner.abs() * square + square * square + 4.0 * U * inner * inner)
+        self.strength.abs()
+            * (2.0 * inner.abs() * square + square * square + 4.0 * U * inner * inner)
     }
 }
 

@@ -1,8 +1,6 @@
 //! Blobs against twice the digits.
 
-use super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed,
-};
+use super::placed::{assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed};
 use super::*;
 use crate::shape::blob::Component;
 use crate::shape::body::Local;

@@ -66,9 +66,8 @@ fn of_exponents_1_it_is_a_sphere() {
     for _ in 0..tries_in(4) {
         let placed = placed(&mut random, Body::Superellipsoid(ball));
         let ray = ray_at_placed(&mut random, &placed);
-        let exactly = |_: &Body, [x, y, z]: Triple| {
-            (x * x + y * y + z * z).sqrt() - Double::of(1.0)
-        };
+        let exactly =
+            |_: &Body, [x, y, z]: Triple| (x * x + y * y + z * z).sqrt() - Double::of(1.0);
         assert_crossed_where_it_is(&mut random, &placed, &ray, exactly);
     }
 }
@@ -82,9 +81,9 @@ fn of_very_small_exponents_it_is_a_box() {
             let placed = placed(&mut random, Body::Superellipsoid(cube));
             let ray = ray_at_placed(&mut random, &placed);
             let exactly = |_: &Body, [x, y, z]: Triple| {
-                let greatest = [y, z].into_iter().fold(x.abs(), |most, c| {
-                    if (c.abs() - most).0 > 0.0 { c.abs() } else { most }
-                });
+                let greatest = [y, z]
+                    .into_iter()
+                    .fold(x.abs(), |most, c| if (c.abs() - most).0 > 0.0 { c.abs() } else { most });
                 greatest - Double::of(1.0)
             };
             if exponent < 1e-20 {

@@ -1,0 +1,176 @@
+//! Blobs: balls and bars with a strength each, and the threshold.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::scene::blob::{Blob, Component};
+use crate::scene::{Solid, TransformId};
+use crate::vocabulary::{Family, Word};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Poison;
+use super::super::{Evaluator, Outcome, Reported};
+use super::{Given, Place};
+
+impl Evaluator<'_> {
+    /// `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
+    pub(super) fn blob(&mut self, token: &Token) -> Outcome<Solid> {
+        let mut blob = Blob { threshold: 1.0, components: Vec::new() };
+        let (mut failed, mut count) = (false, 0);
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
+            let word = *word;
+            let read: fn(&mut Self, &Token, Word, &mut Blob) -> Outcome<()> = match word {
+                Word::Sphere | Word::Cylinder => Self::blob_component,
+                Word::Component => Self::old_component,
+                Word::Threshold => Self::threshold,
+                Word::Hierarchy | Word::Sturm => Self::inert_among_parts,
+                _ => break,
+            };
+            let Some(part) = self.next() else { break };
+            count += usize::from(word.family() == Family::Shape || word == Word::Component);
+            failed |= read(self, &part, word, &mut blob).is_err();
+            if !self.has_memory(blob.bytes()) {
+                return Err(self.too_much_memory(&part.here, part.span));
+            }
+        }
+        if failed || self.poison.is_some() {
+            return Err(Reported);
+        }
+        self.stored += blob.bytes();
+        if count == 0 {
+            let diagnostic = Diagnostic::new(Code::MissingPart, "this blob has no component")
+                .at(token.span, "nothing to melt together")
+                .help("a component is written `sphere { <center>, radius, strength }`");
+            return Err(self.report(&token.here, diagnostic));
+        }
+        if blob.is_weak() {
+            let message = format!(
+                "the strengths of this blob add up to no more than its threshold, {}",
+                blob.threshold
+            );
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                .at(token.span, "nothing is left of it");
+            self.scene.sizeless.push((Word::Blob.name(), token.here.site(token.span)));
+            self.report(&token.here, diagnostic);
+        }
+        Ok(Solid::Blob(Arc::new(blob)))
+    }
+
+    fn threshold(&mut self, token: &Token, word: Word, blob: &mut Blob) -> Outcome<()> {
+        let given = self.number_after(token, "a number for the threshold")?;
+        if given.value <= 0.0 {
+            return Err(self.out_of_range(&given, word, "more than 0"));
+        }
+        blob.threshold = given.value;
+        Ok(())
+    }
+
+    fn inert_among_parts(&mut self, token: &Token, _: Word, _: &mut Blob) -> Outcome<()> {
+        self.inert(token, Place::shape(Word::Blob)).unwrap_or(Ok(()))
+    }
+
+    /// `sphere { <centre>, radius, strength … }`, `cylinder { <end>, <end>, radius, strength … }`.
+    fn blob_component(&mut self, token: &Token, word: Word, blob: &mut Blob) -> Outcome<()> {
+        self.block(token, word, |evaluator| {
+            let is_bar = word == Word::Cylinder;
+            if let Some(reported) = evaluator.bare_points(if is_bar { 2 } else { 1 }, 2) {
+                return Err(reported);
+            }
+            let first = if is_bar { "an end" } else { "the centre" };
+            let a = evaluator.vector_after(token, &format!("a vector for {first}"));
+            let b = match is_bar {
+                true => Some(evaluator.vector_after(token, "a vector for the other end")),
+                false => None,
+            };
+            let radius = evaluator.number_after(token, "a number for the radius");
+            evaluator.skip_commas();
+            let _ = evaluator.take_word(Word::Strength);
+            let strength = evaluator.number_after(token, "a number for the strength");
+            let (a, b, radius, strength) = (a?, b.transpose()?, radius?, strength?);
+            if let Some(b) = b.as_ref().filter(|b| b.value == a.value) {
+                let message = "a cylinder of a blob whose ends are in one place is a sphere";
+                let diagnostic = Diagnostic::new(Code::ZeroSize, message)
+                    .at(b.span, "expected another place")
+                    .also(a.span, "the first end");
+                return Err(evaluator.report(&b.here, diagnostic));
+            }
+            let transforms = evaluator.component_modifiers(word)?;
+            let ends = [a.value, b.map_or(a.value, |b| b.value)];
+            evaluator.add_component(ends, radius, strength, transforms, blob);
+            Ok(())
+        })
+    }
+
+    /// `component strength, radius, <centre>`.
+    fn old_component(&mut self, token: &Token, _: Word, blob: &mut Blob) -> Outcome<()> {
+        let strength = self.number_after(token, "a number for the strength");
+        let radius = self.number_after(token, "a number for the radius");
+        let centre = self.vector_after(token, "a vector for the centre");
+        let (strength, radius, centre) = (strength?, radius?, centre?);
+        self.add_component([centre.value; 2], radius, strength, Vec::new(), blob);
+        Ok(())
+    }
+
+    /// A component without size or strength is told, and left out.
+    fn add_component(
+        &mut self,
+        ends: [Vector; 2],
+        radius: Given<f64>,
+        strength: Given<f64>,
+        transforms: Vec<TransformId>,
+        blob: &mut Blob,
+    ) {
+        for (given, what) in [(&radius, "radius"), (&strength, "strength")] {
+            if given.value == 0.0 {
+                let message = format!("a component of {what} 0 has no field");
+                let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                    .at(given.span, "left out: nothing of it could be seen");
+                self.report(&given.here, diagnostic);
+                return;
+            }
+        }
+        if radius.value < 0.0 {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
+        let (radius, strength) = (radius.value, strength.value);
+        blob.components.push(Component { ends, radius, strength, transforms });
+    }
+
+    /// The transforms of a component. A texture of its own is read, and not built.
+    fn component_modifiers(&mut self, word: Word) -> Outcome<Vec<TransformId>> {
+        let (mut transforms, mut failed) = (Vec::new(), false);
+        while let Some(token) = self.next() {
+            match (self.transform_from(&token), token.kind.clone()) {
+                (Some(transform), _) => match transform {
+                    Ok(transform) => transforms.push(transform),
+                    Err(Reported) => failed = true,
+                },
+                (None, TokenKind::Comma) => {}
+                (None, TokenKind::Word(of @ (Word::Texture | Word::Pigment))) => {
+                    failed |= match of {
+                        Word::Texture => self.texture(&token).is_err(),
+                        _ => self.pigment(&token).is_err(),
+                    };
+                    self.not_per_component(&token);
+                }
+                (None, TokenKind::Word(of @ (Word::Finish | Word::Normal))) => {
+                    self.skip_arguments(of);
+                    self.not_per_component(&token);
+                }
+                (None, _) => {
+                    self.unexpected(&token, Place::component(word));
+                    failed = true;
+                }
+            }
+        }
+        if failed { Err(Reported) } else { Ok(transforms) }
+    }
+
+    fn not_per_component(&mut self, token: &Token) {
+        let site = token.here.site(token.span);
+        self.set_poison(Poison { word: Word::Component, site });
+    }
+}
