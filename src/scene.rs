@@ -9,6 +9,7 @@ pub mod light;
 pub mod mesh;
 pub mod print;
 pub mod solid;
+pub mod sweep;
 
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;

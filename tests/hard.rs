@@ -1,5 +1,7 @@
 //! Hard cases: what other tracers get wrong by a last digit, held against exact arithmetic.
 
+#[path = "hard/alike.rs"]
+mod alike;
 #[path = "hard/clear.rs"]
 mod clear;
 mod dice;

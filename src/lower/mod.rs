@@ -17,6 +17,7 @@ mod modifier;
 mod object;
 mod place;
 mod shape;
+mod sweep;
 mod texture;
 mod transform;
 mod unseen;

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use super::csg::{Making, Open};
 use super::modifier::{Calls, Flags, Modified};
 use super::place::next;
-use super::shape::Round;
+use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, blob, body, shape};
+use super::{Fault, Lowering, NO_SIZE, blob, body, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -308,6 +308,12 @@ impl<'s> Lowering<'s, '_> {
                 self.solid(id, &ball, here, site)
             }
             Solid::Ovus { bottom, top } => self.place_made(body::ovus(bottom, top), here, site),
+            Solid::SphereSweep(ref written) => {
+                match self.shared(id, |_| sweep::sphere_sweep(written))? {
+                    Some((body, frame)) => self.place_body(body, &frame, here, site),
+                    None => Err(no_size("this sphere_sweep has no thickness")),
+                }
+            }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::blob::Blob;
 use super::mesh::Triangles;
+use super::sweep::Sweep;
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -54,6 +55,8 @@ pub enum Solid {
         bottom: f64,
         top: f64,
     },
+    /// Stored once, however often it is used.
+    SphereSweep(Arc<Sweep>),
     /// Between −1 and 1 along each axis.
     Superellipsoid {
         /// East-west and north-south, more than 0.
@@ -95,6 +98,7 @@ impl Solid {
             Self::Cone { .. } => Word::Cone,
             Self::Disc { .. } => Word::Disc,
             Self::Ovus { .. } => Word::Ovus,
+            Self::SphereSweep(_) => Word::SphereSweep,
             Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
@@ -117,6 +121,7 @@ impl Solid {
             Self::Cone { ends: [base, cap], radii, .. } => *radii == [0.0; 2] || base == cap,
             Self::Disc { radius, hole, .. } => radius.abs() <= hole.abs(),
             Self::Ovus { bottom, top } => bottom.max(*top) == 0.0,
+            Self::SphereSweep(sweep) => sweep.is_sizeless(),
             Self::Torus { minor, .. } => *minor == 0.0,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
@@ -150,6 +155,9 @@ impl fmt::Display for Solid {
                 write!(f, " {} {} {radius} {hole}", written(*centre), written(*normal))
             }
             Self::Ovus { bottom, top } => write!(f, " {bottom} {top}"),
+            Self::SphereSweep(sweep) => {
+                write!(f, " {} of {} spheres", sweep.kind.word().name(), sweep.spheres.len())
+            }
             Self::Superellipsoid { exponents: [e, n] } => write!(f, " <{e}, {n}>"),
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Polynomial { degree, terms, .. } => {

@@ -14,6 +14,7 @@ use super::disc::Disc;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::superellipsoid::Superellipsoid;
+use super::sweep::SphereSweep;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -220,6 +221,7 @@ bodies! {
     Mesh "mesh"
     Disc "disc"
     Ovus "ovus"
+    SphereSweep "sphere_sweep"
     Superellipsoid "superellipsoid"
     Torus "torus"
 }

@@ -18,6 +18,7 @@ pub mod placed;
 pub mod plane;
 pub mod sphere;
 pub mod superellipsoid;
+pub mod sweep;
 pub mod torus;
 mod tree;
 
@@ -35,6 +36,7 @@ pub use placed::Placed;
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use superellipsoid::Superellipsoid;
+pub use sweep::SphereSweep;
 pub use torus::Torus;
 
 use crate::math::{Real, Vector, Vector3};

@@ -14,6 +14,7 @@ mod mesh;
 mod ovus;
 mod placed;
 mod superellipsoid;
+mod sweep;
 
 const EPS: f64 = f64::EPSILON;
 

@@ -62,7 +62,7 @@ vocabulary! {
         SmoothTriangle "smooth_triangle" statement built "a triangle with a normal at each corner";
         Sor "sor" statement later "a solid of revolution";
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
-        SphereSweep "sphere_sweep" statement later "a sphere moved along a spline";
+        SphereSweep "sphere_sweep" statement built "`sphere_sweep { linear_spline count, <centre>, radius, … }`: a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
         Text "text" statement later "letters of a font as a solid";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
@@ -71,7 +71,7 @@ vocabulary! {
     ShapeItem {
         Accuracy "accuracy" statement later "how exactly a surface or a normal is found";
         AllIntersections "all_intersections" statement later "an isosurface counts all its crossings";
-        BSpline "b_spline" statement later "a spline near its points";
+        BSpline "b_spline" statement built "a spline near its points";
         BezierSpline "bezier_spline" statement later "a spline of Bézier segments";
         Component "component" statement built "the old word for a part of a blob";
         ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
@@ -106,7 +106,7 @@ vocabulary! {
         Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
         TextureList "texture_list" statement later "the textures of a mesh2";
         Threshold "threshold" statement built "the value at which a blob or isosurface ends";
-        Tolerance "tolerance" statement later "how exactly a sphere_sweep is found";
+        Tolerance "tolerance" statement inert "how exactly a sphere_sweep is found; every crossing has its error bound";
         Ttf "ttf" statement later "a TrueType font";
         Type "type" statement later "the method by which a patch is drawn";
         USteps "u_steps" statement later "how often a patch is divided along u";

@@ -17,7 +17,7 @@ const OFF: f64 = 0.03;
 /// A pixel whose exact colour changes by more than that so near its centre, in pixels, is not judged.
 const NEAR: f64 = 1e-3;
 
-const SIZE: (u32, u32) = (48, 36);
+pub const SIZE: (u32, u32) = (48, 36);
 
 /// By the road that the command line takes. Warnings are allowed, errors are not.
 pub fn compiled(text: &str) -> (World, Origins) {
@@ -44,9 +44,14 @@ pub fn hold(name: &str, scene: &Scene) {
 
 /// As [`hold`], in a given size.
 #[track_caller]
-pub fn hold_sized(name: &str, scene: &Scene, (width, height): (u32, u32)) {
-    let text = scene.text();
-    let film = rendered(&text, (width, height));
+pub fn hold_sized(name: &str, scene: &Scene, size: (u32, u32)) {
+    hold_text(name, scene, &scene.text(), size);
+}
+
+/// As [`hold_sized`], of a text that is to show the scene in words of its own.
+#[track_caller]
+pub fn hold_text(name: &str, scene: &Scene, text: &str, (width, height): (u32, u32)) {
+    let film = rendered(text, (width, height));
     let exact = Exact::new(scene);
     let at = |x: f64, y: f64| exact.at(x, y, width, height);
     let (mut bad, mut unjudged, mut shown) = (Vec::new(), 0, false);

@@ -80,9 +80,9 @@ impl Evaluator<'_> {
                 return Err(reported);
             }
             let first = if is_bar { "an end" } else { "the centre" };
-            let a = evaluator.vector_after(token, &format!("a vector for {first}"));
+            let a = evaluator.point(token, &format!("a vector for {first}"));
             let b = match is_bar {
-                true => Some(evaluator.vector_after(token, "a vector for the other end")),
+                true => Some(evaluator.point(token, "a vector for the other end")),
                 false => None,
             };
             let radius = evaluator.number_after(token, "a number for the radius");
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
     fn old_component(&mut self, token: &Token, _: Word, blob: &mut Blob) -> Outcome<()> {
         let strength = self.number_after(token, "a number for the strength");
         let radius = self.number_after(token, "a number for the radius");
-        let centre = self.vector_after(token, "a vector for the centre");
+        let centre = self.point(token, "a vector for the centre");
         let (strength, radius, centre) = (strength?, radius?, centre?);
         self.add_component([centre.value; 2], radius, strength, Vec::new(), blob);
         Ok(())

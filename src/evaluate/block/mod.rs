@@ -24,6 +24,7 @@ mod polynomial;
 mod settings;
 mod skip;
 mod solid;
+mod sweep;
 mod texture;
 mod transform;
 mod unbuilt;

@@ -20,6 +20,7 @@ impl Evaluator<'_> {
             Word::Cone => Self::cone,
             Word::Disc => Self::disc,
             Word::Ovus => Self::ovus,
+            Word::SphereSweep => Self::sphere_sweep,
             Word::Superellipsoid => Self::superellipsoid,
             Word::Torus => Self::torus,
             Word::Blob => Self::blob,
@@ -63,7 +64,7 @@ impl Evaluator<'_> {
     }
 
     /// A point where bare numbers may follow that are none of its own.
-    fn point(&mut self, shape: &Token, wanted: &str) -> Outcome<Given<Vector>> {
+    pub(super) fn point(&mut self, shape: &Token, wanted: &str) -> Outcome<Given<Vector>> {
         let given = self.given(shape, wanted)?;
         self.as_vector(given, wanted)
     }

@@ -51,6 +51,20 @@ fn a_mesh_placed_ten_thousand_times_is_stored_once() {
 }
 
 #[test]
+fn a_blob_or_a_sweep_placed_ten_thousand_times_is_stored_once() {
+    for shape in [
+        "blob { sphere { 0, 1, 2 } cylinder { 0, x, 1, 3 rotate 30*z } }",
+        "sphere_sweep { b_spline 4, 0, 1, x, 2, y, 1, z, 1 }",
+    ] {
+        let scene = format!("#declare M = {shape} #for (I, 1, 10000) object {{ M scale I }} #end");
+        let (world, _) = world(&scene);
+        assert_eq!(world.placed.len(), 10_000);
+        let first = &world.placed[0].body;
+        assert!(world.placed.iter().all(|placed| Arc::ptr_eq(&placed.body, first)));
+    }
+}
+
+#[test]
 fn a_mesh2_and_a_mesh_of_the_same_triangles_are_one() {
     let triangles = "mesh {
         triangle { <1, 1, 1>, <1, -1, -1>, <-1, 1, -1> }

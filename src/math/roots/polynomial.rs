@@ -356,6 +356,13 @@ fn root_between(values: &[f64], change: Change, tolerance: f64) -> f64 {
     s
 }
 
+/// Where a polynomial changes its sign between two places, to rounding, if it has opposite ones there.
+pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64> {
+    let (below, above) = (value(values, low), value(values, high));
+    let change = Change { low, high, rising: above > 0.0 };
+    (below * above < 0.0).then(|| root_between(values, change, 0.0))
+}
+
 fn value(values: &[f64], s: f64) -> f64 {
     values.iter().rev().fold(0.0, |sum, c| sum * s + c)
 }

@@ -1,0 +1,70 @@
+//! Sphere sweeps: how it goes on, how many spheres, and each.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::Solid;
+use crate::scene::sweep::{Kind, Sweep};
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Outcome};
+
+impl Evaluator<'_> {
+    /// `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
+    pub(super) fn sphere_sweep(&mut self, token: &Token) -> Outcome<Solid> {
+        self.skip_commas();
+        let kinds = Kind::ALL.into_iter();
+        let Some((kind, word)) =
+            kinds.filter_map(|kind| Some((kind, self.take_word(kind.word())?))).next()
+        else {
+            let found = self.peek().cloned();
+            let wanted = "`linear_spline`, `b_spline` or `cubic_spline`";
+            return Err(self.expected(wanted, found.as_ref(), (&token.here, token.span.after())));
+        };
+        let count = self.number_after(&word, "how many spheres there are")?;
+        let name = kind.word().name();
+        if count.value < kind.least() as f64 {
+            let least = kind.least();
+            let message = format!("a sphere_sweep by `{name}` has {least} spheres or more");
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(count.span, format!("expected {least} or more"))
+                .also(word.span, "for this");
+            return Err(self.report(&count.here, diagnostic));
+        }
+        // No more than memory could hold; those that are not there are told as missing.
+        let wanted = count.value as u32 as usize;
+        let mut sweep = Sweep { kind, spheres: Vec::new() };
+        while sweep.spheres.len() < wanted {
+            let nth = sweep.spheres.len() + 1;
+            let centre = self.point(token, &format!("a vector for the centre of sphere {nth}"))?;
+            let radius =
+                self.number_after(token, &format!("a number for the radius of sphere {nth}"))?;
+            if radius.value < 0.0 {
+                self.lint_negative_radius(&radius.here, radius.span, radius.value);
+            }
+            sweep.spheres.push((centre.value, radius.value));
+            if !self.has_memory(sweep.bytes()) {
+                return Err(self.too_much_memory(&token.here, token.span));
+            }
+        }
+        self.skip_commas();
+        if let Some(TokenKind::Expression(_) | TokenKind::Literal(_)) =
+            self.peek().map(|next| &next.kind)
+            && let Some(next) = self.next()
+        {
+            let message = format!("this sphere_sweep has more than {wanted} spheres");
+            let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                .at(next.span, "one too many")
+                .also(count.span, "so many were announced");
+            return Err(self.report(&next.here, diagnostic));
+        }
+        if sweep.is_sizeless() {
+            let message = "a sphere_sweep of radius 0 throughout is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(token.span, "expected a radius of more than 0");
+            self.nothing(token, &token.here, diagnostic)?;
+        }
+        self.stored += sweep.bytes();
+        Ok(Solid::SphereSweep(Arc::new(sweep)))
+    }
+}

@@ -1,0 +1,255 @@
+//! Sphere sweep: all balls whose centre and radius go along polynomials of degree 3, piece after piece.
+//!
+//! A line meets a ball between two places, which change steadily as the ball moves on. So what it meets of
+//! a stretch of balls that it meets without a break is one piece of the line, from the least of the places
+//! where it enters one to the greatest of those where it leaves one.
+
+mod along;
+
+use smallvec::SmallVec;
+
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::tree::Tree;
+use super::{Bounds, U};
+use crate::math::Vector;
+
+/// A part names a segment and in which of so many stretches of it the ball is.
+const STRETCHES: f64 = 1024.0;
+
+/// Balls whose centre and radius are c₀ + c₁u + c₂u² + c₃u³ for u from 0 to 1. A negative radius is as good
+/// as a positive one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    pub centre: [Vector; 4],
+    pub radius: [f64; 4],
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereSweep {
+    /// In the order of the tree.
+    segments: Vec<Segment>,
+    tree: Tree,
+    reach: f64,
+}
+
+fn cubic(c: [f64; 4], u: f64) -> f64 {
+    ((c[3] * u + c[2]) * u + c[1]) * u + c[0]
+}
+
+/// Where c₁ + 2c₂u + 3c₃u² is 0, and both ends.
+fn extremes([_, b, c, d]: [f64; 4]) -> impl Iterator<Item = f64> {
+    let root = (c * c - 3.0 * d * b).sqrt();
+    let q = -(c + root.copysign(c));
+    let within = |u: &f64| 0.0 < *u && *u < 1.0;
+    [q / (3.0 * d), b / q].into_iter().filter(within).chain([0.0, 1.0])
+}
+
+impl Segment {
+    fn centre_at(&self, u: f64) -> Vector {
+        let [a, b, c, d] = self.centre;
+        ((d * u + c) * u + b) * u + a
+    }
+
+    fn radius_at(&self, u: f64) -> f64 {
+        cubic(self.radius, u)
+    }
+
+    /// How far rounding may move a centre or a surface.
+    fn rounding(&self) -> f64 {
+        let centre: f64 = self.centre.iter().map(|c| c.length()).sum();
+        8.0 * U * (centre + self.radius.iter().map(|r| r.abs()).sum::<f64>())
+    }
+
+    fn greatest(&self, along: Vector) -> f64 {
+        let size = along.length();
+        let place = self.centre.map(|c| c.dot(along));
+        let reach = |way: f64| {
+            let sum = [0, 1, 2, 3].map(|k| place[k] + way * size * self.radius[k]);
+            extremes(sum).map(|u| cubic(sum, u)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        reach(1.0).max(reach(-1.0)) + size * self.rounding()
+    }
+
+    fn bounds(&self) -> Bounds {
+        let axes = [Vector::X, Vector::Y, Vector::Z];
+        let high = axes.map(|axis| self.greatest(axis));
+        let low = axes.map(|axis| -self.greatest(-axis));
+        Bounds { low: Vector::from_array(low), high: Vector::from_array(high) }
+    }
+
+    /// No ball reaches farther from the origin: none reaches farther than those of the four control points.
+    fn reach(&self) -> f64 {
+        let [a, b, c, d] = self.centre;
+        let [p, q, r, s] = self.radius;
+        let centres = [a, a + b / 3.0, a + (b * 2.0 + c) / 3.0, a + b + c + d];
+        let radii = [p, p + q / 3.0, p + (2.0 * q + r) / 3.0, p + q + r + s];
+        let reach = |(centre, radius): (Vector, f64)| centre.length() + radius.abs();
+        centres.into_iter().zip(radii).map(reach).fold(0.0, f64::max) + self.rounding()
+    }
+
+    /// How far a point is from the ball at u, with the first two derivatives.
+    fn distance(&self, point: Vector, u: f64) -> [f64; 3] {
+        let ([_, b, c, d], [_, q, r, s]) = (self.centre, self.radius);
+        let from = point - self.centre_at(u);
+        let length = from.length();
+        let unit = from / length;
+        let (speed, bend) = ((d * (3.0 * u) + c * 2.0) * u + b, d * (6.0 * u) + c * 2.0);
+        let radius = self.radius_at(u);
+        let way = radius.signum();
+        let (radius_speed, radius_bend) =
+            (way * ((3.0 * s * u + 2.0 * r) * u + q), way * (6.0 * s * u + 2.0 * r));
+        let along = unit.dot(speed);
+        [
+            length - radius.abs(),
+            -along - radius_speed,
+            (speed.length_squared() - along * along) / length - unit.dot(bend) - radius_bend,
+        ]
+    }
+
+    /// The ball near the one at u that is nearest to a point.
+    fn nearest(&self, point: Vector, u: f64) -> f64 {
+        let (mut best, mut least) = (u, self.distance(point, u));
+        for _ in 0..16 {
+            let [value, slope, bend] = least;
+            let step = if bend > 0.0 { slope / bend } else { slope.signum() / STRETCHES };
+            let next = (best - step).clamp(0.0, 1.0);
+            let there = self.distance(point, next);
+            if !(there[0] < value) || next == best {
+                break;
+            }
+            (best, least) = (next, there);
+        }
+        best
+    }
+}
+
+impl SphereSweep {
+    /// Of finite numbers; `None` of no segments.
+    pub fn new(segments: Vec<Segment>) -> Option<Self> {
+        if segments.is_empty() {
+            return None;
+        }
+        let (tree, order) = Tree::build(&segments.iter().map(Segment::bounds).collect::<Vec<_>>());
+        let segments: Vec<_> = order.into_iter().map(|i| segments[i as usize]).collect();
+        let reach = segments.iter().map(Segment::reach).fold(0.0, f64::max) * (1.0 + 8.0 * U);
+        Some(Self { segments, tree, reach })
+    }
+}
+
+fn part(segment: usize, u: f64) -> u32 {
+    let stretch = (u * STRETCHES).min(STRETCHES - 1.0) as u32;
+    segment as u32 * STRETCHES as u32 + stretch
+}
+
+impl Local for SphereSweep {
+    /// The pieces of the line that lie in segments, of which those that touch become one.
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let mut pieces: SmallVec<[(Met, Met); 8]> = SmallVec::new();
+        self.tree.along(ray, ray.blur_at(self.reach) + 4.0 * U, |run| {
+            for number in run {
+                along::pieces(&self.segments[number], ray, |[enter, leave]| {
+                    let met = |place: along::Place, leaving| Met {
+                        t: place.s,
+                        error: place.error,
+                        leaving,
+                        part: part(number, place.u),
+                    };
+                    pieces.push((met(enter, false), met(leave, true)));
+                });
+            }
+        });
+        pieces.sort_unstable_by(|a, b| a.0.t.total_cmp(&b.0.t).then(a.0.part.cmp(&b.0.part)));
+        let mut pieces = pieces.into_iter();
+        let Some(mut last) = pieces.next() else { return };
+        for (enter, leave) in pieces {
+            if enter.t - enter.error <= last.1.t + last.1.error {
+                last = (last.0.earlier(enter), last.1.later(leave));
+            } else {
+                found.extend([last.0, last.1]);
+                last = (enter, leave);
+            }
+        }
+        found.extend([last.0, last.1]);
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        let number = (part / STRETCHES as u32) as usize;
+        let Some(segment) = self.segments.get(number) else {
+            return Height { value: 0.0, gradient: Vector::Y, error: 0.0 };
+        };
+        let stretch = f64::from(part % STRETCHES as u32);
+        let u = segment.nearest(point, (stretch + 0.5) / STRETCHES);
+        let from = point - segment.centre_at(u);
+        let length = from.length();
+        Height {
+            value: length - segment.radius_at(u).abs(),
+            gradient: from / length,
+            error: segment.rounding() + 4.0 * U * length,
+        }
+    }
+
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let greatest = |along: Vector| {
+            self.tree.greatest(along, |run| {
+                let reach = self.segments[run].iter().map(|segment| segment.greatest(along));
+                reach.fold(f64::NEG_INFINITY, f64::max)
+            })
+        };
+        (-greatest(-along), greatest(along))
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn numbers(&self) -> String {
+        format!(" of {}", self.segments.len())
+    }
+
+    /// A line through the point tells.
+    fn contains(&self, point: Vector) -> bool {
+        let (nearest, direction) = (Vector::new(0.0, point.y, point.z), Vector::X);
+        let ray = LocalRay { nearest, direction, blur: 0.0, turn: 0.0, tolerance: 0.0 };
+        let mut found = Crossings::new();
+        self.crossings(&ray, &mut found);
+        found.iter().filter(|met| met.t < point.x).count() % 2 == 1
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+impl SphereSweep {
+    /// The distance to the nearest ball in twice the digits: the nearest of many is found in `f64`.
+    pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
+        use super::exact::{Double, dot, minus, triple};
+        let n = Double::of;
+        let near = Vector::new(point[0].0, point[1].0, point[2].0);
+        let distance = |segment: &Segment, u: Double| {
+            let [a, b, c, d] = segment.centre.map(triple);
+            let centre = [0, 1, 2].map(|i| ((d[i] * u + c[i]) * u + b[i]) * u + a[i]);
+            let [p, q, r, s] = segment.radius.map(n);
+            let from = minus(point, centre);
+            dot(from, from).sqrt() - (((s * u + r) * u + q) * u + p).abs()
+        };
+        let mut best = n(1e9);
+        for segment in &self.segments {
+            let (mut at, mut least) = (0.0, f64::INFINITY);
+            for step in 0..=40 {
+                let u = segment.nearest(near, f64::from(step) / 40.0);
+                let value = segment.distance(near, u)[0];
+                if value < least {
+                    (at, least) = (u, value);
+                }
+            }
+            // What is left of the slope is of the second order.
+            let value = distance(segment, n(at));
+            if (value - best).0 < 0.0 {
+                best = value;
+            }
+        }
+        best
+    }
+}
