@@ -2,8 +2,9 @@
 //! it and its slope lie.
 //!
 //! **In:** the function at places, and over pieces. **Out:** where it certainly changes its sign, in order.
-//! **Invariant:** between two neighbouring roots there is a place of certain sign; no piece is let go in
-//! which the function could have a certain sign other than at its ends.
+//! **Invariant:** between two neighbouring roots there is a place of certain sign; up to a
+//! great number of pieces, none is let go in which the function could have a certain sign other than at its
+//! ends.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*, 2009, ch. 8.
 
@@ -11,6 +12,12 @@ use smallvec::SmallVec;
 
 use super::bracket::{Root, Sample, root};
 use crate::math::interval::Interval;
+
+/// A line may lie in a surface, and could be parted for ever: of so many pieces only the ends are looked at.
+const MOST: usize = 1024;
+
+/// From where to where, and whether it need not be parted.
+type Pieces = SmallVec<[(f64, f64, bool); 32]>;
 
 /// Finds roots along a line, piece after piece.
 pub struct Walk<S> {
@@ -46,23 +53,91 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
     /// function was meant.
     pub fn through(
         &mut self,
-        (low, high): (f64, f64),
+        ends: (f64, f64),
         value: impl Fn(Interval) -> Interval,
         slope: impl Fn(Interval) -> Interval,
         found: &mut impl FnMut(Root, bool),
     ) {
-        let mut pieces: SmallVec<[(f64, f64); 64]> = SmallVec::new();
-        pieces.push((low, high));
-        while let Some((low, high)) = pieces.pop() {
+        let is_simple = |low, high| {
             let piece = Interval { low, high };
-            let middle = 0.5 * (low + high);
-            let is_simple = !value(piece).contains(0.0) || !slope(piece).contains(0.0);
-            if is_simple || !(low < middle && middle < high) {
-                self.advance(low, found);
-                self.advance(high, found);
-            } else {
-                pieces.extend([(middle, high), (low, middle)]);
+            !value(piece).contains(0.0) || !slope(piece).contains(0.0)
+        };
+        let mut pieces: Pieces = SmallVec::from_slice(&[(ends.0, ends.1, false)]);
+        while pieces.len() < MOST && pieces.iter().any(|(_, _, is_done)| !is_done) {
+            let mut finer = Pieces::new();
+            for (low, high, is_done) in pieces {
+                let middle = 0.5 * (low + high);
+                if is_done || !(low < middle && middle < high) || is_simple(low, high) {
+                    finer.push((low, high, true));
+                } else {
+                    finer.extend([(low, middle, false), (middle, high, false)]);
+                }
+            }
+            pieces = finer;
+        }
+        self.advance(ends.0, found);
+        for (_, high, _) in pieces {
+            self.advance(high, found);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Random, tries};
+
+    fn roots(count: &mut usize, shift: f64, ends: (f64, f64)) -> Vec<(Root, bool)> {
+        // (s² − 1)·s − shift.
+        let sample = |s: f64| Sample {
+            value: (s * s - 1.0) * s - shift,
+            slope: 3.0 * s * s - 1.0,
+            error: 1e-14,
+        };
+        let one = Interval::point(1.0);
+        let value = |s: Interval| {
+            *count += 1;
+            (s.square() - one) * s - Interval::point(shift)
+        };
+        let value = std::cell::RefCell::new(value);
+        let slope = |s: Interval| Interval::point(3.0) * s.square() - one;
+        let mut found = Vec::new();
+        let mut walk = Walk::new(sample, 0.0);
+        let mut note = |root, rising| found.push((root, rising));
+        walk.through(ends, |s| (value.borrow_mut())(s), slope, &mut note);
+        found
+    }
+
+    #[test]
+    fn all_roots_are_found_in_order_and_none_where_the_function_turns_before_zero() {
+        let mut random = Random(13);
+        // Where the cubic turns, it is as far from 0 as this.
+        let crest = 2.0 / 27.0_f64.sqrt();
+        for _ in 0..tries() / 10 {
+            let shift = match random.below(3) {
+                0 => crest * (1.0 + random.size(-9.0, 0.0)),
+                1 => -crest * (1.0 - random.size(-9.0, 0.0)),
+                _ => random.number(-1.0, 1.0),
+            };
+            let mut count = 0;
+            let found = roots(&mut count, shift, (-3.0, 3.0));
+            let expected = if shift.abs() < crest { 3 } else { 1 };
+            assert_eq!(found.len(), expected, "{shift} {found:?}");
+            for (i, (root, rising)) in found.iter().enumerate() {
+                assert_eq!(*rising, i % 2 == 0, "{shift} {found:?}");
+                let off = |s: f64| (s * s - 1.0) * s - shift;
+                let (before, behind) = (off(root.t - root.error), off(root.t + root.error));
+                assert!(before * behind <= 0.0, "{shift} {root:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_function_that_may_be_0_all_along_comes_to_an_end() {
+        let all = |_: Interval| Interval { low: -1.0, high: 1.0 };
+        let nothing = |_: f64| Sample { value: 0.0, slope: 0.0, error: 1.0 };
+        let mut found = 0;
+        Walk::new(nothing, 0.0).through((0.0, 1.0), all, all, &mut |_, _| found += 1);
+        assert_eq!(found, 0);
     }
 }

@@ -138,7 +138,8 @@ impl SphereSweep {
 
 fn part(segment: usize, u: f64) -> u32 {
     let stretch = (u * STRETCHES).min(STRETCHES - 1.0) as u32;
-    segment as u32 * STRETCHES as u32 + stretch
+    // Beyond four million segments all are taken for one.
+    (segment as u32).saturating_mul(STRETCHES as u32).saturating_add(stretch).min(Met::UNSEEN - 1)
 }
 
 impl Local for SphereSweep {
@@ -234,7 +235,7 @@ impl SphereSweep {
             let from = minus(point, centre);
             dot(from, from).sqrt() - (((s * u + r) * u + q) * u + p).abs()
         };
-        let mut best = n(1e9);
+        let mut best = n(1000.0);
         for segment in &self.segments {
             let (mut at, mut least) = (0.0, f64::INFINITY);
             for step in 0..=40 {
