@@ -12,13 +12,17 @@ fn balls(r: f64) -> [(&'static str, String); 6] {
         ("a blob", format!("blob {{ sphere {{ <0, 0, 0>, {wide:e}, 4 }}")),
         (
             "a blob of two thresholds",
-            format!("blob {{ threshold 2 sphere {{ <0, 0, 0>, {wide:e}, 3 }} sphere {{ <0, 0, 0>, {wide:e}, 5 }}"),
+            format!(
+                "blob {{ threshold 2 sphere {{ <0, 0, 0>, {wide:e}, 3 }} sphere {{ <0, 0, 0>, {wide:e}, 5 }}"
+            ),
         ),
         ("a superellipsoid", format!("superellipsoid {{ <1, 1> scale {r:e}")),
         ("an ovus", format!("ovus {{ {third:e}, {r:e} translate {:e}*y", -third)),
         (
             "a sweep",
-            format!("sphere_sweep {{ linear_spline 2, <0, 0, 0>, {r:e}, <{half:e}, 0, 0>, {third:e}"),
+            format!(
+                "sphere_sweep {{ linear_spline 2, <0, 0, 0>, {r:e}, <{half:e}, 0, 0>, {third:e}"
+            ),
         ),
         (
             "a curved sweep",
