@@ -191,9 +191,8 @@ impl Local for Superellipsoid {
     fn extent(&self, along: Vector) -> (f64, f64) {
         let dual = |exponent: f64| (1.0 - 0.5 * exponent).max(0.0);
         let Vector { x, y, z } = along.abs();
-        let half = match (dual(self.east), dual(self.north)) {
-            (east, north) => largest(largest(x, y, east), z, north),
-        };
+        let (east, north) = (dual(self.east), dual(self.north));
+        let half = largest(largest(x, y, east), z, north);
         (-half, half)
     }
 

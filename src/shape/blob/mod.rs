@@ -117,9 +117,7 @@ impl Blob {
         let widths: Vec<f64> = components.iter().zip(&bounds).map(width).collect();
         let parts = || components.iter().zip(&widths).filter(|(_, width)| **width > 0.0);
         let reach = parts().map(|(component, &width)| component.reach(width)).fold(0.0, f64::max);
-        if parts().next().is_none() {
-            return None;
-        }
+        parts().next()?;
         let stretch = |component: &Component| singular_values(component.unit_from_blob)[0];
         let stretches = components.iter().map(stretch).collect();
         let reach = reach * (1.0 + 64.0 * U);

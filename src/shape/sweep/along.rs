@@ -202,7 +202,7 @@ pub(super) fn pieces(segment: &Segment, ray: &LocalRay, mut found: impl FnMut([P
     for u in along.candidates() {
         let Ball { place, room, room_error, .. } = along.ball(ray, u);
         // A ball that may as well be touched does not part two pieces.
-        if !(room >= -room_error) {
+        if room < -room_error || room.is_nan() {
             end(&along, piece.take());
             continue;
         }

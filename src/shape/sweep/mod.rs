@@ -114,7 +114,7 @@ impl Segment {
             let step = if bend > 0.0 { slope / bend } else { slope.signum() / STRETCHES };
             let next = (best - step).clamp(0.0, 1.0);
             let there = self.distance(point, next);
-            if !(there[0] < value) || next == best {
+            if next == best || there[0] >= value || there[0].is_nan() {
                 break;
             }
             (best, least) = (next, there);
