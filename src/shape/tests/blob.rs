@@ -115,7 +115,7 @@ fn a_crossing_at_a_joint_is_met_once() {
         let direction = UnitVector::from_direction(to - from).unwrap_or(UnitVector::X).get();
         let ray = Ray { origin: from, direction };
         let count = assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
-        assert!(count % 2 == 0 && count > 0, "{count} {placed:?}");
+        assert!(count.is_multiple_of(2) && count > 0, "{count} {placed:?}");
     }
 }
 

@@ -89,7 +89,7 @@ fn of_very_small_exponents_it_is_a_box() {
             if exponent < 1e-20 {
                 assert_crossed_where_it_is(&mut random, &placed, &ray, exactly);
             }
-            assert!(placed.crossings(&ray).len() % 2 == 0);
+            assert!(placed.crossings(&ray).len().is_multiple_of(2));
         }
     }
 }
