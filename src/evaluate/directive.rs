@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::Span;
 use crate::syntax::ast::{
-    DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Items, Target, Test,
+    DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items, Target, Test,
 };
 use crate::vocabulary::{Family, Word};
 
@@ -201,11 +201,12 @@ impl Evaluator<'_> {
     fn declare(&mut self, here: &Here, head: Span, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
-        let indices = self.target_indices(here, target);
-        let value = self.declared_value(here, head, target);
         if !target.indices.is_empty() {
+            let indices = self.target_indices(here, target);
+            let value = self.declared_value(here, head, target);
             return self.assign_element(here, target, indices, value);
         }
+        let value = self.declared_value(here, head, target);
         if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
             self.redeclared(here, head, target);
         }
@@ -245,6 +246,9 @@ impl Evaluator<'_> {
                 .help("`--limit nesting=N` raises the limit");
             return Err(self.halt(here.expansion, diagnostic));
         }
+        if let Some(number) = self.plain_value(here) {
+            return Ok(Value::Number(number));
+        }
         let (outer_poison, outer_hold) = (self.poison.take(), self.hold.take());
         let own = self.frames.len();
         self.declaring += 1;
@@ -263,6 +267,25 @@ impl Evaluator<'_> {
         self.declaring -= 1;
         (self.poison, self.hold) = (outer_poison, outer_hold);
         value
+    }
+
+    /// The number that comes next with its `;`, where no more than numbers make it, as they do most of what
+    /// loops declare. `here` is where the items stand that come next.
+    fn plain_value(&mut self, here: &Here) -> Option<f64> {
+        if self.peeked.is_some() || self.halted {
+            return None;
+        }
+        let frame = self.frames.last()?;
+        let items = here.unit.ast.items.get(frame.at as usize..frame.end as usize)?;
+        let [Item { kind: ItemKind::Expression(id), .. }, end, ..] = *items else { return None };
+        // A second one is looked at more closely.
+        let twice = items.get(2).is_some_and(|item| item.kind == ItemKind::Semicolon);
+        if end.kind != ItemKind::Semicolon || twice {
+            return None;
+        }
+        let number = self.plain_number(here, id)?;
+        self.frames.last_mut()?.at += 2;
+        Some(number)
     }
 
     /// Evaluates an expression for what it does. Its vectors may have any number of components: those

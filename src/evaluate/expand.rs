@@ -163,7 +163,10 @@ impl Evaluator<'_> {
             }
             list => list,
         };
-        let split = self.split(here, definition, list)?;
+        let split = match list.len() + 1 == definition.required {
+            true => self.split(here, list)?,
+            false => None,
+        };
         if split.is_none() {
             self.check_arguments(here, definition, list, span)?;
         }
@@ -223,12 +226,8 @@ impl Evaluator<'_> {
     fn split(
         &mut self,
         here: &Here,
-        definition: &Macro,
         list: &[Argument],
     ) -> Outcome<Option<(usize, [Value; 2])>> {
-        if list.len() + 1 != definition.required {
-            return Ok(None);
-        }
         for (i, argument) in list.iter().enumerate() {
             let Argument::Expression(id) = *argument else { continue };
             let ExpressionKind::Binary(
@@ -351,7 +350,12 @@ impl Evaluator<'_> {
                     Ok(None) => self.expression(here, id),
                     Err(Reported) => Err(Reported),
                 },
-                _ => self.expression(here, id),
+                _ => match self.plain_number(here, id) {
+                    Some(number) => {
+                        return Bound { slot: self.scopes.keep(Value::Number(number)), own: true };
+                    }
+                    None => self.any_value(here, id),
+                },
             },
             Argument::Items(items) if items.is_empty() => return Bound::NOTHING,
             Argument::Items(items) => {

@@ -16,7 +16,7 @@ const PLAIN_DEPTH: u32 = 8;
 impl Evaluator<'_> {
     /// The value of an expression; poison if something in it is not built yet.
     pub(super) fn expression(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
-        match self.plain_number(here, id, PLAIN_DEPTH) {
+        match self.plain_number(here, id) {
             Some(number) => Ok(Value::Number(number)),
             None => self.any_value(here, id),
         }
@@ -24,8 +24,12 @@ impl Evaluator<'_> {
 
     /// The value of what is made of numbers, and of names of numbers, alone: most of what loops calculate.
     /// `None` where it takes more than that, or has no finite value.
+    pub(super) fn plain_number(&mut self, here: &Here, id: ExpressionId) -> Option<f64> {
+        self.plain_operand(here, id, PLAIN_DEPTH)
+    }
+
     #[inline(always)]
-    fn plain_number(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
+    fn plain_operand(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
         match here.unit.expression(id).kind {
             ExpressionKind::Number(number) => Some(number).filter(|number| number.is_finite()),
             ExpressionKind::Name(name) => self.scopes.read(here.symbol(name))?.as_number(),
@@ -42,21 +46,22 @@ impl Evaluator<'_> {
 
     fn plain_result(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
         match here.unit.expression(id).kind {
-            ExpressionKind::Group(inner) => self.plain_number(here, inner, depth),
+            ExpressionKind::Group(inner) => self.plain_operand(here, inner, depth),
             ExpressionKind::Unary(UnaryOperator::Minus, operand) => {
-                self.plain_number(here, operand, depth).map(|number| -number)
+                self.plain_operand(here, operand, depth).map(|number| -number)
             }
             ExpressionKind::Binary(operator, left, right) => {
-                let left = self.plain_number(here, left, depth)?;
-                let right = self.plain_number(here, right, depth)?;
+                let left = self.plain_operand(here, left, depth)?;
+                let right = self.plain_operand(here, right, depth)?;
                 value::numbers_meet(operator, left, right).ok()
             }
             _ => None,
         }
     }
 
+    /// As [`Self::expression`], of what is no [`Self::plain_number`].
     #[inline(never)]
-    fn any_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+    pub(super) fn any_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let expression = here.unit.expression(id);
         match expression.kind {
             ExpressionKind::Number(number) if number.is_finite() => Ok(Value::Number(number)),
@@ -245,8 +250,7 @@ impl Evaluator<'_> {
     }
 
     fn string_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
-        let raw = self.raw_string(span);
-        match builtin::escape::decode_escapes(&raw) {
+        match builtin::escape::decode_escapes(self.quoted(span)) {
             Ok(text) => Ok(Value::string(text)),
             Err((offset, message)) => {
                 let start = span.start as usize + 1 + offset;
@@ -265,9 +269,13 @@ impl Evaluator<'_> {
 
     /// A string's text between its quotes, escapes as written.
     pub(super) fn raw_string(&self, span: Span) -> String {
+        self.quoted(span).to_owned()
+    }
+
+    fn quoted(&self, span: Span) -> &str {
         let text = self.sources.text(span);
         let text = text.strip_prefix('"').unwrap_or(text);
-        text.strip_suffix('"').unwrap_or(text).to_owned()
+        text.strip_suffix('"').unwrap_or(text)
     }
 
     fn operation_error(
@@ -333,7 +341,10 @@ impl Evaluator<'_> {
     // What a place needs.
 
     pub(super) fn number(&mut self, here: &Here, id: ExpressionId) -> Outcome<f64> {
-        let value = self.expression(here, id)?;
+        if let Some(number) = self.plain_number(here, id) {
+            return Ok(number);
+        }
+        let value = self.any_value(here, id)?;
         self.as_number(here, here.unit.expression(id).span, &value, "a number")
     }
 
@@ -346,7 +357,10 @@ impl Evaluator<'_> {
 
     /// A condition must have a value at once: poison is an error here.
     pub(super) fn condition(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
-        let value = self.expression(here, id)?;
+        if let Some(number) = self.plain_number(here, id) {
+            return Ok(value::is_true(number));
+        }
+        let value = self.any_value(here, id)?;
         let span = here.unit.expression(id).span;
         match value.as_truth() {
             Some(truth) => Ok(truth),

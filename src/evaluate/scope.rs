@@ -269,8 +269,10 @@ impl Scopes {
 
     /// Remembers where a name was first declared, for messages and lints.
     pub fn note_declaration(&mut self, symbol: Symbol, site: Site, of: Owner) {
-        let state = &mut self.states[symbol.0 as usize];
-        state.declared.get_or_insert(Declared { site, used: false, of, undone: None });
+        let declared = &mut self.states[symbol.0 as usize].declared;
+        if declared.is_none() {
+            *declared = Some(Declared { site, used: false, of, undone: None });
+        }
     }
 
     /// Remembers where a name was forgotten, for messages.
@@ -309,6 +311,7 @@ impl Scopes {
     }
 
     /// A slot for a value that no name has yet.
+    #[inline]
     pub fn keep(&mut self, value: Value) -> Slot {
         self.held = self.held.saturating_add(value.bytes());
         self.fill(Kept::Value(value))
@@ -319,6 +322,7 @@ impl Scopes {
         self.fill(Kept::Element(array, indices))
     }
 
+    #[inline]
     fn fill(&mut self, kept: Kept) -> Slot {
         if let Some(slot) = self.free.pop() {
             self.slots[slot.0 as usize] = kept;
@@ -330,16 +334,18 @@ impl Scopes {
 
     fn release(&mut self, slot: Slot) {
         let kept = &mut self.slots[slot.0 as usize];
-        if let Kept::Value(value) = std::mem::replace(kept, Kept::Value(Value::Broken)) {
+        if let Kept::Value(value) = kept {
             self.held = self.held.saturating_sub(value.bytes());
         }
+        *kept = Kept::Value(Value::Broken);
     }
 
     fn put(&mut self, slot: Slot, value: Value) {
         let bytes = value.bytes();
-        if let Some(old) = self.value_mut(slot) {
-            let old = std::mem::replace(old, value);
-            self.held = (self.held + bytes).saturating_sub(old.bytes());
+        if let Some(held) = self.value_mut(slot) {
+            let before = held.bytes();
+            *held = value;
+            self.held = (self.held + bytes).saturating_sub(before);
         }
     }
 

@@ -24,8 +24,11 @@ impl Evaluator<'_> {
         let is_semicolon = |token: Option<&Token>| {
             matches!(token.map(|token| &token.kind), Some(TokenKind::Semicolon))
         };
-        if is_semicolon(self.peek_on()) {
-            self.next();
+        let passed = self.pass(ItemKind::Semicolon);
+        if passed || is_semicolon(self.peek_on()) {
+            if !passed {
+                self.next();
+            }
             if numeric && is_semicolon(self.peek_on()) {
                 self.next();
             }

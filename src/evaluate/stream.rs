@@ -130,13 +130,11 @@ pub(super) enum TokenKind {
 
 impl Evaluator<'_> {
     pub(super) fn push(&mut self, here: &Here, items: Items, kind: FrameKind) {
-        self.frames.push(Frame {
-            here: here.clone(),
-            at: items.start,
-            end: items.end,
-            taken: 0,
-            kind,
-        });
+        self.push_owned(here.clone(), items, kind);
+    }
+
+    fn push_owned(&mut self, here: Here, items: Items, kind: FrameKind) {
+        self.frames.push(Frame { here, at: items.start, end: items.end, taken: 0, kind });
     }
 
     pub(super) fn push_branch(&mut self, here: &Here, items: Items) {
@@ -182,7 +180,7 @@ impl Evaluator<'_> {
     /// The caller has opened the macro's table and bound its parameters.
     pub(super) fn push_macro(&mut self, unit: &Rc<Unit>, expansion: ExpansionId, body: Items) {
         self.macro_depth += 1;
-        self.push(&Here { unit: unit.clone(), expansion }, body, FrameKind::Macro);
+        self.push_owned(Here { unit: unit.clone(), expansion }, body, FrameKind::Macro);
     }
 
     pub(super) fn push_include(&mut self, unit: &Rc<Unit>, expansion: ExpansionId, name: String) {
@@ -193,24 +191,22 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn pop_frame(&mut self) {
-        match self.frames.pop().map(|frame| frame.kind) {
-            Some(FrameKind::Macro) => {
+        let Some(frame) = self.frames.pop() else { return };
+        match frame.kind {
+            FrameKind::Macro => {
                 self.macro_depth -= 1;
                 self.scopes.close();
             }
-            Some(FrameKind::Include) => {
+            FrameKind::Include => {
                 self.including.pop();
                 self.scopes.close();
             }
-            Some(
-                FrameKind::Barrier
-                | FrameKind::Block
-                | FrameKind::Branch
-                | FrameKind::Switch
-                | FrameKind::While { .. }
-                | FrameKind::For { .. },
-            )
-            | None => {}
+            FrameKind::Barrier
+            | FrameKind::Block
+            | FrameKind::Branch
+            | FrameKind::Switch
+            | FrameKind::While { .. }
+            | FrameKind::For { .. } => {}
         }
     }
 
@@ -288,9 +284,28 @@ impl Evaluator<'_> {
 
     /// Takes commas: they may stand between parts, and may be left out.
     pub(super) fn skip_commas(&mut self) {
+        while self.pass(ItemKind::Comma) {}
         while matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
             self.next();
         }
+    }
+
+    /// Takes the item that lies next in the text, if it is a comma or a semicolon, which is all that `mark` can
+    /// be. `false` where more may have to be run to see what comes next.
+    pub(super) fn pass(&mut self, mark: ItemKind) -> bool {
+        if self.peeked.is_some() || self.halted || !self.has_memory(0) {
+            return false;
+        }
+        let Some(frame) = self.frames.last_mut().filter(|frame| frame.at < frame.end) else {
+            return false;
+        };
+        let Item { kind, span } = frame.here.unit.ast.items[frame.at as usize];
+        if kind != mark {
+            return false;
+        }
+        frame.at += 1;
+        self.taken = Some(frame.here.site(span));
+        true
     }
 
     /// Whether what comes next is not run now, since it lies behind the value of a `#declare`.

@@ -31,11 +31,13 @@ impl Components {
     /// Fewer than two or more than five numbers are no vector.
     pub fn new(values: &[f64]) -> Option<Self> {
         let mut all = [0.0; 5];
-        if !(2..=5).contains(&values.len()) {
-            return None;
-        }
-        all[..values.len()].copy_from_slice(values);
-        Some(Self { values: all, len: values.len() as u8 })
+        all.get_mut(..values.len())?.copy_from_slice(values);
+        Self::first(values.len(), all)
+    }
+
+    /// The first `len` of five numbers, of which the others are zero.
+    pub fn first(len: usize, values: [f64; 5]) -> Option<Self> {
+        (2..=5).contains(&len).then_some(Self { values, len: len as u8 })
     }
 
     pub fn len(&self) -> usize {
@@ -48,6 +50,12 @@ impl Components {
 
     pub fn as_slice(&self) -> &[f64] {
         &self.values[..self.len()]
+    }
+
+    /// Two numbers get a zero; more than three do not fit.
+    pub fn as_vector3(&self) -> Option<Vector> {
+        let [x, y, z, ..] = self.values;
+        (self.len <= 3).then_some(Vector::new(x, y, z))
     }
 
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
@@ -198,9 +206,7 @@ impl Value {
     pub fn as_vector3(&self) -> Option<Vector> {
         match self {
             Self::Number(n) => Some(Vector::splat(*n)),
-            Self::Vector(v) if v.len <= 3 => {
-                Some(Vector::new(v.values[0], v.values[1], v.values[2]))
-            }
+            Self::Vector(v) => v.as_vector3(),
             _ => None,
         }
     }
@@ -217,11 +223,15 @@ impl Value {
         Some(Color { rgb: Rgb::new(red, green, blue), filter, transmit })
     }
 
-    /// True and false as `#if` sees them: anything nearer to zero than 1e-10 is false in POV-Ray;
-    /// here a number is false only when it is zero.
+    /// True and false as `#if` sees them.
     pub fn as_truth(&self) -> Option<bool> {
-        self.as_number().map(|n| n != 0.0)
+        self.as_number().map(is_true)
     }
+}
+
+/// Anything nearer to zero than 1e-10 is false in POV-Ray; here a number is false only when it is zero.
+pub fn is_true(number: f64) -> bool {
+    number != 0.0
 }
 
 /// Why an operation has no result.

@@ -3,7 +3,8 @@
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Arguments, Component, ExpressionKind};
+use crate::math::Vector;
+use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::value::{Components, Value};
@@ -25,7 +26,11 @@ impl Evaluator<'_> {
                 failed = true;
                 continue;
             };
-            match self.expression(here, id) {
+            let value = match self.plain_number(here, id) {
+                Some(number) => Ok(Value::Number(number)),
+                None => self.any_value(here, id),
+            };
+            match value {
                 Ok(Value::Number(number)) => {
                     if let Some(slot) = numbers.get_mut(count) {
                         *slot = number;
@@ -58,8 +63,7 @@ impl Evaluator<'_> {
         if let Some(poison) = poison {
             return Ok(Value::Poison(poison));
         }
-        let given = numbers.get(..count);
-        match (given.and_then(Components::new), given) {
+        match (Components::first(count, numbers), numbers.get(..count)) {
             (Some(components), _) => Ok(Value::Vector(components)),
             // `<1>` is one number in brackets; POV-Ray takes it so too.
             (None, Some([number])) => Ok(Value::Number(*number)),
@@ -75,6 +79,29 @@ impl Evaluator<'_> {
                     .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
                 Err(self.report(here, diagnostic))
             }
+        }
+    }
+
+    /// The vector of three that an expression is, where it is a name of one, or made of no more than two or
+    /// three plain numbers.
+    pub(super) fn plain_vector(&mut self, here: &Here, id: ExpressionId) -> Option<Vector> {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Name(name) => match self.scopes.read(here.symbol(name))? {
+                Value::Vector(components) => components.as_vector3(),
+                _ => None,
+            },
+            ExpressionKind::Vector(components) => {
+                let mut plain = |argument| match argument {
+                    Argument::Expression(id) => self.plain_number(here, id),
+                    Argument::Items(_) => None,
+                };
+                match *here.unit.ast.arguments(components) {
+                    [x, y] => Some(Vector::new(plain(x)?, plain(y)?, 0.0)),
+                    [x, y, z] => Some(Vector::new(plain(x)?, plain(y)?, plain(z)?)),
+                    _ => None,
+                }
+            }
+            _ => None,
         }
     }
 

@@ -90,7 +90,7 @@ impl Lowering<'_, '_> {
                     let step = self.reporter.made(step, modifier.site)?;
                     modified.strained |= self.transforms.near_singular(id).is_some();
                     modified.map = Some(step.after(&map));
-                    modified.surface = modified.surface.map(|surface| surface.within(&step));
+                    modified.surface = modified.surface.take().map(|surface| surface.within(&step));
                     for (_, parent_from_region) in &mut modified.clips {
                         *parent_from_region = step.after(parent_from_region);
                     }
@@ -100,13 +100,13 @@ impl Lowering<'_, '_> {
                     modified.surface = Some(self.reporter.made_there(set)?);
                 }
                 ModifierKind::Pigment(id) => {
-                    let mut surface = self.textured(modified.surface, default_texture, map)?;
+                    let mut surface = self.textured(modified.surface.take(), default_texture, map)?;
                     let painted = surface.repaint(scene, &mut self.transforms, id, map);
                     self.reporter.made_there(painted)?;
                     modified.surface = Some(surface);
                 }
                 ModifierKind::Finish(id) => {
-                    let surface = self.textured(modified.surface, default_texture, map)?;
+                    let surface = self.textured(modified.surface.take(), default_texture, map)?;
                     modified.surface = Some(surface.polished(id));
                 }
                 ModifierKind::Interior(id) => modified.interior = Some(id),

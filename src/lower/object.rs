@@ -18,7 +18,7 @@ use crate::shape::{Body, Shape};
 use crate::source::Site;
 
 /// What a child takes from above.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Inherited {
     pub world_from_here: Affine,
     /// For whatever has no texture of its own. Its place is in the world.
@@ -151,7 +151,7 @@ impl<'s> Lowering<'s, '_> {
         }
         let flags = modified.flags.under(inherited.flags);
         let by_both = flags.hide().then_some(id);
-        let here = Inherited {
+        let mut here = Inherited {
             world_from_here: match &modified.map {
                 Some(map) => above.after(map),
                 None => *above,
@@ -159,7 +159,7 @@ impl<'s> Lowering<'s, '_> {
             surface: match (&modified.surface, &modified.map) {
                 (Some(own), _) => own.within(above),
                 (None, Some(map)) => inherited.surface.under(map),
-                (None, None) => inherited.surface,
+                (None, None) => inherited.surface.clone(),
             },
             interior: modified.interior.or(inherited.interior),
             flags,
@@ -169,8 +169,7 @@ impl<'s> Lowering<'s, '_> {
             unseen: inherited.unseen,
         };
         let is_whole = !modified.clips.is_empty() || matches!(object.kind, ObjectKind::Csg { .. });
-        let unseen = is_whole && self.building.is_none() && self.drop_unseen_whole(&here);
-        let here = Inherited { unseen: here.unseen || unseen, ..here };
+        here.unseen |= is_whole && self.building.is_none() && self.drop_unseen_whole(&here);
         let before = self.world.objects.len();
         let inverse = flags.inverse;
         let frame = |open, difference, children, inherited, calls| Frame {
@@ -189,7 +188,7 @@ impl<'s> Lowering<'s, '_> {
                 hidden_by: Some(id),
                 flags: Flags { inverse: false, ..here.flags },
                 unseen: here.unseen,
-                ..*inherited
+                ..inherited.clone()
             };
             let clips = Children::Clips(modified.clips.into_iter());
             stack.push(frame(open, false, clips, region, Calls::default()));
@@ -346,7 +345,7 @@ impl<'s> Lowering<'s, '_> {
 impl Frame<'_> {
     /// The next object, and what it takes from above.
     fn next(&mut self) -> Option<(ObjectId, Inherited)> {
-        let mut inherited = self.inherited;
+        let mut inherited = self.inherited.clone();
         let id = match &mut self.children {
             Children::Listed(children) => *children.next()?,
             Children::Clips(clips) => {

@@ -5,7 +5,8 @@
 //! object's texture space is the space of its pattern, so that all transforms of a pigment are in
 //! the object's map and a coordinate that is constant over a flat face is one of the pattern's own.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 use super::finish::{BARE, lower_finish};
 use super::shape::LocalFace;
@@ -25,7 +26,7 @@ use crate::world::{
 /// What has been put into the World's lists of materials and maps.
 #[derive(Default)]
 pub struct Materials {
-    of_ids: HashMap<(PigmentId, FinishId), u32>,
+    of_ids: BTreeMap<(PigmentId, FinishId), u32>,
     /// Materials that share the numbers in which most differ; equality decides among them.
     alike: HashMap<[u64; 6], Vec<u32>>,
     maps: HashMap<[u64; 12], u32>,
@@ -47,12 +48,18 @@ enum Part {
 ///
 /// In POV-Ray (measured) a pigment that replaces another keeps where the other stood: its own
 /// transforms come after all that the pigment before it went through.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Surface {
     pub pigment: PigmentId,
     pub finish: FinishId,
+    /// Shared by all that take the surface as it is.
+    places: Rc<Places>,
+}
+
+#[derive(Debug, Clone)]
+struct Places {
     /// Where the pattern stands, in the space of whoever holds the surface.
-    pub place: Affine,
+    place: Affine,
     /// Where it stood when the pigment was set, and the way there from the space of the solid:
     /// the shortest way from solid to pattern, free of whatever moved both.
     set_place: Affine,
@@ -74,13 +81,8 @@ impl Surface {
             Ok(transforms.product(&texture.transforms)?.after(&inner))
         };
         let place: Affine = { place }().map_err(|fault| (fault, pigment.site))?;
-        Ok(Self {
-            pigment: texture.pigment,
-            finish: texture.finish,
-            place,
-            set_place: place,
-            set_from_solid,
-        })
+        let places = Rc::new(Places { place, set_place: place, set_from_solid });
+        Ok(Self { pigment: texture.pigment, finish: texture.finish, places })
     }
 
     /// Another pigment instead.
@@ -94,8 +96,8 @@ impl Surface {
         let pigment = &scene.pigments[id.index()];
         let own = transforms.product(&pigment.transforms).map_err(|f| (f, pigment.site))?;
         self.pigment = id;
-        self.place = own.after(&self.place);
-        (self.set_place, self.set_from_solid) = (self.place, set_from_solid);
+        let place = own.after(&self.places.place);
+        self.places = Rc::new(Places { place, set_place: place, set_from_solid });
         Ok(())
     }
 
@@ -106,12 +108,14 @@ impl Surface {
 
     /// The same surface held by a child whose own transforms come to `child`.
     pub fn under(&self, child: &Affine) -> Self {
-        Self { set_from_solid: self.set_from_solid.after(child), ..*self }
+        let set_from_solid = self.places.set_from_solid.after(child);
+        Self { places: Rc::new(Places { set_from_solid, ..*self.places }), ..*self }
     }
 
     /// The same surface seen from outside of `outer`.
     pub fn within(&self, outer: &Affine) -> Self {
-        Self { place: outer.after(&self.place), ..*self }
+        let place = outer.after(&self.places.place);
+        Self { places: Rc::new(Places { place, ..*self.places }), ..*self }
     }
 }
 
@@ -212,10 +216,10 @@ impl Lowering<'_, '_> {
         surface: &Surface,
         material: u32,
     ) -> Result<Option<u32>, Fault> {
-        if !is_patterned(&self.world, material) || surface.place.is_identity() {
+        if !is_patterned(&self.world, material) || surface.places.place.is_identity() {
             return Ok(None);
         }
-        let map = inverse_map(&surface.place)?;
+        let map = inverse_map(&surface.places.place)?;
         let numbers = map.matrix.to_cols_array().into_iter().chain(map.centre.to_array());
         let mut key = [0; 12];
         for (slot, number) in key.iter_mut().zip(numbers) {
@@ -239,7 +243,8 @@ impl Lowering<'_, '_> {
         if !is_patterned(&self.world, material) {
             return Ok(None);
         }
-        let pattern_from_solid = surface.set_place.checked()?.after(&surface.set_from_solid);
+        let places = &surface.places;
+        let pattern_from_solid = places.set_place.checked()?.after(&places.set_from_solid);
         let start = self.world.faces.len() as u32;
         self.world.faces.extend(faces.iter().map(|face| coordinates(face, &pattern_from_solid)));
         Ok(Some(start))

@@ -18,7 +18,7 @@ impl Evaluator<'_> {
         modifiers: &mut Vec<Modifier>,
     ) -> Outcome<()> {
         let mut textured = used.is_some_and(|used| self.made[used.index()].textured);
-        let place = match word.family() {
+        let place = || match word.family() {
             Family::Csg => Place::csg(word),
             _ => Place::shape(word),
         };
@@ -52,10 +52,10 @@ impl Evaluator<'_> {
                     }
                 }
                 Some(Err(Reported)) => failed = true,
-                None => match self.inert(&token, place) {
+                None => match self.inert(&token, place()) {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
-                        self.unexpected(&token, place);
+                        self.unexpected(&token, place());
                         let harmless =
                             matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
                         failed |= !harmless && before.is_none() && self.poison.is_none();

@@ -85,9 +85,9 @@ impl Evaluator<'_> {
         parts: impl FnOnce(&mut Self, &Token) -> Outcome<ObjectKind>,
     ) -> Outcome<ObjectId> {
         let site = token.here.site(token.span);
-        let (mut kind, mut modifiers) = (Err(Reported), Vec::new());
-        self.block(token, word, |evaluator| {
-            kind = match evaluator.declared_object(word) {
+        let mut modifiers = Vec::new();
+        let kind = self.block(token, word, |evaluator| {
+            let kind = match evaluator.declared_object(word) {
                 Some(kind) => kind,
                 None => parts(evaluator, token),
             };
@@ -98,9 +98,10 @@ impl Evaluator<'_> {
                 Ok(ObjectKind::Use(used)) => Some(used),
                 _ => None,
             };
-            evaluator.modifiers(word, used, &mut modifiers)
+            evaluator.modifiers(word, used, &mut modifiers)?;
+            kind
         })?;
-        self.add_object(Object { kind: kind?, modifiers, site, item: None })
+        self.add_object(Object { kind, modifiers, site, item: None })
     }
 
     /// `sphere { Ball … }`: a declared object where the parts would stand.

@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::ObjectId;
 use crate::source::{Site, Span};
-use crate::syntax::ast::ExpressionId;
+use crate::syntax::ast::{ExpressionId, ItemKind};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -73,10 +73,11 @@ impl Evaluator<'_> {
         self.scene.objects[object.index()].item = Some(whole);
     }
 
-    /// The value after `after` (a word of the block, or what opened it).
-    pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
+    /// The token of the value after `after` (a word of the block, or what opened it), which is taken.
+    fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
         // A macro that gave nothing may have stood before a comma; for the first part it must have.
-        let comma = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
+        let no_macro = self.silent.is_none() && self.pass(ItemKind::Comma);
+        let comma = !no_macro && matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
         let silent = self.silent;
         if !(comma && silent.is_some() && self.taken == self.blocks.last().copied()) {
             self.skip_commas();
@@ -134,7 +135,16 @@ impl Evaluator<'_> {
             };
             return Err(self.report(&after.here, diagnostic));
         }
-        let Some(token) = self.next() else { return Err(Reported) };
+        self.next().ok_or(Reported)
+    }
+
+    /// The value after `after`.
+    pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
+        let token = self.value_token(after, wanted)?;
+        self.given_by(token)
+    }
+
+    fn given_by(&mut self, token: Token) -> Outcome<Given<Value>> {
         let (value, expression) = match &token.kind {
             TokenKind::Expression(id) => match self.misspelt_block(&token, *id) {
                 // `sphere { 0 pigmant { … } }`
@@ -156,7 +166,13 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
-        let given = self.given(after, wanted)?;
+        let token = self.value_token(after, wanted)?;
+        if let TokenKind::Expression(id) = token.kind
+            && let Some(value) = self.plain_number(&token.here, id)
+        {
+            return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });
+        }
+        let given = self.given_by(token)?;
         let number = self.as_number(&given.here, given.span, &given.value, wanted)?;
         Ok(given.with(number))
     }
@@ -179,8 +195,21 @@ impl Evaluator<'_> {
             self.skip_values();
             return Err(reported);
         }
-        let given = self.given(after, wanted)?;
-        self.as_vector(given, wanted)
+        let token = self.value_token(after, wanted)?;
+        match self.given_vector(token) {
+            Ok(given) => Ok(given),
+            Err(token) => self.given_by(token).and_then(|given| self.as_vector(given, wanted)),
+        }
+    }
+
+    /// The vector that a token is, if it is a plain one, or the token.
+    fn given_vector(&mut self, token: Token) -> Result<Given<Vector>, Token> {
+        if let TokenKind::Expression(id) = token.kind
+            && let Some(value) = self.plain_vector(&token.here, id)
+        {
+            return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });
+        }
+        Err(token)
     }
 
     /// A vector and a number, in this order.
@@ -192,7 +221,11 @@ impl Evaluator<'_> {
         if let Some(reported) = self.bare_points(1, 1) {
             return (Err(reported), Err(reported));
         }
-        let first = self.given(after, vector);
+        let first = match self.value_token(after, vector).map(|token| self.given_vector(token)) {
+            Ok(Ok(first)) => return (Ok(first), self.number_after(after, number)),
+            Ok(Err(token)) => self.given_by(token),
+            Err(Reported) => Err(Reported),
+        };
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
             && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)

@@ -82,6 +82,7 @@ impl Evaluator<'_> {
     }
 
     /// The name that an expression is, where it was never declared.
+    #[inline]
     pub(in crate::evaluate) fn unknown_name(
         &self,
         here: &Here,

@@ -6,11 +6,16 @@
 //! **Source:** POV-Ray 3.7 manual, section 3.3.2.7.2 "Text Formatting"; the program refuses `\0`,
 //! which the manual lists, and every escape that it does not.
 
+use std::borrow::Cow;
+
 /// Replaces each escape by its character.
 ///
 /// # Errors
 /// The byte offset of the backslash in `raw`, and what is wrong there.
-pub fn decode_escapes(raw: &str) -> Result<String, (usize, String)> {
+pub fn decode_escapes(raw: &str) -> Result<Cow<'_, str>, (usize, String)> {
+    if !raw.contains('\\') {
+        return Ok(Cow::Borrowed(raw));
+    }
     let mut text = String::with_capacity(raw.len());
     let mut at = 0;
     while let Some(plain) = raw[at..].find('\\') {
@@ -21,7 +26,7 @@ pub fn decode_escapes(raw: &str) -> Result<String, (usize, String)> {
         at += length;
     }
     text.push_str(&raw[at..]);
-    Ok(text)
+    Ok(Cow::Owned(text))
 }
 
 /// The character of the escape that `raw` begins with, and the escape's length in bytes.

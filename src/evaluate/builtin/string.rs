@@ -36,7 +36,8 @@ pub(super) fn function(word: Word) -> Option<Function> {
 }
 
 fn joined(a: &Arguments) -> Result<String, CallError> {
-    let mut text = String::new();
+    let length = (0..a.values.len()).filter_map(|i| Some(a.string(i).ok()?.len())).sum::<usize>();
+    let mut text = String::with_capacity(length.min(a.longest));
     for i in 0..a.values.len() {
         let piece = a.string(i)?;
         if text.len() + piece.len() > a.longest {
@@ -125,8 +126,16 @@ impl Format {
 
     fn append(&self, number: f64, text: &mut String) {
         let Self { width, decimals, .. } = *self;
+        // Whole numbers are written much faster as such.
+        let whole = number as i64;
+        let is_whole = whole as f64 == number && whole != 0 && whole.unsigned_abs() < 1 << 53;
         // Writing into a string cannot fail.
-        let _ = if self.zeros {
+        let _ = if decimals == 0 && is_whole {
+            match self.zeros {
+                true => write!(text, "{whole:0width$}"),
+                false => write!(text, "{whole:width$}"),
+            }
+        } else if self.zeros {
             write!(text, "{number:0width$.decimals$}")
         } else {
             write!(text, "{number:width$.decimals$}")
