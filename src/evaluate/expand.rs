@@ -223,11 +223,7 @@ impl Evaluator<'_> {
 
     /// An object and a signed value without a comma between them, where one argument is missing: the index of
     /// both, and what they are. POV-Ray reads `Align(Ball() -y, 0)` so.
-    fn split(
-        &mut self,
-        here: &Here,
-        list: &[Argument],
-    ) -> Outcome<Option<(usize, [Value; 2])>> {
+    fn split(&mut self, here: &Here, list: &[Argument]) -> Outcome<Option<(usize, [Value; 2])>> {
         for (i, argument) in list.iter().enumerate() {
             let Argument::Expression(id) = *argument else { continue };
             let ExpressionKind::Binary(

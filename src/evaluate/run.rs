@@ -1,10 +1,29 @@
-//! Runs of numbers taken or passed over as they lie: there may be megabytes of them.
+//! What lies next in the text, taken without a token of it: marks, and runs of numbers, of which there may be
+//! megabytes.
 
 use crate::syntax::ast::{Item, ItemKind};
 
 use super::Evaluator;
 
 impl Evaluator<'_> {
+    /// Takes the item that lies next in the text, if it is a comma or a semicolon, which is all that `mark` can
+    /// be. `false` where more may have to be run to see what comes next.
+    pub(super) fn pass(&mut self, mark: ItemKind) -> bool {
+        if self.peeked.is_some() || self.halted || !self.has_memory(0) {
+            return false;
+        }
+        let Some(frame) = self.frames.last_mut().filter(|frame| frame.at < frame.end) else {
+            return false;
+        };
+        let Item { kind, span } = frame.here.unit.ast.items[frame.at as usize];
+        if kind != mark {
+            return false;
+        }
+        frame.at += 1;
+        self.taken = Some(frame.here.site(span));
+        true
+    }
+
     /// Passes over a run of numbers, if one comes next: there may be megabytes of them.
     pub(super) fn skip_run(&mut self) {
         if self.peeked.is_none()

@@ -138,6 +138,7 @@ impl Scopes {
         self.value(slot)
     }
 
+    #[inline]
     fn value(&self, slot: Slot) -> Option<&Value> {
         match self.slots.get(slot.0 as usize)? {
             Kept::Value(value) => Some(value),
@@ -146,6 +147,7 @@ impl Scopes {
     }
 
     /// The value of a slot, to be changed. Where an array lost the element, there is none.
+    #[inline]
     fn value_mut(&mut self, slot: Slot) -> Option<&mut Value> {
         if let Kept::Element(array, indices) = self.slots.get(slot.0 as usize)? {
             let (array, indices) = (*array, indices.clone());
@@ -209,6 +211,13 @@ impl Scopes {
     pub fn assign_in(&mut self, depth: u32, symbol: Symbol, value: Value) {
         let depth = depth.min(self.tables.len() as u32 - 1);
         let bindings = &self.states[symbol.0 as usize].bindings;
+        // Mostly it is the newest that is meant.
+        if let Some(&(newest, slot)) = bindings.last()
+            && newest == depth
+            && slot != Slot::NONE
+        {
+            return self.put(slot, value);
+        }
         let at = bindings.partition_point(|&(other, _)| other <= depth);
         match bindings[..at].last() {
             Some(&(other, Slot::NONE)) if other == depth => {

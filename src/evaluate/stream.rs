@@ -290,24 +290,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Takes the item that lies next in the text, if it is a comma or a semicolon, which is all that `mark` can
-    /// be. `false` where more may have to be run to see what comes next.
-    pub(super) fn pass(&mut self, mark: ItemKind) -> bool {
-        if self.peeked.is_some() || self.halted || !self.has_memory(0) {
-            return false;
-        }
-        let Some(frame) = self.frames.last_mut().filter(|frame| frame.at < frame.end) else {
-            return false;
-        };
-        let Item { kind, span } = frame.here.unit.ast.items[frame.at as usize];
-        if kind != mark {
-            return false;
-        }
-        frame.at += 1;
-        self.taken = Some(frame.here.site(span));
-        true
-    }
-
     /// Whether what comes next is not run now, since it lies behind the value of a `#declare`.
     fn waits(&self) -> bool {
         let Some(hold) = self.hold else { return false };

@@ -2,8 +2,8 @@
 
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
 use crate::math::Vector;
+use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 

@@ -100,7 +100,8 @@ impl Lowering<'_, '_> {
                     modified.surface = Some(self.reporter.made_there(set)?);
                 }
                 ModifierKind::Pigment(id) => {
-                    let mut surface = self.textured(modified.surface.take(), default_texture, map)?;
+                    let mut surface =
+                        self.textured(modified.surface.take(), default_texture, map)?;
                     let painted = surface.repaint(scene, &mut self.transforms, id, map);
                     self.reporter.made_there(painted)?;
                     modified.surface = Some(surface);

@@ -75,11 +75,12 @@ impl Evaluator<'_> {
 
     /// The token of the value after `after` (a word of the block, or what opened it), which is taken.
     fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
+        let passed = self.silent.is_none() && self.pass(ItemKind::Comma);
+        let comma = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
+        let silent = self.silent.filter(|_| !passed);
         // A macro that gave nothing may have stood before a comma; for the first part it must have.
-        let no_macro = self.silent.is_none() && self.pass(ItemKind::Comma);
-        let comma = !no_macro && matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
-        let silent = self.silent;
-        if !(comma && silent.is_some() && self.taken == self.blocks.last().copied()) {
+        let lost = silent.is_some() && self.taken == self.blocks.last().copied();
+        if comma && !lost {
             self.skip_commas();
         }
         let is_value = matches!(

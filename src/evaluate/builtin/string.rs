@@ -231,6 +231,21 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_are_written_as_all_others_are() {
+        let numbers = [-0.0, 0.0, 1.0, -7.0, 123_456_789.0, 2f64.powi(53), -2f64.powi(63), 1e300];
+        for number in numbers.into_iter().chain([0.5, -1.5, 2f64.powi(52) - 0.5]) {
+            for (length, width) in [(0, 0), (12, 12), (-12, 12)] {
+                let arguments = [number, f64::from(length), 0.0].map(Value::Number);
+                let wanted = match length < 0 {
+                    true => format!("{number:0width$.0}"),
+                    false => format!("{number:width$.0}"),
+                };
+                assert_eq!(text(Word::Str, &arguments), Ok(wanted));
+            }
+        }
+    }
+
+    #[test]
     fn strings_are_those_that_pov_ray_prints() {
         measured::check(measured::STRING);
     }
