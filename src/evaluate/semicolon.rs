@@ -5,6 +5,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::ast::ItemKind;
 use crate::vocabulary::Dialect;
 
 use super::Evaluator;
