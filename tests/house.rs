@@ -22,12 +22,12 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("diagnostic", &["source"]),
     // things
     ("noise", &["math"]),
-    ("function", &["math", "noise"]),
     ("pattern", &["math"]),
-    ("shape", &["math"]),
     ("spline", &[]),
+    ("function", &["math", "noise", "pattern", "spline"]),
+    ("shape", &["function", "math"]),
     // nouns
-    ("scene", &["color", "math", "pattern", "source", "vocabulary"]),
+    ("scene", &["color", "function", "math", "pattern", "source", "vocabulary"]),
     ("world", &["color", "math", "pattern", "shape", "source"]),
     ("geometry", &["math", "shape", "world"]),
     ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
@@ -40,6 +40,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "color",
             "diagnostic",
+            "function",
             // Whether anything is in view.
             "geometry",
             "math",

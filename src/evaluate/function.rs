@@ -20,6 +20,7 @@ use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
 mod asked;
+mod closed;
 mod internal;
 
 pub use asked::{AuthorFunction, FunctionId};

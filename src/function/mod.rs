@@ -11,17 +11,21 @@
 //! names it by a number, and whoever runs it brings an [`Outside`] that answers.
 
 mod build;
+mod closed;
 mod noise;
 mod number;
 mod operation;
+mod slope;
 mod tape;
 
 use crate::math::interval::Interval;
 
 pub use build::{Builder, DEEPEST_LOOP, Loop, MOST_ARGUMENTS, MOST_OPERATIONS, Node, TooLong};
+pub use closed::{Asked, Closed};
 pub use noise::NoiseFunction;
 pub use number::{Batch, LANES, Number};
 pub use operation::{Binary, Unary};
+pub use slope::Sloped;
 pub use tape::{Function, Run};
 
 /// Which of the things that a function may ask is meant; its owner knows what the number says.
@@ -36,6 +40,16 @@ pub trait Outside {
     /// An interval that holds its value wherever the arguments lie within theirs.
     fn bounds(&self, _: OutsideId, _: &[Interval]) -> Interval {
         Interval::EVERYTHING
+    }
+
+    /// The same, with bounds on its slopes along some ways, from those of the arguments.
+    fn sloped<const N: usize>(&self, id: OutsideId, arguments: &[Sloped<N>]) -> Sloped<N> {
+        let mut values = [Interval::point(0.0); MOST_ARGUMENTS];
+        for (value, argument) in values.iter_mut().zip(arguments) {
+            *value = argument.value;
+        }
+        let value = self.bounds(id, &values[..arguments.len().min(MOST_ARGUMENTS)]);
+        Sloped::anyhow(value, arguments.iter().all(Sloped::is_level))
     }
 }
 

@@ -10,6 +10,7 @@
 
 use super::number::Number;
 use super::operation::{Binary, Unary};
+use super::slope::Sloped;
 use crate::math::Vector;
 use crate::math::elementary::pow;
 use crate::math::interval::Interval;
@@ -28,6 +29,15 @@ pub enum NoiseFunction {
     Ridged,
     /// λ, octaves, ω, offset, ridge, generator.
     Ridge,
+}
+
+/// Noise is as steep as its gradient, along each axis.
+fn sloped<const N: usize>(generator: NoiseGenerator, point: [Sloped<N>; 3]) -> Sloped<N> {
+    let at = point.map(|coordinate| coordinate.value);
+    let value = noise::bounds(generator, at);
+    let [x, y, z] = noise::slopes(generator, at);
+    let flat = Sloped::follow_both(value, (x, &point[0]), (y, &point[1]));
+    Sloped::follow_both(value, (Interval::point(1.0), &flat), (z, &point[2]))
 }
 
 /// More octaves are finer than numbers can tell, or all the same.
@@ -52,6 +62,13 @@ impl NoiseFunction {
     /// An interval that holds its value wherever the arguments lie within theirs.
     pub fn bounds(self, own: NoiseGenerator, arguments: &[Interval]) -> Interval {
         self.of(own, arguments, noise::bounds, Interval::single).unwrap_or(Interval::EVERYTHING)
+    }
+
+    /// The same, with bounds on its slopes.
+    pub fn sloped<const N: usize>(self, own: NoiseGenerator, arguments: &[Sloped<N>]) -> Sloped<N> {
+        let level = arguments.iter().all(Sloped::is_level);
+        self.of(own, arguments, sloped, |argument| argument.value.single())
+            .unwrap_or(Sloped::anyhow(Interval::EVERYTHING, level))
     }
 
     fn of<N: Number>(

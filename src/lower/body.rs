@@ -12,11 +12,15 @@ use crate::math::double::{Double, DoubleVector, power_of_two};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
+use crate::function::Closed;
+use crate::scene::Container;
 use crate::scene::mesh::Triangles;
+use crate::shape::isosurface;
 use crate::shape::mesh::Face;
 use crate::shape::{
     Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus,
 };
+use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Placed, Torus};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -108,6 +112,35 @@ pub fn torus(major: f64, minor: f64) -> (Body, Affine) {
     let [x, y, z] = [0, 1, 2].map(DoubleVector::axis);
     let columns = [x * size, -z * size, y * size];
     (Body::Torus(torus), Affine::from_columns(columns, exact(Vector::ZERO)))
+}
+
+/// The surface in lengths of a power of two that makes its container of size about 1, about the container's
+/// middle.
+pub fn isosurface(
+    function: &Arc<Closed>,
+    container: Container,
+    threshold: f64,
+    accuracy: f64,
+    open: bool,
+) -> Result<(Body, Affine), Fault> {
+    let (centre, half) = match container {
+        Container::Sphere { centre, radius } => (centre, Vector::splat(radius.abs())),
+        Container::Box { corners: [a, b] } => (a * 0.5 + b * 0.5, (b * 0.5 - a * 0.5).abs()),
+    };
+    if !(centre.is_finite() && half.is_finite()) {
+        return Err(Fault::not_finite("this container"));
+    }
+    let inverse = reciprocal_power_of_two(half.max_element());
+    let scale = 1.0 / inverse;
+    let container = match container {
+        Container::Sphere { .. } => isosurface::Container::Sphere(half.x * inverse),
+        Container::Box { .. } => isosurface::Container::Box(half * inverse),
+    };
+    let function = function.clone();
+    let accuracy = accuracy * inverse;
+    let body = Isosurface { function, threshold, container, centre, scale, accuracy, open };
+    let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));
+    Ok((Body::Isosurface(body), Affine::from_columns(columns, exact(centre))))
 }
 
 /// The map that takes the z axis from −1 to 1 to the line between two points, and lengths across it to

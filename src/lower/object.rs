@@ -315,6 +315,9 @@ impl<'s> Lowering<'s, '_> {
             }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
+            Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
+                let made = body::isosurface(function, container, threshold, accuracy, open)?;
+                self.place_made(made, here, site)
             }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {

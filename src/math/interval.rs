@@ -167,7 +167,8 @@ impl Interval {
     /// `atan2(self, x)`.
     pub fn atan2(self, x: Self) -> Self {
         // Across the cut on the negative x axis the angle jumps by a turn.
-        if x.low <= 0.0 && self.contains(0.0) || !x.is_finite() || !self.is_finite() {
+        let on_cut = x.low <= 0.0 && self.contains(0.0) && self.single().is_none();
+        if on_cut || !x.is_finite() || !self.is_finite() {
             return Self { low: -PI, high: PI }.widened(SLACK);
         }
         // Away from the cut the extremes lie on corners.

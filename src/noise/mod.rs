@@ -48,6 +48,9 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     value.clamp(0.0, 1.0)
 }
 
+/// Beyond, coordinates are rounded too coarsely for slopes to tell anything.
+const FAR: f64 = 1e6;
+
 /// An interval that holds the noise of every point of a box.
 ///
 /// From the middle on noise changes by no more than its steepest slope: with s = 3t² − 2t³, |s′| is at
@@ -55,8 +58,6 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
 /// slope ≤ 1, differ by at most 7; so 1.5·7 + 1 along each axis. Perlin's have |value| ≤ √3.
 pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
     const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
-    /// Beyond, coordinates are rounded too coarsely for slopes to tell anything.
-    const FAR: f64 = 1e6;
     if point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR) {
         return RANGE;
     }
@@ -72,6 +73,37 @@ pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
     let reach = slope * (away + 1e-8);
     let value = noise(generator, Vector::from_array(middle));
     Interval { low: (value - reach).max(0.0), high: (value + reach).min(1.0) }
+}
+
+/// Intervals that hold noise's slope along each axis at every point of a box; where it is cut off, 0 as well.
+///
+/// As [`bounds`], one derivative on: |s″| ≤ 6, so from the middle on each slope changes by at most
+/// 6·7 + 2·1.5·2 for each length along its axis, and by 1.5²·14 + 1.5·2·2 along another. Perlin's lattice has
+/// half of the slopes' sizes.
+pub fn slopes(generator: NoiseGenerator, point: [Interval; 3]) -> [Interval; 3] {
+    let (steepest, share) = match generator {
+        NoiseGenerator::Plateaus => (11.5, 1.0),
+        NoiseGenerator::RangeCorrected => (11.5 * 0.489_855_83, 0.489_855_83),
+        NoiseGenerator::Perlin => (6.2 * 0.795, 0.795),
+    };
+    let all = Interval { low: -steepest, high: steepest };
+    let away = point.map(|i| 0.5 * (i.high - i.low));
+    if away.iter().sum::<f64>() > 0.5 || point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR) {
+        return [all; 3];
+    }
+    let middle = Vector::from_array(point.map(|i| i.low + 0.5 * (i.high - i.low)));
+    let gradient = match generator {
+        NoiseGenerator::Plateaus | NoiseGenerator::RangeCorrected => plain_gradient(middle),
+        NoiseGenerator::Perlin => perlin::gradient(middle),
+    };
+    let range = bounds(generator, point);
+    let may_be_cut = range.low <= 0.0 || range.high >= 1.0;
+    std::array::from_fn(|axis| {
+        let along: f64 = (0..3).map(|i| away[i] * if i == axis { 48.0 } else { 38.0 }).sum();
+        let (slope, reach) = (share * gradient[axis], share * along + 1e-6);
+        let near = Interval { low: (slope - reach).max(all.low), high: (slope + reach).min(all.high) };
+        if may_be_cut { near.hull(Interval::point(0.0)) } else { near }
+    })
 }
 
 /// Three noises at once: a direction to push `point` in, about zero.
@@ -112,6 +144,36 @@ fn blend<const N: usize>(point: Vector) -> [f64; N] {
     sum
 }
 
+/// The gradient of the first.
+fn plain_gradient(point: Vector) -> Vector {
+    let [x, y, z] = cells(point, LATTICE_ORIGIN);
+    let mut sum = Vector::ZERO;
+    for (i, x) in x.corners() {
+        let row = step(i);
+        for (j, y) in y.corners() {
+            let column = step(row ^ j);
+            for (k, z) in z.corners() {
+                let at = step(column ^ k) % 256;
+                let slope = Vector::new(NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]);
+                let offset = Vector::new(x.offset, y.offset, z.offset);
+                let value = 0.5 * NUMBERS[at] + slope.dot(offset);
+                sum += weighted_slope([&x, &y, &z], value, slope);
+            }
+        }
+    }
+    sum
+}
+
+/// The gradient of a corner's linear function times its weights.
+fn weighted_slope([x, y, z]: [&Corner; 3], value: f64, slope: Vector) -> Vector {
+    let rises = Vector::new(
+        x.rise * y.weight * z.weight,
+        x.weight * y.rise * z.weight,
+        x.weight * y.weight * z.rise,
+    );
+    slope * (x.weight * y.weight * z.weight) + rises * value
+}
+
 /// Where the table's zero lies: at (−10000, −10000, −10000).
 const LATTICE_ORIGIN: i64 = 10_000;
 
@@ -134,6 +196,8 @@ struct Corner {
     offset: f64,
     /// How much the corner counts, 0 … 1.
     weight: f64,
+    /// The weight's slope.
+    rise: f64,
 }
 
 impl Cell {
@@ -154,9 +218,10 @@ impl Cell {
     fn corners(self) -> [(usize, Corner); 2] {
         let t = self.fraction;
         let weight = t * t * (3.0 - 2.0 * t);
+        let rise = 6.0 * t * (1.0 - t);
         [
-            (self.low, Corner { offset: t, weight: 1.0 - weight }),
-            (self.low.wrapping_add(1), Corner { offset: t - 1.0, weight }),
+            (self.low, Corner { offset: t, weight: 1.0 - weight, rise: -rise }),
+            (self.low.wrapping_add(1), Corner { offset: t - 1.0, weight, rise }),
         ]
     }
 }

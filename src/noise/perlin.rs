@@ -6,7 +6,7 @@
 
 use std::sync::LazyLock;
 
-use super::cells;
+use super::{cells, weighted_slope};
 use super::table::Stream;
 use crate::math::Vector;
 
@@ -34,6 +34,25 @@ pub(super) fn noise(point: Vector) -> f64 {
         }
     }
     0.4925 + 0.795 * sum
+}
+
+/// Of the sum; see [`noise`] for its scale.
+pub(super) fn gradient(point: Vector) -> Vector {
+    let lattice = &*LATTICE;
+    let [x, y, z] = cells(point + Vector::splat(ORIGIN), 0);
+    let mut sum = Vector::ZERO;
+    for (i, x) in x.corners() {
+        let row = lattice.step(i);
+        for (j, y) in y.corners() {
+            let column = lattice.step(row.wrapping_add(j));
+            for (k, z) in z.corners() {
+                let slope = lattice.gradients[column.wrapping_add(k) % SIZE];
+                let value = slope.dot(Vector::new(x.offset, y.offset, z.offset));
+                sum += weighted_slope([&x, &y, &z], value, slope);
+            }
+        }
+    }
+    sum
 }
 
 struct Lattice {

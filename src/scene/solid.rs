@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::blob::Blob;
 use super::mesh::Triangles;
 use super::sweep::Sweep;
+use crate::function::Closed;
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -61,6 +62,15 @@ pub enum Solid {
     Superellipsoid {
         /// East-west and north-south, more than 0.
         exponents: [f64; 2],
+    /// Where a function is less than a threshold, within a container.
+    Isosurface {
+        function: Arc<Closed>,
+        container: Container,
+        threshold: f64,
+        /// A length.
+        accuracy: f64,
+        /// Where the container cuts it, nothing is seen.
+        open: bool,
     },
     /// About the y axis.
     Torus {
@@ -86,6 +96,33 @@ pub enum Solid {
     },
 }
 
+/// What the surface of a function is looked for in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Container {
+    Box { corners: [Vector; 2] },
+    Sphere { centre: Vector, radius: f64 },
+}
+
+impl Container {
+    fn is_sizeless(&self) -> bool {
+        match self {
+            Self::Box { corners: [a, b] } => (*b - *a).to_array().contains(&0.0),
+            Self::Sphere { radius, .. } => *radius == 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Container {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Box { corners: [a, b] } => write!(f, "in box {} {}", written(*a), written(*b)),
+            Self::Sphere { centre, radius } => {
+                write!(f, "in sphere {} {radius}", written(*centre))
+            }
+        }
+    }
+}
+
 impl Solid {
     /// The word that opens it.
     pub fn word(&self) -> Word {
@@ -100,6 +137,7 @@ impl Solid {
             Self::Ovus { .. } => Word::Ovus,
             Self::SphereSweep(_) => Word::SphereSweep,
             Self::Superellipsoid { .. } => Word::Superellipsoid,
+            Self::Isosurface { .. } => Word::Isosurface,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
             Self::Triangles { word, .. } => *word,
@@ -122,6 +160,7 @@ impl Solid {
             Self::Disc { radius, hole, .. } => radius.abs() <= hole.abs(),
             Self::Ovus { bottom, top } => bottom.max(*top) == 0.0,
             Self::SphereSweep(sweep) => sweep.is_sizeless(),
+            Self::Isosurface { container, .. } => container.is_sizeless(),
             Self::Torus { minor, .. } => *minor == 0.0,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
@@ -159,6 +198,11 @@ impl fmt::Display for Solid {
                 write!(f, " {} of {} spheres", sweep.kind.word().name(), sweep.spheres.len())
             }
             Self::Superellipsoid { exponents: [e, n] } => write!(f, " <{e}, {n}>"),
+            Self::Isosurface { function, container, threshold, accuracy, open: is_open } => {
+                let operations = function.function().operations();
+                write!(f, " of {operations} operations, {container}, threshold {threshold}")?;
+                write!(f, ", accuracy {accuracy}{}", open(*is_open))
+            }
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;

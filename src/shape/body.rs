@@ -11,6 +11,7 @@ use super::blob::Blob;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
+use super::isosurface::Isosurface;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::superellipsoid::Superellipsoid;
@@ -223,6 +224,7 @@ bodies! {
     Ovus "ovus"
     SphereSweep "sphere_sweep"
     Superellipsoid "superellipsoid"
+    Isosurface "isosurface"
     Torus "torus"
 }
 

@@ -1,6 +1,6 @@
 //! Solids in canonical form; one file, one shape: its equation, its crossings, its bounds.
 //!
-//! **Invariant:** knows only `math`. Distances along a ray are in (0, ∞): there is no least and no
+//! **Invariant:** knows only `math`, and `function` for what is made of one. Distances along a ray are in (0, ∞): there is no least and no
 //! greatest distance, each crossing carries its own error bound instead.
 
 pub mod algebraic;
@@ -12,6 +12,7 @@ pub mod csg;
 pub mod cylinder;
 pub mod disc;
 pub mod ellipsoid;
+pub mod isosurface;
 pub mod mesh;
 pub mod ovus;
 pub mod placed;
@@ -30,6 +31,7 @@ pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
+pub use isosurface::Isosurface;
 pub use mesh::Mesh;
 pub use ovus::Ovus;
 pub use placed::Placed;

@@ -45,7 +45,7 @@ vocabulary! {
         Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
         Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; to other solids, all that is behind it";
         HeightField "height_field" statement later "a landscape from a picture or a function";
-        Isosurface "isosurface" statement later "where a function of space is zero";
+        Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: where a function of space is less than a number";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
         Lathe "lathe" statement later "a curve turned about the y axis";
         Mesh "mesh" statement built "many triangles as one object";
@@ -69,16 +69,16 @@ vocabulary! {
         Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }
     ShapeItem {
-        Accuracy "accuracy" statement later "how exactly a surface or a normal is found";
-        AllIntersections "all_intersections" statement later "an isosurface counts all its crossings";
+        Accuracy "accuracy" statement built "how exactly a surface or a normal is found";
+        AllIntersections "all_intersections" statement inert "an isosurface counts all its crossings, as it does here anyway";
         BSpline "b_spline" statement built "a spline near its points";
         BezierSpline "bezier_spline" statement later "a spline of Bézier segments";
         Component "component" statement built "the old word for a part of a blob";
         ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
-        ContainedBy "contained_by" statement later "the sphere or box that holds a function's surface";
+        ContainedBy "contained_by" statement built "the sphere or box that holds a function's surface";
         Cube "cube" statement later "the third power, in a julia_fractal";
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
-        Evaluate "evaluate" statement later "lets an isosurface learn its gradient";
+        Evaluate "evaluate" statement inert "lets an isosurface learn its slope; it is known here";
         FaceIndices "face_indices" statement built "the triangles of a mesh2, as indices of vertices";
         Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
@@ -87,9 +87,9 @@ vocabulary! {
         LinearSpline "linear_spline" statement built "a spline of straight lines";
         LinearSweep "linear_sweep" statement later "a prism with parallel sides";
         MajorRadius "major_radius" statement later "measures a torus-shaped pattern or warp";
-        MaxGradient "max_gradient" statement later "the steepest slope of an isosurface's function";
+        MaxGradient "max_gradient" statement inert "the steepest slope of an isosurface's function; it is known here";
         MaxIteration "max_iteration" statement later "the most turns of a fractal's formula";
-        MaxTrace "max_trace" statement later "the most crossings of an isosurface";
+        MaxTrace "max_trace" statement inert "the most crossings of an isosurface; all are found here";
         NaturalSpline "natural_spline" statement built "a spline with free ends";
         NormalIndices "normal_indices" statement built "the normals of each face of a mesh2";
         NormalVectors "normal_vectors" statement built "the normals of a mesh2";

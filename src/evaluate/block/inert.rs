@@ -46,6 +46,11 @@ impl Evaluator<'_> {
                 let at = token.span.after();
                 Err(self.expected("`ascii`, `utf8` or `sys`", next.as_ref(), (&token.here, at)))
             }
+            Word::AllIntersections => Ok(()),
+            Word::Evaluate => {
+                let wanted = ["a least slope", "a factor", "an attenuation"];
+                wanted.iter().try_for_each(|wanted| self.number_after(token, wanted).map(drop))
+            }
             Word::Hierarchy
             | Word::SplitUnion
             | Word::Sturm

@@ -11,6 +11,7 @@ mod finish;
 mod habit;
 mod inert;
 mod interior;
+mod isosurface;
 mod light;
 mod mesh;
 mod modifier;

@@ -24,6 +24,7 @@ impl Evaluator<'_> {
             Word::Superellipsoid => Self::superellipsoid,
             Word::Torus => Self::torus,
             Word::Blob => Self::blob,
+            Word::Isosurface => Self::isosurface,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,
             Word::Quartic => Self::quartic,
@@ -69,7 +70,7 @@ impl Evaluator<'_> {
         self.as_vector(given, wanted)
     }
 
-    fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
+    pub(super) fn sphere(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the centre", "a number for the radius");
         let (centre, radius) = self.vector_and_number(token, WANTED);
         let (centre, radius) = (centre?, radius?);
@@ -98,7 +99,7 @@ impl Evaluator<'_> {
         Ok(Solid::Plane { normal: normal.value, distance: distance.value })
     }
 
-    fn box_(&mut self, token: &Token) -> Outcome<Solid> {
+    pub(super) fn box_(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.bare_points(2, 0) {
             return Err(reported);
         }

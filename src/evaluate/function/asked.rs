@@ -50,6 +50,11 @@ pub(in crate::evaluate) fn outside_id(function: FunctionId, component: usize) ->
     OutsideId(function.0 * COMPONENTS + component as u32)
 }
 
+/// What [`outside_id`] names.
+pub(super) fn named_by(id: OutsideId) -> (FunctionId, usize) {
+    (FunctionId(id.0 / COMPONENTS), (id.0 % COMPONENTS) as usize)
+}
+
 /// The functions that tapes ask.
 pub(in crate::evaluate) struct Functions<'f> {
     pub all: &'f [AuthorFunction],
@@ -58,8 +63,8 @@ pub(in crate::evaluate) struct Functions<'f> {
 
 impl Functions<'_> {
     fn of(&self, id: OutsideId) -> (Option<&AuthorFunction>, usize) {
-        let component = (id.0 % COMPONENTS) as usize;
-        (self.all.get((id.0 / COMPONENTS) as usize), component)
+        let (function, component) = named_by(id);
+        (self.all.get(function.0 as usize), component)
     }
 }
 
@@ -113,7 +118,7 @@ pub(super) fn color(pigment: &Pigment, point: &[f64]) -> Color {
     color_at(pigment, point, false, || Vector::ZERO)
 }
 
-fn part(color: Color, component: usize) -> f64 {
+pub(super) fn part(color: Color, component: usize) -> f64 {
     match component {
         GRAY => gray(color),
         _ => Value::Color(color)

@@ -3,4 +3,5 @@
 pub mod bracket;
 pub mod convex;
 pub mod monotone;
+pub mod isolate;
 pub mod polynomial;

@@ -1,0 +1,130 @@
+//! Surfaces of functions: `isosurface`, and what holds it.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::function::Closed;
+use crate::math::Vector;
+use crate::scene::{Container, Solid};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
+
+impl Evaluator<'_> {
+    /// `function { … }` first, then the other items, in any order.
+    pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
+        let function = self.function_part(token)?;
+        let mut container = None;
+        let (mut threshold, mut accuracy, mut open) = (0.0, 0.001, false);
+        let mut failed = false;
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
+            let word = *word;
+            if !matches!(
+                word,
+                Word::Threshold
+                    | Word::Accuracy
+                    | Word::ContainedBy
+                    | Word::Open
+                    | Word::MaxGradient
+                    | Word::Evaluate
+                    | Word::MaxTrace
+                    | Word::AllIntersections
+            ) {
+                break;
+            }
+            let Some(item) = self.next() else { break };
+            let outcome = match word {
+                Word::Threshold => {
+                    self.number_after(&item, "a number").map(|given| threshold = given.value)
+                }
+                Word::Accuracy => self.positive_after(&item).map(|value| accuracy = value),
+                Word::ContainedBy => self.contained_by(&item).map(|held| container = Some(held)),
+                Word::Open => {
+                    open = true;
+                    Ok(())
+                }
+                _ => self.inert(&item, Place::shape(Word::Isosurface)).unwrap_or(Ok(())),
+            };
+            failed |= outcome.is_err();
+        }
+        if failed {
+            return Err(Reported);
+        }
+        let container = container.unwrap_or(Container::DEFAULT);
+        Ok(Solid::Isosurface { function, container, threshold, accuracy, open })
+    }
+
+    /// A function that gives a number, with all that it asks.
+    pub(super) fn function_part(&mut self, token: &Token) -> Outcome<Arc<Closed>> {
+        self.skip_commas();
+        let Some(word) = self.take_word(Word::Function) else {
+            let next = self.peek().cloned();
+            let wanted = "`function { … }`";
+            return Err(self.expected(wanted, next.as_ref(), (&token.here, token.span)));
+        };
+        match self.function(&word)? {
+            Value::Function(id) => match self.closed(id) {
+                Some(closed) => Ok(Arc::new(closed)),
+                None => {
+                    let message = "a surface needs a function that gives a number";
+                    let diagnostic = Diagnostic::new(Code::WrongType, message)
+                        .at(word.span, "this gives more than one")
+                        .help("write one of its components, as `F(x, y, z).x`");
+                    Err(self.report(&word.here, diagnostic))
+                }
+            },
+            Value::Poison(poison) => {
+                self.set_poison(poison);
+                Err(Reported)
+            }
+            _ => Err(Reported),
+        }
+    }
+
+    fn positive_after(&mut self, item: &Token) -> Outcome<f64> {
+        let given = self.number_after(item, "a number more than 0")?;
+        if given.value > 0.0 {
+            return Ok(given.value);
+        }
+        let name = self.describe(item);
+        let diagnostic = Diagnostic::new(Code::OutOfRange, format!("{name} is a length"))
+            .at(given.span, "expected a number more than 0");
+        Err(self.report(&given.here, diagnostic))
+    }
+
+    /// `contained_by { sphere { … } }` or `contained_by { box { … } }`.
+    pub(super) fn contained_by(&mut self, token: &Token) -> Outcome<Container> {
+        self.block(token, Word::ContainedBy, |evaluator| {
+            let inner = evaluator.next();
+            let (inner, word) = match inner {
+                Some(Token { kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), .. }) => {
+                    (inner.ok_or(Reported)?, word)
+                }
+                other => {
+                    let wanted = "`sphere { … }` or `box { … }`";
+                    let at = (&token.here, token.span);
+                    return Err(evaluator.expected(wanted, other.as_ref(), at));
+                }
+            };
+            let solid = evaluator.block(&inner, word, |evaluator| match word {
+                Word::Sphere => evaluator.sphere(&inner),
+                _ => evaluator.box_(&inner),
+            })?;
+            match solid {
+                Solid::Sphere { centre, radius } => Ok(Container::Sphere { centre, radius }),
+                Solid::Box { corners } => Ok(Container::Box { corners }),
+                _ => Err(Reported),
+            }
+        })
+    }
+}
+
+impl Container {
+    /// What holds a surface where nothing else is said.
+    pub(super) const DEFAULT: Self = Self::Box { corners: [Vector::NEG_ONE, Vector::ONE] };
+}

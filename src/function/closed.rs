@@ -1,0 +1,136 @@
+//! Closed: a function and all that it asks; it needs nothing from outside.
+
+use super::noise::NoiseFunction;
+use super::slope::Sloped;
+use super::tape::{Function, Step};
+use super::{Outside, OutsideId};
+use crate::math::interval::Interval;
+use crate::math::Vector;
+use crate::math::placement::Map;
+use crate::noise::NoiseGenerator;
+use crate::pattern::Pattern;
+use crate::spline::Spline;
+
+/// What a function asks, by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Asked {
+    Noise {
+        function: NoiseFunction,
+        /// The scene's own.
+        generator: NoiseGenerator,
+    },
+    /// One component of a spline's value at a time.
+    Spline {
+        spline: Spline,
+        component: usize,
+    },
+    /// A pattern at a point, and what its values become.
+    Pattern {
+        pattern: Pattern,
+        pattern_from_point: Map,
+        /// Sorted by value, linear between, constant outside; at least one entry.
+        map: Vec<(f64, f64)>,
+    },
+    Constant(f64),
+}
+
+/// A function that knows all that it asks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Closed {
+    function: Function,
+    asked: Vec<Asked>,
+}
+
+impl Closed {
+    /// `None` where `asked` does not know what the function asks.
+    pub fn new(
+        mut function: Function,
+        mut asked: impl FnMut(OutsideId) -> Option<Asked>,
+    ) -> Option<Self> {
+        let mut all: Vec<(OutsideId, Asked)> = Vec::new();
+        for step in &mut function.steps {
+            if let Step::Ask { id, .. } = step {
+                let known = all.iter().position(|(other, _)| other == id);
+                let place = match known {
+                    Some(place) => place,
+                    None => {
+                        all.push((*id, asked(*id)?));
+                        all.len() - 1
+                    }
+                };
+                *id = OutsideId(place as u32);
+            }
+        }
+        Some(Self { function, asked: all.into_iter().map(|(_, asked)| asked).collect() })
+    }
+
+    pub fn function(&self) -> &Function {
+        &self.function
+    }
+}
+
+impl Asked {
+    fn value(&self, arguments: &[f64]) -> f64 {
+        let argument = |at: usize| arguments.get(at).copied().unwrap_or(0.0);
+        match self {
+            Self::Noise { function, generator } => function.value(*generator, arguments),
+            Self::Spline { spline, component } => {
+                spline.at(argument(0)).get(*component).copied().unwrap_or(f64::NAN)
+            }
+            Self::Pattern { pattern, pattern_from_point, map } => {
+                let point = Vector::new(argument(0), argument(1), argument(2));
+                let place = pattern_from_point.point(point);
+                look_up(map, pattern.value(place, Vector::ZERO).value)
+            }
+            Self::Constant(value) => *value,
+        }
+    }
+
+    fn bounds(&self, arguments: &[Interval]) -> Interval {
+        match self {
+            Self::Noise { function, generator } => function.bounds(*generator, arguments),
+            // Between its knots a spline may swing out, by no bound that is known here.
+            Self::Spline { .. } => Interval::EVERYTHING,
+            Self::Pattern { map, .. } => {
+                let values = map.iter().map(|entry| Interval::point(entry.1));
+                values.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING)
+            }
+            Self::Constant(value) => Interval::point(*value),
+        }
+    }
+}
+
+/// **Source:** as a pigment's map (`world::pigment`).
+fn look_up(map: &[(f64, f64)], value: f64) -> f64 {
+    let (Some(first), Some(last)) = (map.first(), map.last()) else { return f64::NAN };
+    if value >= last.0 {
+        return last.1;
+    }
+    let above = map.partition_point(|entry| entry.0 < value);
+    match map.get(above.wrapping_sub(1)..=above) {
+        Some([low, high]) => low.1 + (high.1 - low.1) * ((value - low.0) / (high.0 - low.0)),
+        _ => first.1,
+    }
+}
+
+impl Outside for Closed {
+    fn value(&self, id: OutsideId, arguments: &[f64]) -> f64 {
+        self.asked.get(id.0 as usize).map_or(f64::NAN, |asked| asked.value(arguments))
+    }
+
+    fn bounds(&self, id: OutsideId, arguments: &[Interval]) -> Interval {
+        let asked = self.asked.get(id.0 as usize);
+        asked.map_or(Interval::EVERYTHING, |asked| asked.bounds(arguments))
+    }
+
+    fn sloped<const N: usize>(&self, id: OutsideId, arguments: &[Sloped<N>]) -> Sloped<N> {
+        match self.asked.get(id.0 as usize) {
+            Some(Asked::Noise { function, generator }) => function.sloped(*generator, arguments),
+            Some(asked) => {
+                let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
+                Sloped::anyhow(asked.bounds(&values), arguments.iter().all(Sloped::is_level))
+            }
+            None => Sloped::anyhow(Interval::EVERYTHING, false),
+        }
+    }
+}

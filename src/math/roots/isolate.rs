@@ -1,0 +1,258 @@
+//! Isolate: where a function changes its sign, by bounds on its values and slopes over whole intervals.
+//!
+//! **In:** a function's bounds over an interval or at a place. **Out:** the changes of its sign, each between
+//! two places where its sign is certain. **Invariant:** none is left out where the bounds decide; where they
+//! are infinite, the function is looked at in places no farther apart than the resolution.
+//!
+//! An interval has no root where the bounds, or the slopes from its ends on, say so; one at most where the
+//! function rises or falls throughout; any other is cut to what the ends' slopes leave of it, or into two.
+//!
+//! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis* (2009), chapter
+//! 8; D. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface (1990), p. 68.
+
+use smallvec::SmallVec;
+
+use crate::math::interval::Interval;
+
+/// What a function can come to in an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    pub value: Interval,
+    /// Kinks have the slopes of both sides, jumps everything.
+    pub slope: Interval,
+}
+
+/// A change of sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// Certainly of the one sign, and the last place that was found to be.
+    pub before: f64,
+    /// Certainly of the other, and the first.
+    pub after: f64,
+    /// From negative to positive.
+    pub rising: bool,
+}
+
+/// The changes of sign in an interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Changes {
+    /// The first place of certain sign, and whether it is negative there; likewise the last.
+    pub first: Option<(f64, bool)>,
+    pub last: Option<(f64, bool)>,
+    pub all: SmallVec<[Change; 4]>,
+}
+
+/// How finely to look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fineness {
+    /// What infinite bounds leave undecided is cut no finer.
+    pub resolution: f64,
+    /// Nothing is cut finer: what rounding leaves.
+    pub least: f64,
+}
+
+/// After so many intervals none is cut that is no longer than the resolution, and after eight times as many
+/// none at all.
+const MOST: u32 = 4_096;
+
+/// Where cells are cut: seldom where anything is.
+const CUTS: [f64; 3] = [0.4934, 0.5481, 0.4127];
+
+#[derive(Debug, Clone, Copy)]
+struct End {
+    s: f64,
+    value: Interval,
+}
+
+impl End {
+    /// Whether it is negative, if that is certain.
+    fn sign(&self) -> Option<bool> {
+        sign(self.value)
+    }
+}
+
+fn sign(value: Interval) -> Option<bool> {
+    match (value.low > 0.0, value.high < 0.0) {
+        (true, _) => Some(false),
+        (_, true) => Some(true),
+        _ => None,
+    }
+}
+
+struct Search<'f, F> {
+    function: &'f F,
+    fineness: Fineness,
+    cells: u32,
+    found: Changes,
+}
+
+/// The changes of sign of a function from one place to another.
+pub fn changes(
+    function: &impl Fn(Interval) -> Bounds,
+    from: f64,
+    to: f64,
+    fineness: Fineness,
+) -> Changes {
+    let found = Changes { first: None, last: None, all: SmallVec::new() };
+    let mut search = Search { function, fineness, cells: 0, found };
+    let (first, last) = (search.look(from), search.look(to));
+    search.note(from, first.sign());
+    search.interval(first, last);
+    search.found
+}
+
+impl<F: Fn(Interval) -> Bounds> Search<'_, F> {
+    fn look(&self, s: f64) -> End {
+        End { s, value: (self.function)(Interval::point(s)).value }
+    }
+
+    fn note(&mut self, s: f64, negative: Option<bool>) {
+        let Some(negative) = negative else { return };
+        if let Some((before, was_negative)) = self.found.last
+            && was_negative != negative
+        {
+            self.found.all.push(Change { before, after: s, rising: was_negative });
+        }
+        self.found.first.get_or_insert((s, negative));
+        self.found.last = Some((s, negative));
+    }
+
+    fn interval(&mut self, first: End, last: End) {
+        let mut stack: SmallVec<[(End, End); 64]> = SmallVec::new();
+        stack.push((first, last));
+        while let Some((a, b)) = stack.pop() {
+            match self.part(a, b) {
+                Some(([left, right], cut)) => {
+                    stack.push((cut, right));
+                    stack.push((left, cut));
+                }
+                None => self.note(b.s, b.sign()),
+            }
+        }
+    }
+
+    /// What is left of an interval, and where it is cut; `None` where it need not be.
+    fn part(&mut self, a: End, b: End) -> Option<([End; 2], End)> {
+        let Fineness { resolution, least } = self.fineness;
+        let width = b.s - a.s;
+        self.cells += 1;
+        let is_short = width.is_nan() || width <= resolution;
+        let is_spent = self.cells > 8 * MOST || self.cells > MOST && is_short;
+        if is_spent || width.is_nan() || width <= least {
+            return None;
+        }
+        let all = (self.function)(Interval { low: a.s, high: b.s });
+        let Interval { low: fall, high: rise } = all.slope;
+        if sign(all.value).is_some() || fall > 0.0 || rise < 0.0 {
+            return None;
+        }
+        // How far from each end its sign is certain yet.
+        let far = |gap: f64, speed: f64| if speed > 0.0 { 0.999_999 * gap / speed } else { width };
+        let from_first = match a.sign() {
+            Some(false) => far(a.value.low, -fall),
+            Some(true) => far(-a.value.high, rise),
+            None => 0.0,
+        };
+        let from_last = match b.sign() {
+            Some(false) => far(b.value.low, rise),
+            Some(true) => far(-b.value.high, -fall),
+            None => 0.0,
+        };
+        let both = a.sign().is_some() && a.sign() == b.sign();
+        if both && from_first + from_last >= width {
+            return None;
+        }
+        if is_short && !all.value.is_finite() {
+            return None;
+        }
+        let (mut first, mut last) = (a, b);
+        if from_first + from_last > 0.3 * width && from_first + from_last < width {
+            first = self.nearer(a, a.s + from_first);
+            last = self.nearer(b, b.s - from_last);
+            if first.s >= last.s {
+                (first, last) = (a, b);
+            }
+        }
+        let mut cut = first;
+        for share in CUTS {
+            cut = self.look(first.s + share * (last.s - first.s));
+            if cut.sign().is_some() {
+                break;
+            }
+        }
+        if !(first.s < cut.s && cut.s < last.s) {
+            return None;
+        }
+        // Nothing is certain anywhere in it.
+        let blank = [&first, &cut, &last].iter().all(|end| end.sign().is_none());
+        if blank && is_short {
+            return None;
+        }
+        self.note(first.s, first.sign());
+        Some(([first, last], cut))
+    }
+
+    /// An end moved to where its sign is still the same; it stays where rounding leaves nothing of that.
+    fn nearer(&self, end: End, s: f64) -> End {
+        let moved = self.look(s);
+        if moved.sign() == end.sign() { moved } else { end }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Random, tries};
+
+    const FINE: Fineness = Fineness { resolution: 1e-3, least: 1e-14 };
+
+    /// The product of x − r over some roots, by intervals.
+    fn polynomial(roots: &[f64]) -> impl Fn(Interval) -> Bounds {
+        move |x| {
+            let (mut value, mut slope) = (Interval::point(1.0), Interval::point(0.0));
+            for root in roots {
+                let factor = x - Interval::point(*root);
+                slope = slope * factor + value;
+                value = value * factor;
+            }
+            Bounds { value, slope }
+        }
+    }
+
+    #[test]
+    fn every_root_of_a_polynomial_is_found_and_in_order() {
+        let mut random = Random(3);
+        for _ in 0..tries() {
+            let mut roots = [(); 5].map(|()| random.number(-1.0, 1.0));
+            // Two of them near each other.
+            roots[1] = roots[0] + random.size(-5.0, -1.0);
+            roots.sort_by(f64::total_cmp);
+            let changes = changes(&polynomial(&roots), -2.0, 3.0, FINE);
+            assert_eq!(changes.all.len(), 5, "{roots:?} {changes:?}");
+            for (change, root) in changes.all.iter().zip(roots) {
+                assert!(change.before < root && root < change.after, "{roots:?} {changes:?}");
+            }
+            assert!(changes.all.iter().enumerate().all(|(i, c)| c.rising == (i % 2 == 0)));
+        }
+    }
+
+    #[test]
+    fn what_touches_zero_and_does_not_pass_it_changes_no_sign() {
+        let touching = |x: Interval| Bounds { value: (x - Interval::point(0.3)).square(), slope: Interval::point(2.0) * (x - Interval::point(0.3)) };
+        assert!(changes(&touching, -1.0, 1.0, FINE).all.is_empty());
+    }
+
+    #[test]
+    fn a_jump_is_found_as_exactly_as_numbers_go() {
+        let step = |x: Interval| {
+            let at = |x: f64| if x < 0.123_456 { -1.0 } else { 1.0 };
+            let value = Interval { low: at(x.low), high: at(x.high) };
+            let slope = if value.single().is_some() { Interval::point(0.0) } else { Interval::EVERYTHING };
+            Bounds { value, slope }
+        };
+        let found = changes(&step, -1.0, 1.0, FINE);
+        let [change] = found.all[..] else { panic!("{found:?}") };
+        assert!(change.rising && change.before < 0.123_456 && change.after >= 0.123_456);
+        assert!(change.after - change.before < 1e-13);
+    }
+}
