@@ -96,7 +96,13 @@ fn steepness(operation: Unary, a: Interval, value: Interval) -> Interval {
         }
         Unary::Exp => value,
         Unary::Ln => ONE / a,
-        Unary::Log => ONE / (a * Interval::point(10.0).monotone_within(1.0, 11.0, crate::math::elementary::log)),
+        Unary::Log => {
+            ONE / (a * Interval::point(10.0).monotone_within(
+                1.0,
+                11.0,
+                crate::math::elementary::log,
+            ))
+        }
         Unary::Sin => Interval::cos(a),
         Unary::Cos => -Interval::sin(a),
         Unary::Tan | Unary::Tanh if value == Interval::EVERYTHING => value,
@@ -115,7 +121,8 @@ fn steepness(operation: Unary, a: Interval, value: Interval) -> Interval {
 
 impl<const N: usize> Number for Sloped<N> {
     fn constant(value: f64) -> Self {
-        Self { value: Interval::point(value), slopes: [LEVEL; N] }
+        // What is no number may stand for what is not known.
+        Self::anyhow(Interval::point(value), !value.is_nan())
     }
 
     fn unary(operation: Unary, a: Self) -> Self {
@@ -143,7 +150,9 @@ impl<const N: usize> Number for Sloped<N> {
             | Binary::NotEqual
             | Binary::And
             | Binary::Or => Self { value, slopes: [of_steps(value); N] },
-            Binary::Min | Binary::Max if value == Interval::EVERYTHING => Self::anyhow(value, false),
+            Binary::Min | Binary::Max if value == Interval::EVERYTHING => {
+                Self::anyhow(value, false)
+            }
             Binary::Min if a.value.high < b.value.low => a,
             Binary::Min if b.value.high < a.value.low => b,
             Binary::Max if a.value.low > b.value.high => a,
@@ -156,9 +165,7 @@ impl<const N: usize> Number for Sloped<N> {
             Binary::Pow if b.value.single().is_some() && b.is_level() => {
                 Self::follow(value, steepness_of_power(a.value, b.value), &a)
             }
-            Binary::Pow => {
-                both(b.value * (value / a.value), value * Unary::Ln.bounds(a.value))
-            }
+            Binary::Pow => both(b.value * (value / a.value), value * Unary::Ln.bounds(a.value)),
             // Across the cut it jumps.
             Binary::Atan2 if b.value.low <= 0.0 && a.value.contains(0.0) => {
                 Self::anyhow(value, false)
@@ -174,7 +181,10 @@ impl<const N: usize> Number for Sloped<N> {
         match condition.value.single() {
             Some(0.0) => otherwise,
             _ if !condition.value.contains(0.0) => then,
-            _ => Self::anyhow(then.value.hull(otherwise.value), condition.is_level() && then.is_level() && otherwise.is_level()),
+            _ => Self::anyhow(
+                then.value.hull(otherwise.value),
+                condition.is_level() && then.is_level() && otherwise.is_level(),
+            ),
         }
     }
 

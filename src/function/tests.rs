@@ -291,3 +291,47 @@ fn a_function_too_long_says_so() {
     });
     assert_eq!(outcome, Err(TooLong));
 }
+
+#[test]
+fn values_change_no_faster_than_the_slopes_of_a_box_around_them() {
+    let mut known = 0;
+    for seed in 0..(2_000 * long() as u64) {
+        let mut draw = Random::of(seed, 9);
+        let function = function(3, &drawn(&mut draw, 5, 0));
+        let corner = [0; 3].map(|_| draw.number(-2.0, 2.0));
+        let width = if seed % 2 == 0 { 0.01 } else { 1.0 };
+        let boxed = corner.map(|low| Interval { low, high: low + width });
+        let along = |axis: usize| {
+            let mut slopes = [Interval::point(0.0); 3];
+            slopes[axis] = Interval::point(1.0);
+            Sloped { value: boxed[axis], slopes }
+        };
+        let Sloped { value, slopes } = function.run().at(&[0, 1, 2].map(along), &Ramp);
+        assert_eq!(value, function.run().at(&boxed, &Ramp), "seed {seed}");
+        known += usize::from(slopes.iter().all(|slope| slope.is_finite()));
+        let (mut run, mut bounds) = (function.run::<f64>(), function.run::<Interval>());
+        for _ in 0..12 {
+            let from = boxed.map(|i| draw.number(i.low, i.high).min(i.high));
+            let axis = draw.below(3);
+            let mut to = from;
+            to[axis] = draw.number(boxed[axis].low, boxed[axis].high).min(boxed[axis].high);
+            let step = to[axis] - from[axis];
+            let change = run.at(&to, &Ramp) - run.at(&from, &Ramp);
+            if !change.is_finite() || step == 0.0 {
+                continue;
+            }
+            let mut rounding = |point: [f64; 3]| {
+                let Interval { low, high } = bounds.at(&point.map(Interval::point), &Ramp);
+                high - low
+            };
+            let off = (rounding(from) + rounding(to)) / step.abs();
+            let (slope, Interval { low, high }) = (change / step, slopes[axis]);
+            let sound = low - off <= slope && slope <= high + off;
+            assert!(
+                sound,
+                "seed {seed}: {slope:e} outside {low:e} {high:e}, axis {axis}\n{function:?}"
+            );
+        }
+    }
+    assert!(known > 500, "{known} of 2,000 have slopes");
+}

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use super::Fault;
 use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
+use crate::function::Closed;
 use crate::math::double::{Double, DoubleVector, power_of_two};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
-use crate::function::Closed;
 use crate::scene::Container;
 use crate::scene::mesh::Triangles;
 use crate::shape::isosurface;
@@ -136,9 +136,10 @@ pub fn isosurface(
         Container::Sphere { .. } => isosurface::Container::Sphere(half.x * inverse),
         Container::Box { .. } => isosurface::Container::Box(half * inverse),
     };
-    let function = function.clone();
+    let field = isosurface::Field::Function(function.clone());
     let accuracy = accuracy * inverse;
-    let body = Isosurface { function, threshold, container, centre, scale, accuracy, open };
+    let body =
+        Isosurface { field, threshold, container, centre, scale, accuracy, finest: 0.0, open };
     let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));
     Ok((Body::Isosurface(body), Affine::from_columns(columns, exact(centre))))
 }

@@ -10,6 +10,7 @@ mod body;
 mod camera;
 mod csg;
 mod finish;
+mod fractal;
 mod interior;
 mod light;
 mod lint;

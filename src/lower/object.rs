@@ -11,6 +11,7 @@ use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, shape, sweep};
+use super::{Fault, Lowering, NO_SIZE, body, fractal, shape};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -318,6 +319,9 @@ impl<'s> Lowering<'s, '_> {
             Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
                 let made = body::isosurface(function, container, threshold, accuracy, open)?;
                 self.place_made(made, here, site)
+            }
+            Solid::JuliaFractal(ref written) => {
+                self.place_made(fractal::julia(written)?, here, site)
             }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {

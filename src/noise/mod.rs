@@ -88,7 +88,8 @@ pub fn slopes(generator: NoiseGenerator, point: [Interval; 3]) -> [Interval; 3] 
     };
     let all = Interval { low: -steepest, high: steepest };
     let away = point.map(|i| 0.5 * (i.high - i.low));
-    if away.iter().sum::<f64>() > 0.5 || point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR) {
+    if away.iter().sum::<f64>() > 0.5 || point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR)
+    {
         return [all; 3];
     }
     let middle = Vector::from_array(point.map(|i| i.low + 0.5 * (i.high - i.low)));
@@ -101,7 +102,8 @@ pub fn slopes(generator: NoiseGenerator, point: [Interval; 3]) -> [Interval; 3] 
     std::array::from_fn(|axis| {
         let along: f64 = (0..3).map(|i| away[i] * if i == axis { 48.0 } else { 38.0 }).sum();
         let (slope, reach) = (share * gradient[axis], share * along + 1e-6);
-        let near = Interval { low: (slope - reach).max(all.low), high: (slope + reach).min(all.high) };
+        let near =
+            Interval { low: (slope - reach).max(all.low), high: (slope + reach).min(all.high) };
         if may_be_cut { near.hull(Interval::point(0.0)) } else { near }
     })
 }

@@ -6,8 +6,8 @@
 
 use std::sync::LazyLock;
 
-use super::{cells, weighted_slope};
 use super::table::Stream;
+use super::{cells, weighted_slope};
 use crate::math::Vector;
 
 const SIZE: usize = 2048;

@@ -152,3 +152,33 @@ fn wild_turbulence_without_end_is_still_finite_where_its_layers_fade() {
         assert!(vector.abs().max_element() < 4.0, "{lambda}: {vector}");
     }
 }
+
+#[test]
+fn noise_changes_no_faster_than_the_slopes_of_a_box_around_it() {
+    let mut narrow = 0;
+    for seed in 0..4_000 {
+        let mut draw = Random::of(seed, 6);
+        let generator =
+            [NoiseGenerator::Plateaus, NoiseGenerator::RangeCorrected, NoiseGenerator::Perlin]
+                [draw.below(3)];
+        let width = [1e-3, 0.02, 0.3][draw.below(3)];
+        let boxed =
+            [(); 3].map(|()| draw.number(-9.0, 9.0)).map(|low| Interval { low, high: low + width });
+        let slopes = slopes(generator, boxed);
+        narrow += usize::from(slopes.iter().all(|slope| slope.high - slope.low < 1.0));
+        for _ in 0..8 {
+            let axis = draw.below(3);
+            let from = Vector::from_array(boxed.map(|i| draw.number(i.low, i.high)));
+            let mut to = from;
+            to[axis] = draw.number(boxed[axis].low, boxed[axis].high);
+            let step = to[axis] - from[axis];
+            let slope = (noise(generator, to) - noise(generator, from)) / step;
+            let (Interval { low, high }, off) = (slopes[axis], 2e-8 / step.abs());
+            assert!(
+                low - off <= slope && slope <= high + off,
+                "{generator:?} {slope} not in {low} … {high}, {boxed:?}"
+            );
+        }
+    }
+    assert!(narrow > 1_000, "{narrow}");
+}

@@ -12,6 +12,7 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::isosurface::Isosurface;
+use super::julia_fractal::JuliaFractal;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::superellipsoid::Superellipsoid;
@@ -219,6 +220,7 @@ bodies! {
     Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
+    JuliaFractal "julia_fractal"
     Mesh "mesh"
     Disc "disc"
     Ovus "ovus"

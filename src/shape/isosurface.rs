@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
-use crate::function::{Closed, Run, Sloped};
+use super::julia_fractal::Julia;
+use crate::function::{Closed, Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::roots::bracket::{Sample, root};
@@ -31,10 +32,41 @@ pub enum Container {
     Sphere(f64),
 }
 
+/// What is compared with the threshold.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Field {
+    Function(Arc<Closed>),
+    Julia(Julia),
+}
+
+/// A field at work.
+enum Running<'a, N> {
+    Function(Run<'a, N>, &'a Closed),
+    Julia(&'a Julia),
+}
+
+impl Field {
+    fn run<N: Number>(&self) -> Running<'_, N> {
+        match self {
+            Self::Function(closed) => Running::Function(closed.function().run(), closed),
+            Self::Julia(julia) => Running::Julia(julia),
+        }
+    }
+}
+
+impl<N: Number> Running<'_, N> {
+    fn at(&mut self, point: [N; 3], low: impl Fn(N) -> f64) -> N {
+        match self {
+            Self::Function(run, closed) => run.at(&point, *closed),
+            Self::Julia(julia) => julia.at(point, low),
+        }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
     /// Of x, y and z, in a space of the author's.
-    pub function: Arc<Closed>,
+    pub field: Field,
     pub threshold: f64,
     pub container: Container,
     /// A local point is there `centre + scale · point`; the scale is a power of two.
@@ -42,6 +74,8 @@ pub struct Isosurface {
     pub scale: f64,
     /// In local lengths.
     pub accuracy: f64,
+    /// What is thinner along a line, in local lengths, need not be found; 0 for what rounding leaves.
+    pub finest: f64,
     /// Where the container cuts it, there is nothing to be seen.
     pub open: bool,
 }
@@ -50,7 +84,7 @@ pub struct Isosurface {
 struct Line<'a> {
     surface: &'a Isosurface,
     ray: &'a LocalRay,
-    run: RefCell<Run<'a, Sloped<1>>>,
+    run: RefCell<Running<'a, Sloped<1>>>,
 }
 
 impl Line<'_> {
@@ -93,7 +127,7 @@ impl Line<'_> {
 
     fn evaluate(&self, point: [Sloped<1>; 3]) -> Bounds {
         let Sloped { value, slopes: [slope] } =
-            self.run.borrow_mut().at(&point, &*self.surface.function);
+            self.run.borrow_mut().at(point, |value| value.value.low);
         Bounds { value: value - Interval::point(self.surface.threshold), slope }
     }
 
@@ -202,7 +236,7 @@ fn slab(ray: &LocalRay, axis: usize, half: f64, reach: f64) -> Option<(Met, Met)
 
 impl Isosurface {
     fn line<'a>(&'a self, ray: &'a LocalRay) -> Line<'a> {
-        Line { surface: self, ray, run: RefCell::new(self.function.function().run()) }
+        Line { surface: self, ray, run: RefCell::new(self.field.run()) }
     }
 
     fn world(&self, point: Vector) -> Vector {
@@ -211,18 +245,18 @@ impl Isosurface {
 
     fn value(&self, point: Vector) -> f64 {
         let point = self.world(point).to_array();
-        self.function.function().run().at(&point, &*self.function) - self.threshold
+        self.field.run().at(point, |value| value) - self.threshold
     }
 
     /// The value and its gradient, in local lengths.
     fn bounds(&self, point: Vector) -> Sloped<3> {
-        let point = self.world(point).to_array();
         let along = |axis: usize| {
             let mut slopes = [Interval::point(0.0); 3];
             slopes[axis] = Interval::point(self.scale);
-            Sloped { value: Interval::point(point[axis]), slopes }
+            let place = Interval::point(point[axis] * self.scale);
+            Sloped { value: Interval::point(self.centre[axis]) + place, slopes }
         };
-        let mut all = self.function.function().run().at(&[0, 1, 2].map(along), &*self.function);
+        let mut all = self.field.run().at([0, 1, 2].map(along), |all: Sloped<3>| all.value.low);
         all.value = all.value - Interval::point(self.threshold);
         all
     }
@@ -254,8 +288,9 @@ impl Local for Isosurface {
         let line = self.line(ray);
         let from = line.settle(enter.t, enter.error, 1.0, 0.1 * width);
         let to = line.settle(leave.t, leave.error, -1.0, 0.1 * width);
-        let least = 8.0 * (ray.blur_at(enter.t.abs().max(leave.t.abs())) + U * self.container.reach());
-        let fineness = Fineness { resolution: self.accuracy, least };
+        let least =
+            8.0 * (ray.blur_at(enter.t.abs().max(leave.t.abs())) + U * self.container.reach());
+        let fineness = Fineness { resolution: self.accuracy, least: least.max(self.finest) };
         let signs = changes(&|s| line.bounds(s), from, to, fineness);
         let cap = |end: Met, place: f64| {
             let error = end.error.max((place - end.t).abs());
@@ -287,7 +322,8 @@ impl Local for Isosurface {
         let gradient = self.gradient_around(point).unwrap_or(Vector::Y);
         let (value, steepness) = (self.value(point), gradient.length());
         if value.abs() <= self.accuracy * steepness {
-            let error = 8.0 * U * (value.abs() + self.threshold.abs()) + 4.0 * U * steepness;
+            let place = 1.0 + self.centre.length() / self.scale;
+            let error = 8.0 * U * (value.abs() + self.threshold.abs() + place * steepness);
             return Height { value, gradient, error };
         }
         // A jump: the point is as near to it as its crossing was found.
@@ -307,8 +343,11 @@ impl Local for Isosurface {
     }
 
     fn numbers(&self) -> String {
-        let Self { threshold, container, centre, scale, open, .. } = self;
-        let operations = self.function.function().operations();
+        let Self { field, threshold, container, centre, scale, open, .. } = self;
+        let operations = match field {
+            Field::Function(closed) => closed.function().operations(),
+            Field::Julia(julia) => return julia.numbers(),
+        };
         let open = if *open { " open" } else { "" };
         format!(
             " of {operations} operations, less than {threshold}, within {container:?} at {centre} × {scale}{open}"
@@ -333,7 +372,11 @@ impl Container {
                 let axis = (side / 2).min(2) as usize;
                 let way = if side % 2 == 1 { 1.0 } else { -1.0 };
                 let gradient = [Vector::X, Vector::Y, Vector::Z][axis] * way;
-                Height { value: point.dot(gradient) - half[axis], gradient, error: 2.0 * U * half[axis] }
+                Height {
+                    value: point.dot(gradient) - half[axis],
+                    gradient,
+                    error: 2.0 * U * half[axis],
+                }
             }
         }
     }

@@ -9,6 +9,7 @@ use leave::assert_leaves_for_good;
 
 mod algebraic;
 mod blob;
+mod isosurface;
 mod leave;
 mod mesh;
 mod ovus;

@@ -102,9 +102,9 @@ impl Evaluator<'_> {
         self.block(token, Word::ContainedBy, |evaluator| {
             let inner = evaluator.next();
             let (inner, word) = match inner {
-                Some(Token { kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), .. }) => {
-                    (inner.ok_or(Reported)?, word)
-                }
+                Some(Token {
+                    kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), ..
+                }) => (inner.ok_or(Reported)?, word),
                 other => {
                     let wanted = "`sphere { … }` or `box { … }`";
                     let at = (&token.here, token.span);

@@ -11,7 +11,9 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn closed(&self, id: FunctionId) -> Option<Closed> {
         let function = match self.functions.get(id.0 as usize)? {
             AuthorFunction::Formula(function) => function.clone(),
-            AuthorFunction::Spline(_) | AuthorFunction::Pigment(_) | AuthorFunction::Transform(_) => {
+            AuthorFunction::Spline(_)
+            | AuthorFunction::Pigment(_)
+            | AuthorFunction::Transform(_) => {
                 return None;
             }
             asked @ (AuthorFunction::Noise(_) | AuthorFunction::Pattern(_)) => {

@@ -98,6 +98,7 @@ pub fn changes(
     let (first, last) = (search.look(from), search.look(to));
     search.note(from, first.sign());
     search.interval(first, last);
+    search.note(to, last.sign());
     search.found
 }
 
@@ -238,7 +239,10 @@ mod tests {
 
     #[test]
     fn what_touches_zero_and_does_not_pass_it_changes_no_sign() {
-        let touching = |x: Interval| Bounds { value: (x - Interval::point(0.3)).square(), slope: Interval::point(2.0) * (x - Interval::point(0.3)) };
+        let touching = |x: Interval| Bounds {
+            value: (x - Interval::point(0.3)).square(),
+            slope: Interval::point(2.0) * (x - Interval::point(0.3)),
+        };
         assert!(changes(&touching, -1.0, 1.0, FINE).all.is_empty());
     }
 
@@ -247,7 +251,8 @@ mod tests {
         let step = |x: Interval| {
             let at = |x: f64| if x < 0.123_456 { -1.0 } else { 1.0 };
             let value = Interval { low: at(x.low), high: at(x.high) };
-            let slope = if value.single().is_some() { Interval::point(0.0) } else { Interval::EVERYTHING };
+            let slope =
+                if value.single().is_some() { Interval::point(0.0) } else { Interval::EVERYTHING };
             Bounds { value, slope }
         };
         let found = changes(&step, -1.0, 1.0, FINE);
