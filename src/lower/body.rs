@@ -21,6 +21,8 @@ use crate::shape::{
     Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus,
 };
 use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Placed, Torus};
+    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Parametric, Placed, Torus,
+};
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -123,6 +125,36 @@ pub fn isosurface(
     accuracy: f64,
     open: bool,
 ) -> Result<(Body, Affine), Fault> {
+    let (container, centre, scale) = held(container)?;
+    let field = isosurface::Field::Function(function.clone());
+    let accuracy = accuracy / scale;
+    let body =
+        Isosurface { field, threshold, container, centre, scale, accuracy, finest: 0.0, open };
+    Ok((Body::Isosurface(body), about(centre, scale)))
+}
+
+/// The surface in the space of its container, as an isosurface.
+pub fn parametric(
+    functions: &[Arc<Closed>; 3],
+    corners: [[f64; 2]; 2],
+    container: Container,
+) -> Result<(Body, Affine), Fault> {
+    let (container, centre, scale) = held(container)?;
+    if !corners.iter().flatten().all(|corner| corner.is_finite()) {
+        return Err(Fault::not_finite("the range of u and v"));
+    }
+    let surface = Parametric::new(functions.clone(), corners, container, centre, scale);
+    Ok((Body::Parametric(surface), about(centre, scale)))
+}
+
+/// Lengths of `scale` from `centre` on.
+fn about(centre: Vector, scale: f64) -> Affine {
+    let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));
+    Affine::from_columns(columns, exact(centre))
+}
+
+/// A container about its own middle, of size about 1; the middle, and the power of two it is measured in.
+fn held(container: Container) -> Result<(isosurface::Container, Vector, f64), Fault> {
     let (centre, half) = match container {
         Container::Sphere { centre, radius } => (centre, Vector::splat(radius.abs())),
         Container::Box { corners: [a, b] } => (a * 0.5 + b * 0.5, (b * 0.5 - a * 0.5).abs()),
@@ -136,12 +168,7 @@ pub fn isosurface(
         Container::Sphere { .. } => isosurface::Container::Sphere(half.x * inverse),
         Container::Box { .. } => isosurface::Container::Box(half * inverse),
     };
-    let field = isosurface::Field::Function(function.clone());
-    let accuracy = accuracy * inverse;
-    let body =
-        Isosurface { field, threshold, container, centre, scale, accuracy, finest: 0.0, open };
-    let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));
-    Ok((Body::Isosurface(body), Affine::from_columns(columns, exact(centre))))
+    Ok((container, centre, scale))
 }
 
 /// The map that takes the z axis from −1 to 1 to the line between two points, and lengths across it to

@@ -5,9 +5,9 @@ use super::transform::{Affine, exact};
 use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector, power_of_two_near};
 use crate::scene;
+use crate::shape::Body;
 use crate::shape::isosurface::{Container, Field, Isosurface};
 use crate::shape::julia_fractal::{HypercomplexFunction, Iteration, Julia, JuliaFractal};
-use crate::shape::Body;
 use crate::vocabulary::Word;
 
 /// Around the ball that no iterate may leave, with room to end inside.
@@ -43,7 +43,7 @@ pub fn julia(written: &scene::Julia) -> Result<(Body, Affine), Fault> {
         centre: Vector::ZERO,
         scale,
         accuracy,
-        finest: accuracy * accuracy,
+        finest: accuracy,
         open: false,
     });
     let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));

@@ -323,6 +323,9 @@ impl<'s> Lowering<'s, '_> {
             Solid::JuliaFractal(ref written) => {
                 self.place_made(fractal::julia(written)?, here, site)
             }
+            Solid::Parametric { ref functions, corners, container } => {
+                self.place_made(body::parametric(functions, corners, container)?, here, site)
+            }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {
                 let ball = Solid::Sphere { centre: Vector::ZERO, radius: minor };

@@ -63,6 +63,13 @@ pub enum Solid {
         /// East-west and north-south, more than 0.
         exponents: [f64; 2],
     JuliaFractal(Julia),
+    /// The points that three functions of u and v give, within a container.
+    Parametric {
+        functions: [Arc<Closed>; 3],
+        /// Two corners of what u and v range over.
+        corners: [[f64; 2]; 2],
+        container: Container,
+    },
     /// Where a function is less than a threshold, within a container.
     Isosurface {
         function: Arc<Closed>,
@@ -187,6 +194,7 @@ impl Solid {
             Self::SphereSweep(_) => Word::SphereSweep,
             Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Isosurface { .. } => Word::Isosurface,
+            Self::Parametric { .. } => Word::Parametric,
             Self::JuliaFractal(_) => Word::JuliaFractal,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
@@ -212,6 +220,9 @@ impl Solid {
             Self::Ovus { bottom, top } => bottom.max(*top) == 0.0,
             Self::SphereSweep(sweep) => sweep.is_sizeless(),
             Self::Isosurface { container, .. } => container.is_sizeless(),
+            Self::Parametric { corners: [a, b], container, .. } => {
+                a[0] == b[0] || a[1] == b[1] || container.is_sizeless()
+            }
             Self::Torus { minor, .. } => *minor == 0.0,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
@@ -253,6 +264,15 @@ impl fmt::Display for Solid {
                 let operations = function.function().operations();
                 write!(f, " of {operations} operations, {container}, threshold {threshold}")?;
                 write!(f, ", accuracy {accuracy}{}", open(*is_open))
+            }
+            Self::Parametric { functions, corners: [a, b], container } => {
+                let operations: usize =
+                    functions.iter().map(|each| each.function().operations()).sum();
+                write!(
+                    f,
+                    " of {operations} operations, <{}, {}> <{}, {}>, {container}",
+                    a[0], a[1], b[0], b[1]
+                )
             }
             Self::JuliaFractal(julia) => write!(f, " {julia}"),
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),

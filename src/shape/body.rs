@@ -17,6 +17,7 @@ use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
+use super::parametric::Parametric;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -227,6 +228,7 @@ bodies! {
     SphereSweep "sphere_sweep"
     Superellipsoid "superellipsoid"
     Isosurface "isosurface"
+    Parametric "parametric"
     Torus "torus"
 }
 

@@ -145,7 +145,7 @@ impl Line<'_> {
             true => (change.after, change.before),
             false => (change.before, change.after),
         };
-        let found = root(|s| self.sample(s), outside, inside, f64::NAN);
+        let found = root(|s| self.sample(s), (outside, inside), f64::NAN, self.ray.tolerance);
         Met { t: found.t, error: found.error, leaving: change.rising, part: SURFACE }
     }
 
@@ -183,14 +183,22 @@ impl Container {
         }
     }
 
-    fn reach(&self) -> f64 {
+    /// The most of `along`·P.
+    pub(super) fn extent(&self, along: Vector) -> f64 {
+        match self {
+            Self::Box(half) => along.abs().dot(*half),
+            Self::Sphere(radius) => along.length() * radius,
+        }
+    }
+
+    pub(super) fn reach(&self) -> f64 {
         match self {
             Self::Box(half) => half.length(),
             Self::Sphere(radius) => *radius,
         }
     }
 
-    fn contains(&self, point: Vector) -> bool {
+    pub(super) fn contains(&self, point: Vector) -> bool {
         match self {
             Self::Box(half) => point.abs().cmplt(*half).all(),
             Self::Sphere(radius) => point.length() < *radius,
@@ -331,10 +339,7 @@ impl Local for Isosurface {
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let half = match self.container {
-            Container::Box(half) => along.abs().dot(half),
-            Container::Sphere(radius) => along.length() * radius,
-        };
+        let half = self.container.extent(along);
         (-half, half)
     }
 
@@ -352,6 +357,10 @@ impl Local for Isosurface {
         format!(
             " of {operations} operations, less than {threshold}, within {container:?} at {centre} × {scale}{open}"
         )
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn contains(&self, point: Vector) -> bool {

@@ -5,6 +5,8 @@
 //! those of any other function. Of quaternions the ball's radius is 1 + |p|, beyond which a square or cube only
 //! grows; of hypercomplex numbers 4.
 //!
+//! What is thinner along a line than the surface's `finest` may be lost: a fractal has no end of that.
+//!
 //! **Source:** manual, section 3.4.5.1.7; the radii and the number of iterates (h₀ … hₙ₋₁) were measured on
 //! POV-Ray 3.7, whose manual has 4 for both. A hypercomplex number is two complex ones (x − w, y + z) and
 //! (x + w, y − z), which never meet: J. Hart, D. Sandin, L. Kauffman, "Ray tracing deterministic 3-D fractals",
@@ -140,7 +142,9 @@ impl Julia {
 
     pub(super) fn numbers(&self) -> String {
         let Self { parameter, iteration, count, slice, offset } = self;
-        format!(" {parameter:?} {iteration:?}, {count} iterates, fourth coordinate {slice} + {offset}")
+        format!(
+            " {parameter:?} {iteration:?}, {count} iterates, fourth coordinate {slice} + {offset}"
+        )
     }
 }
 
@@ -188,6 +192,10 @@ impl Local for JuliaFractal {
 
     fn reach(&self) -> f64 {
         self.0.reach()
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
     }
 
     fn contains(&self, point: Vector) -> bool {

@@ -13,6 +13,7 @@ mod isosurface;
 mod leave;
 mod mesh;
 mod ovus;
+mod parametric;
 mod placed;
 mod superellipsoid;
 mod sweep;

@@ -46,12 +46,12 @@ vocabulary! {
         Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; to other solids, all that is behind it";
         HeightField "height_field" statement later "a landscape from a picture or a function";
         Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: where a function of space is less than a number";
-        JuliaFractal "julia_fractal" statement built "`julia_fractal { <parameter> [quaternion | hypercomplex] [sqr …] }`: a fractal of four dimensions, cut by three";
+        JuliaFractal "julia_fractal" statement built "`julia_fractal { <parameter> [hypercomplex] [sqr …] [max_iteration …] }`: a fractal of four dimensions, cut by three";
         Lathe "lathe" statement later "a curve turned about the y axis";
         Mesh "mesh" statement built "many triangles as one object";
         Mesh2 "mesh2" statement built "many triangles as lists of vertices and faces";
         Ovus "ovus" statement built "`ovus { bottom radius, top radius }`: an egg of two balls along the y axis";
-        Parametric "parametric" statement later "a surface of three functions of u and v";
+        Parametric "parametric" statement built "`parametric { function { … } function { … } function { … } <u1, v1>, <u2, v2> }`: a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
         Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
         Polygon "polygon" statement later "a flat figure of several corners";
@@ -96,7 +96,7 @@ vocabulary! {
         Open "open" statement built "leaves the ends out of sight";
         Orientation "orientation" statement later "how a shape is turned";
         Precision "precision" statement built "how exactly a julia_fractal is found";
-        Precompute "precompute" statement later "tabulates a parametric surface";
+        Precompute "precompute" statement inert "tabulates a parametric surface; each one is here";
         QuadraticSpline "quadratic_spline" statement built "a spline of parabolas";
         Quaternion "quaternion" statement built "the algebra of a julia_fractal";
         Slice "slice" statement built "the three-dimensional cut of a julia_fractal";

@@ -51,6 +51,11 @@ impl Evaluator<'_> {
                 let wanted = ["a least slope", "a factor", "an attenuation"];
                 wanted.iter().try_for_each(|wanted| self.number_after(token, wanted).map(drop))
             }
+            Word::Precompute => {
+                self.number_after(token, "a depth")?;
+                self.skip_values();
+                Ok(())
+            }
             Word::Hierarchy
             | Word::SplitUnion
             | Word::Sturm

@@ -86,6 +86,47 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Three functions of u and v, and two corners of what these range over.
+    pub(super) fn parametric(&mut self, token: &Token) -> Outcome<Solid> {
+        let functions =
+            [self.function_part(token)?, self.function_part(token)?, self.function_part(token)?];
+        let first = self.corner(token, "a vector <u, v> for a corner")?;
+        let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
+        let mut container = Container::DEFAULT;
+        let mut failed = false;
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
+            let word = *word;
+            if !matches!(
+                word,
+                Word::Accuracy | Word::ContainedBy | Word::MaxGradient | Word::Precompute
+            ) {
+                break;
+            }
+            let Some(item) = self.next() else { break };
+            let outcome = match word {
+                Word::ContainedBy => self.contained_by(&item).map(|held| container = held),
+                // Every crossing is found as exactly as rounding allows.
+                Word::Accuracy => self.positive_after(&item).map(drop),
+                _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
+            };
+            failed |= outcome.is_err();
+        }
+        if failed {
+            return Err(Reported);
+        }
+        Ok(Solid::Parametric { functions, corners: [first, second], container })
+    }
+
+    fn corner(&mut self, token: &Token, wanted: &str) -> Outcome<[f64; 2]> {
+        let given = self.given(token, wanted)?;
+        match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
+            Some([u, v]) => Ok([*u, *v]),
+            _ => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
+        }
+    }
+
     fn positive_after(&mut self, item: &Token) -> Outcome<f64> {
         let given = self.number_after(item, "a number more than 0")?;
         if given.value > 0.0 {

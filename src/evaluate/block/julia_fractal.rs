@@ -60,7 +60,9 @@ impl Evaluator<'_> {
                 }
                 TokenKind::Expression(id) => {
                     let kind = item.here.unit.expression(id).kind;
-                    let ExpressionKind::Call(Callee::Word(Word::Pwr, _), list) = kind else { break };
+                    let ExpressionKind::Call(Callee::Word(Word::Pwr, _), list) = kind else {
+                        break;
+                    };
                     self.next();
                     function = item.clone();
                     let given = self.numbers_of(&item.here, list);
@@ -115,7 +117,8 @@ impl Evaluator<'_> {
                 julia.precision = self.number_after(item, "a number")?.value.max(1.0);
             }
             Word::Slice => {
-                let normal = self.four_numbers(item, "a vector of four numbers across the slice")?;
+                let normal =
+                    self.four_numbers(item, "a vector of four numbers across the slice")?;
                 let distance = self.number_after(item, "a number for the slice's distance")?;
                 if normal.value[3] == 0.0 {
                     let message = "a slice along the fourth coordinate has three no more";

@@ -26,6 +26,7 @@ impl Evaluator<'_> {
             Word::Blob => Self::blob,
             Word::Isosurface => Self::isosurface,
             Word::JuliaFractal => Self::julia_fractal,
+            Word::Parametric => Self::parametric,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,
             Word::Quartic => Self::quartic,

@@ -47,10 +47,7 @@ impl<N: Number> Complex<N> {
 
     pub fn times(self, other: Self) -> Self {
         let (a, b) = (self, other);
-        Self(
-            subtract(times(a.0, b.0), times(a.1, b.1)),
-            add(times(a.0, b.1), times(a.1, b.0)),
-        )
+        Self(subtract(times(a.0, b.0), times(a.1, b.1)), add(times(a.0, b.1), times(a.1, b.0)))
     }
 
     fn scaled(self, by: f64) -> Self {
@@ -100,18 +97,12 @@ impl<N: Number> Complex<N> {
 
     pub fn sinh(self) -> Self {
         let (sine, cosine) = (one(Unary::Sin, self.1), one(Unary::Cos, self.1));
-        Self(
-            times(one(Unary::Sinh, self.0), cosine),
-            times(one(Unary::Cosh, self.0), sine),
-        )
+        Self(times(one(Unary::Sinh, self.0), cosine), times(one(Unary::Cosh, self.0), sine))
     }
 
     pub fn cosh(self) -> Self {
         let (sine, cosine) = (one(Unary::Sin, self.1), one(Unary::Cos, self.1));
-        Self(
-            times(one(Unary::Cosh, self.0), cosine),
-            times(one(Unary::Sinh, self.0), sine),
-        )
+        Self(times(one(Unary::Cosh, self.0), cosine), times(one(Unary::Sinh, self.0), sine))
     }
 
     pub fn tanh(self) -> Self {

@@ -14,20 +14,21 @@ use crate::shape::Body;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
 use crate::shape::isosurface::{Container, Field, Isosurface};
+use crate::shape::julia_fractal::{HypercomplexFunction, Iteration, Julia};
 
 /// Operations as they are read.
-struct Formula(Builder);
+pub(super) struct Formula(Builder);
 
 impl Formula {
-    fn number(&mut self, value: f64) -> Node {
+    pub fn number(&mut self, value: f64) -> Node {
         self.0.constant(value).expect("short")
     }
 
-    fn one(&mut self, operation: Unary, a: Node) -> Node {
+    pub fn one(&mut self, operation: Unary, a: Node) -> Node {
         self.0.unary(operation, a).expect("short")
     }
 
-    fn two(&mut self, operation: Binary, a: Node, b: Node) -> Node {
+    pub fn two(&mut self, operation: Binary, a: Node, b: Node) -> Node {
         self.0.binary(operation, a, b).expect("short")
     }
 
@@ -48,7 +49,7 @@ impl Formula {
     }
 }
 
-fn function(make: impl FnOnce(&mut Formula, [Node; 3]) -> Node) -> Arc<Closed> {
+pub(super) fn function(make: impl FnOnce(&mut Formula, [Node; 3]) -> Node) -> Arc<Closed> {
     let mut formula = Formula(Builder::new(3).expect("three"));
     let axes = [0, 1, 2].map(|axis| formula.0.parameter(axis).expect("three"));
     let result = make(&mut formula, axes);
@@ -160,10 +161,10 @@ fn a_torus_as_an_isosurface_is_crossed_where_exact_arithmetic_crosses_it() {
     assert!(crossed > tries_in(20) / 2, "{crossed}");
 }
 
-fn line(random: &mut Random) -> LocalRay {
+pub(super) fn line(random: &mut Random) -> LocalRay {
     let direction = random.direction().get();
     let across = random.direction().get().cross(direction) * random.number(0.0, 0.9);
-    LocalRay { nearest: across, direction, blur: 1e-16, turn: 1e-16 }
+    LocalRay { nearest: across, direction, blur: 1e-16, turn: 1e-16, tolerance: 0.0 }
 }
 
 fn met(surface: &Isosurface, ray: &LocalRay) -> Vec<Met> {
@@ -270,7 +271,13 @@ fn an_open_isosurface_ends_where_nothing_is_seen_and_a_closed_one_at_its_contain
             Container::Box(Vector::ONE),
         )
     };
-    let along = LocalRay { nearest: Vector::X * 0.125, direction: Vector::Z, blur: 0.0, turn: 0.0 };
+    let along = LocalRay {
+        nearest: Vector::X * 0.125,
+        direction: Vector::Z,
+        blur: 0.0,
+        turn: 0.0,
+        tolerance: 0.0,
+    };
     let seen =
         |open| met(&bar(open), &along).iter().map(|met| (met.t, met.is_seen())).collect::<Vec<_>>();
     assert_eq!(seen(true), [(-1.0, false), (1.0, false)]);
@@ -286,7 +293,13 @@ fn what_is_undefined_is_no_surface_and_stops_no_search() {
         let root = f.one(Unary::Sqrt, x);
         f.less(root, 0.5)
     });
-    let ray = LocalRay { nearest: Vector::ZERO, direction: Vector::X, blur: 1e-16, turn: 1e-16 };
+    let ray = LocalRay {
+        nearest: Vector::ZERO,
+        direction: Vector::X,
+        blur: 1e-16,
+        turn: 1e-16,
+        tolerance: 0.0,
+    };
     let all = met(&surface(half, Container::Box(Vector::ONE)), &ray);
     assert!((all.last().expect("left").t - 0.25).abs() < 1e-12, "{all:?}");
     let zero = function(|f, [x, ..]| f.times(x, 0.0));
@@ -302,11 +315,71 @@ fn a_surface_touching_its_container_from_inside_is_whole() {
         }),
         Container::Box(Vector::ONE),
     );
-    let ray = LocalRay { nearest: Vector::ZERO, direction: Vector::X, blur: 1e-16, turn: 1e-16 };
+    let ray = LocalRay {
+        nearest: Vector::ZERO,
+        direction: Vector::X,
+        blur: 1e-16,
+        turn: 1e-16,
+        tolerance: 0.0,
+    };
     let all = met(&touching, &ray);
     assert_eq!(all.len(), 2, "{all:?}");
     assert!(
         all.iter().all(|met| (met.t.abs() - 1.0).abs() <= met.error && met.error < 1e-12),
         "{all:?}"
     );
+}
+
+fn julia(parameter: [f64; 4], iteration: Iteration, count: u32) -> Isosurface {
+    let field = Julia { parameter, iteration, count, slice: Vector::ZERO, offset: 0.0 };
+    let container = Container::Sphere(field.radius() / 4.0);
+    let field = Field::Julia(field);
+    Isosurface { field, scale: 4.0, finest: 1e-6, ..surface(function(radius), container) }
+}
+
+#[test]
+fn a_julia_fractal_of_no_parameter_is_a_ball() {
+    let mut random = Random(95);
+    let square = Iteration::Hypercomplex(HypercomplexFunction::Square);
+    let cube = Iteration::Hypercomplex(HypercomplexFunction::Power(3.0, 0.0));
+    for _ in 0..tries_in(200) {
+        let ray = line(&mut random);
+        // Those along the first coordinate and across the others have the size of a complex number's.
+        let ray = LocalRay {
+            nearest: Vector::new(0.0, 0.0, 0.25 * ray.nearest.length()),
+            direction: Vector::X,
+            ..ray
+        };
+        let kinds = [(square, 3, 2.0_f64.sqrt()), (cube, 2, crate::math::elementary::cbrt(4.0))];
+        for (iteration, count, radius) in kinds {
+            let all = met(&julia([0.0; 4], iteration, count), &ray);
+            let half = ((radius / 4.0).powi(2) - ray.nearest.length_squared()).sqrt();
+            let [enter, leave] = all[..] else { panic!("{iteration:?} {all:?} {ray:?}") };
+            assert!((enter.t + half).abs() <= enter.error + 1e-15, "{all:?} {half} {iteration:?}");
+            assert!((leave.t - half).abs() <= leave.error + 1e-15, "{all:?} {half} {iteration:?}");
+        }
+    }
+}
+
+#[test]
+fn a_julia_fractal_is_inside_wherever_its_crossings_say() {
+    let mut random = Random(96);
+    let parameter = [-0.083, 0.0, -0.83, -0.025];
+    let mut crossed = 0;
+    let kinds = [
+        (Iteration::QuaternionSquare, 5),
+        (Iteration::QuaternionCube, 4),
+        (Iteration::Hypercomplex(HypercomplexFunction::Square), 4),
+    ];
+    for (iteration, count) in kinds {
+        let fractal = julia(parameter, iteration, count);
+        for _ in 0..tries_in(500) {
+            let ray = line(&mut random);
+            let ray = LocalRay { nearest: ray.nearest * 0.3, ..ray };
+            let all = met(&fractal, &ray);
+            assert_told_everywhere(&fractal, &ray, &all, 500);
+            crossed += all.len();
+        }
+    }
+    assert!(crossed > tries_in(500), "{crossed}");
 }
