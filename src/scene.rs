@@ -20,7 +20,7 @@ use crate::source::{Expansions, Site};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
 pub use light::{Beam, Fade, LightKind, LightSource};
-pub use solid::{Container, Julia, Solid};
+pub use solid::{Container, Solid};
 
 /// Declares an index into one of the Scene's arenas.
 macro_rules! ids {

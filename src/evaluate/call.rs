@@ -118,14 +118,6 @@ impl Evaluator<'_> {
                     .help("`#declare F = function { internal(57) }`, then `F(x, y, z)`");
                 return Err(self.report(here, diagnostic));
             }
-            Word::Pwr | Word::Sqr => {
-                let name = word.name();
-                let message = format!("`{name}` is a function of a `julia_fractal`, and no number");
-                let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
-                    .at(span, "expected in the braces of a `julia_fractal`, after its parameter")
-                    .help("the function of numbers is `pow(a, b)`");
-                return Err(self.report(here, diagnostic));
-            }
             Word::Xyz => {
                 let message = "`xyz(i, j, k): number` is a term of a `polynomial`, and no number";
                 let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)

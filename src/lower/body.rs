@@ -18,10 +18,8 @@ use crate::scene::mesh::Triangles;
 use crate::shape::isosurface;
 use crate::shape::mesh::Face;
 use crate::shape::{
-    Algebraic, Body, Cone, Cylinder, Disc, Mesh, Ovus, Placed, Superellipsoid, Torus,
-};
-use crate::shape::{Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Placed, Torus};
-    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Parametric, Placed, Torus,
+    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Ovus, Parametric, Placed,
+    Superellipsoid, Torus,
 };
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
@@ -126,10 +124,9 @@ pub fn isosurface(
     open: bool,
 ) -> Result<(Body, Affine), Fault> {
     let (container, centre, scale) = held(container)?;
-    let field = isosurface::Field::Function(function.clone());
+    let function = function.clone();
     let accuracy = accuracy / scale;
-    let body =
-        Isosurface { field, threshold, container, centre, scale, accuracy, finest: 0.0, open };
+    let body = Isosurface { function, threshold, container, centre, scale, accuracy, open };
     Ok((Body::Isosurface(body), about(centre, scale)))
 }
 

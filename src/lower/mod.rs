@@ -10,7 +10,6 @@ mod body;
 mod camera;
 mod csg;
 mod finish;
-mod fractal;
 mod interior;
 mod light;
 mod lint;

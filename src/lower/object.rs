@@ -11,7 +11,6 @@ use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, shape, sweep};
-use super::{Fault, Lowering, NO_SIZE, body, fractal, shape};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -316,12 +315,10 @@ impl<'s> Lowering<'s, '_> {
             }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
+            }
             Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
                 let made = body::isosurface(function, container, threshold, accuracy, open)?;
                 self.place_made(made, here, site)
-            }
-            Solid::JuliaFractal(ref written) => {
-                self.place_made(fractal::julia(written)?, here, site)
             }
             Solid::Parametric { ref functions, corners, container } => {
                 self.place_made(body::parametric(functions, corners, container)?, here, site)

@@ -62,7 +62,7 @@ pub enum Solid {
     Superellipsoid {
         /// East-west and north-south, more than 0.
         exponents: [f64; 2],
-    JuliaFractal(Julia),
+    },
     /// The points that three functions of u and v give, within a container.
     Parametric {
         functions: [Arc<Closed>; 3],
@@ -102,54 +102,6 @@ pub enum Solid {
         word: Word,
         triangles: Arc<Triangles>,
     },
-}
-
-/// The points of a slice of four dimensions whose iterates stay near.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Julia {
-    pub parameter: [f64; 4],
-    pub hypercomplex: bool,
-    /// The word of the function that is iterated.
-    pub function: Word,
-    /// The exponent of [`Word::Pwr`], a complex number.
-    pub power: [f64; 2],
-    pub iterations: u32,
-    pub precision: f64,
-    /// Across the slice, of any length; its last component is not 0.
-    pub slice: [f64; 4],
-    /// Of the slice, from the origin.
-    pub distance: f64,
-}
-
-impl Default for Julia {
-    fn default() -> Self {
-        Self {
-            parameter: [0.0; 4],
-            hypercomplex: false,
-            function: Word::Sqr,
-            power: [0.0; 2],
-            iterations: 20,
-            precision: 20.0,
-            slice: [0.0, 0.0, 0.0, 1.0],
-            distance: 0.0,
-        }
-    }
-}
-
-impl fmt::Display for Julia {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let list = |numbers: &[f64]| {
-            numbers.iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
-        };
-        let algebra = if self.hypercomplex { "hypercomplex" } else { "quaternion" };
-        write!(f, "<{}> {algebra} {}", list(&self.parameter), self.function.name())?;
-        if self.function == Word::Pwr {
-            write!(f, "({})", list(&self.power))?;
-        }
-        let Self { iterations, precision, slice, distance, .. } = self;
-        write!(f, " max_iteration {iterations} precision {precision}")?;
-        write!(f, " slice <{}>, {distance}", list(slice))
-    }
 }
 
 /// What the surface of a function is looked for in.
@@ -195,7 +147,6 @@ impl Solid {
             Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Isosurface { .. } => Word::Isosurface,
             Self::Parametric { .. } => Word::Parametric,
-            Self::JuliaFractal(_) => Word::JuliaFractal,
             Self::Torus { .. } => Word::Torus,
             Self::Polynomial { form, .. } => *form,
             Self::Triangles { word, .. } => *word,
@@ -209,7 +160,6 @@ impl Solid {
         match self {
             Self::Sphere { radius, .. } => *radius == 0.0,
             Self::Plane { .. } | Self::Superellipsoid { .. } => false,
-            Self::Plane { .. } | Self::JuliaFractal(_) => false,
             Self::Box { corners: [first, second] } => {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
@@ -274,7 +224,6 @@ impl fmt::Display for Solid {
                     a[0], a[1], b[0], b[1]
                 )
             }
-            Self::JuliaFractal(julia) => write!(f, " {julia}"),
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;

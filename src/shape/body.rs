@@ -12,12 +12,11 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::isosurface::Isosurface;
-use super::julia_fractal::JuliaFractal;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
+use super::parametric::Parametric;
 use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
-use super::parametric::Parametric;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -221,7 +220,6 @@ bodies! {
     Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
-    JuliaFractal "julia_fractal"
     Mesh "mesh"
     Disc "disc"
     Ovus "ovus"

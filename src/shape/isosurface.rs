@@ -13,7 +13,6 @@ use std::sync::Arc;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
-use super::julia_fractal::Julia;
 use crate::function::{Closed, Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
@@ -32,41 +31,19 @@ pub enum Container {
     Sphere(f64),
 }
 
-/// What is compared with the threshold.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Field {
-    Function(Arc<Closed>),
-    Julia(Julia),
-}
-
-/// A field at work.
-enum Running<'a, N> {
-    Function(Run<'a, N>, &'a Closed),
-    Julia(&'a Julia),
-}
-
-impl Field {
-    fn run<N: Number>(&self) -> Running<'_, N> {
-        match self {
-            Self::Function(closed) => Running::Function(closed.function().run(), closed),
-            Self::Julia(julia) => Running::Julia(julia),
-        }
-    }
-}
+/// A function at work.
+struct Running<'a, N>(Run<'a, N>, &'a Closed);
 
 impl<N: Number> Running<'_, N> {
-    fn at(&mut self, point: [N; 3], low: impl Fn(N) -> f64) -> N {
-        match self {
-            Self::Function(run, closed) => run.at(&point, *closed),
-            Self::Julia(julia) => julia.at(point, low),
-        }
+    fn at(&mut self, point: [N; 3]) -> N {
+        self.0.at(&point, self.1)
     }
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
     /// Of x, y and z, in a space of the author's.
-    pub field: Field,
+    pub function: Arc<Closed>,
     pub threshold: f64,
     pub container: Container,
     /// A local point is there `centre + scale · point`; the scale is a power of two.
@@ -74,8 +51,6 @@ pub struct Isosurface {
     pub scale: f64,
     /// In local lengths.
     pub accuracy: f64,
-    /// What is thinner along a line, in local lengths, need not be found; 0 for what rounding leaves.
-    pub finest: f64,
     /// Where the container cuts it, there is nothing to be seen.
     pub open: bool,
 }
@@ -126,8 +101,7 @@ impl Line<'_> {
     }
 
     fn evaluate(&self, point: [Sloped<1>; 3]) -> Bounds {
-        let Sloped { value, slopes: [slope] } =
-            self.run.borrow_mut().at(point, |value| value.value.low);
+        let Sloped { value, slopes: [slope] } = self.run.borrow_mut().at(point);
         Bounds { value: value - Interval::point(self.surface.threshold), slope }
     }
 
@@ -244,16 +218,20 @@ fn slab(ray: &LocalRay, axis: usize, half: f64, reach: f64) -> Option<(Met, Met)
 
 impl Isosurface {
     fn line<'a>(&'a self, ray: &'a LocalRay) -> Line<'a> {
-        Line { surface: self, ray, run: RefCell::new(self.field.run()) }
+        Line { surface: self, ray, run: RefCell::new(self.run()) }
     }
 
     fn world(&self, point: Vector) -> Vector {
         self.centre + point * self.scale
     }
 
+    fn run<N: Number>(&self) -> Running<'_, N> {
+        Running(self.function.function().run(), &self.function)
+    }
+
     fn value(&self, point: Vector) -> f64 {
         let point = self.world(point).to_array();
-        self.field.run().at(point, |value| value) - self.threshold
+        self.run().at(point) - self.threshold
     }
 
     /// The value and its gradient, in local lengths.
@@ -264,7 +242,7 @@ impl Isosurface {
             let place = Interval::point(point[axis] * self.scale);
             Sloped { value: Interval::point(self.centre[axis]) + place, slopes }
         };
-        let mut all = self.field.run().at([0, 1, 2].map(along), |all: Sloped<3>| all.value.low);
+        let mut all = self.run::<Sloped<3>>().at([0, 1, 2].map(along));
         all.value = all.value - Interval::point(self.threshold);
         all
     }
@@ -298,7 +276,7 @@ impl Local for Isosurface {
         let to = line.settle(leave.t, leave.error, -1.0, 0.1 * width);
         let least =
             8.0 * (ray.blur_at(enter.t.abs().max(leave.t.abs())) + U * self.container.reach());
-        let fineness = Fineness { resolution: self.accuracy, least: least.max(self.finest) };
+        let fineness = Fineness { resolution: self.accuracy, least };
         let signs = changes(&|s| line.bounds(s), from, to, fineness);
         let cap = |end: Met, place: f64| {
             let error = end.error.max((place - end.t).abs());
@@ -348,11 +326,8 @@ impl Local for Isosurface {
     }
 
     fn numbers(&self) -> String {
-        let Self { field, threshold, container, centre, scale, open, .. } = self;
-        let operations = match field {
-            Field::Function(closed) => closed.function().operations(),
-            Field::Julia(julia) => return julia.numbers(),
-        };
+        let Self { function, threshold, container, centre, scale, open, .. } = self;
+        let operations = function.function().operations();
         let open = if *open { " open" } else { "" };
         format!(
             " of {operations} operations, less than {threshold}, within {container:?} at {centre} × {scale}{open}"

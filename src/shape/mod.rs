@@ -1,7 +1,7 @@
 //! Solids in canonical form; one file, one shape: its equation, its crossings, its bounds.
 //!
-//! **Invariant:** knows only `math`, and `function` for what is made of one. Distances along a ray are in (0, ∞): there is no least and no
-//! greatest distance, each crossing carries its own error bound instead.
+//! **Invariant:** knows only `math`, and `function` for what is made of one. Distances along a ray are in
+//! (0, ∞): there is no least and no greatest distance, each crossing carries its own error bound instead.
 
 pub mod algebraic;
 pub mod blob;
@@ -13,7 +13,6 @@ pub mod cylinder;
 pub mod disc;
 pub mod ellipsoid;
 pub mod isosurface;
-pub mod julia_fractal;
 pub mod mesh;
 pub mod ovus;
 pub mod parametric;
@@ -34,7 +33,6 @@ pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
 pub use isosurface::Isosurface;
-pub use julia_fractal::JuliaFractal;
 pub use mesh::Mesh;
 pub use ovus::Ovus;
 pub use parametric::Parametric;

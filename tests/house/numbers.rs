@@ -103,7 +103,6 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("plan/print.rs", "1e-3..1e6", "how a number is written"),
     ("scene.rs", "adc_bailout", "a weight of light"),
     ("evaluate/block/isosurface.rs", "0.001", "the manual's default, which the author sets"),
-    ("evaluate/block/julia_fractal.rs", "1e6", "turns of a formula"),
     ("function/slope.rs", "whole.fract()", "whole numbers up to it are exact"),
     ("function/slope.rs", "first.abs() <", "whole numbers up to it are exact"),
     ("noise/mod.rs", "let (slope, reach)", "roundings of noise, whose cells have the side 1"),

@@ -12,7 +12,6 @@ mod habit;
 mod inert;
 mod interior;
 mod isosurface;
-mod julia_fractal;
 mod light;
 mod mesh;
 mod modifier;

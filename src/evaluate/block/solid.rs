@@ -25,7 +25,6 @@ impl Evaluator<'_> {
             Word::Torus => Self::torus,
             Word::Blob => Self::blob,
             Word::Isosurface => Self::isosurface,
-            Word::JuliaFractal => Self::julia_fractal,
             Word::Parametric => Self::parametric,
             Word::Quadric => Self::quadric,
             Word::Cubic => Self::cubic,

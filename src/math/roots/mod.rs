@@ -2,6 +2,6 @@
 
 pub mod bracket;
 pub mod convex;
-pub mod monotone;
 pub mod isolate;
+pub mod monotone;
 pub mod polynomial;

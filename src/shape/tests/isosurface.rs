@@ -13,8 +13,7 @@ use crate::math::random::tries_in;
 use crate::shape::Body;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
-use crate::shape::isosurface::{Container, Field, Isosurface};
-use crate::shape::julia_fractal::{HypercomplexFunction, Iteration, Julia};
+use crate::shape::isosurface::{Container, Isosurface};
 
 /// Operations as they are read.
 pub(super) struct Formula(Builder);
@@ -59,13 +58,12 @@ pub(super) fn function(make: impl FnOnce(&mut Formula, [Node; 3]) -> Node) -> Ar
 
 fn surface(function: Arc<Closed>, container: Container) -> Isosurface {
     Isosurface {
-        field: Field::Function(function),
+        function,
         threshold: 0.0,
         container,
         centre: Vector::ZERO,
         scale: 1.0,
         accuracy: 1e-3,
-        finest: 0.0,
         open: false,
     }
 }
@@ -328,58 +326,4 @@ fn a_surface_touching_its_container_from_inside_is_whole() {
         all.iter().all(|met| (met.t.abs() - 1.0).abs() <= met.error && met.error < 1e-12),
         "{all:?}"
     );
-}
-
-fn julia(parameter: [f64; 4], iteration: Iteration, count: u32) -> Isosurface {
-    let field = Julia { parameter, iteration, count, slice: Vector::ZERO, offset: 0.0 };
-    let container = Container::Sphere(field.radius() / 4.0);
-    let field = Field::Julia(field);
-    Isosurface { field, scale: 4.0, finest: 1e-6, ..surface(function(radius), container) }
-}
-
-#[test]
-fn a_julia_fractal_of_no_parameter_is_a_ball() {
-    let mut random = Random(95);
-    let square = Iteration::Hypercomplex(HypercomplexFunction::Square);
-    let cube = Iteration::Hypercomplex(HypercomplexFunction::Power(3.0, 0.0));
-    for _ in 0..tries_in(200) {
-        let ray = line(&mut random);
-        // Those along the first coordinate and across the others have the size of a complex number's.
-        let ray = LocalRay {
-            nearest: Vector::new(0.0, 0.0, 0.25 * ray.nearest.length()),
-            direction: Vector::X,
-            ..ray
-        };
-        let kinds = [(square, 3, 2.0_f64.sqrt()), (cube, 2, crate::math::elementary::cbrt(4.0))];
-        for (iteration, count, radius) in kinds {
-            let all = met(&julia([0.0; 4], iteration, count), &ray);
-            let half = ((radius / 4.0).powi(2) - ray.nearest.length_squared()).sqrt();
-            let [enter, leave] = all[..] else { panic!("{iteration:?} {all:?} {ray:?}") };
-            assert!((enter.t + half).abs() <= enter.error + 1e-15, "{all:?} {half} {iteration:?}");
-            assert!((leave.t - half).abs() <= leave.error + 1e-15, "{all:?} {half} {iteration:?}");
-        }
-    }
-}
-
-#[test]
-fn a_julia_fractal_is_inside_wherever_its_crossings_say() {
-    let mut random = Random(96);
-    let parameter = [-0.083, 0.0, -0.83, -0.025];
-    let mut crossed = 0;
-    let kinds = [
-        (Iteration::QuaternionSquare, 5),
-        (Iteration::QuaternionCube, 4),
-        (Iteration::Hypercomplex(HypercomplexFunction::Square), 4),
-    ];
-    for (iteration, count) in kinds {
-        let fractal = julia(parameter, iteration, count);
-        for _ in 0..tries_in(500) {
-            let ray = line(&mut random);
-            let ray = LocalRay { nearest: ray.nearest * 0.3, ..ray };
-            let all = met(&fractal, &ray);
-            assert_told_everywhere(&fractal, &ray, &all, 500);
-            crossed += all.len();
-        }
-    }
-    assert!(crossed > tries_in(500), "{crossed}");
 }
