@@ -7,21 +7,26 @@
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
+use crate::math::elementary::pow;
 use crate::plan::{Plan, PlanOptions, plan};
 use crate::trace::Watch;
 use crate::world::Origins;
 
 /// Fewer pixels than this say nothing of a picture.
 pub const LEAST: usize = 30;
-/// Fewer pixels than this are not worth many samples each.
-const FEW: usize = 128;
+/// Fewer pixels than this are not worth many samples each, as a rule.
+pub const FEW: usize = 128;
+/// Of the time there is: what finding out may take how fine a reference must be.
+const FOR_TASTE: f64 = 0.25;
 /// Of the time there is: what a first look all the way may take, and each one less deep.
 const FOR_ALL_THE_WAY: f64 = 1.0 / 3.0;
 const FOR_LESS: f64 = 1.0 / 6.0;
 /// Of the time that is left then: what the prediction may be wrong by.
 const PREDICTED: f64 = 0.85;
-/// Where no clock is read: the most rays, of all kinds, that a sample of a reference may send as a rule.
+/// Where no clock is read: the most rays, of all kinds, that a sample of a reference may send as a rule,
+/// and where it looks no deeper than the scene itself.
 const MOST_RAYS: f64 = 2048.0;
+const MOST_OWN_RAYS: f64 = 8.0 * MOST_RAYS;
 
 /// Asks to stop when the time is up.
 pub struct Deadline<'a> {
@@ -71,6 +76,18 @@ pub struct Affordable {
     pub a_sample: f64,
 }
 
+/// What a reference is to tell.
+pub struct Wanted<'a> {
+    /// At most, of each pixel.
+    pub samples: u32,
+    /// Fewer pixels than this are not worth many samples each.
+    pub few: usize,
+    /// Whether [`Reference::ROUGH`] tells anything.
+    pub rough: bool,
+    /// How many times too large a reference's own error is; at most 1 where it is fine enough.
+    pub too_coarse: &'a dyn Fn(&Reference) -> f64,
+}
+
 /// The finest reference of the first pixels of `list` that is done when the clock shows `until`, of
 /// no more than `samples` a pixel. `None` where not even one is that looks one surface deep.
 pub fn reference(
@@ -78,49 +95,95 @@ pub fn reference(
     depths: &Depths,
     list: &[(u32, u32)],
     seed: u64,
-    (clock, until): (&dyn Clock, f64),
+    time: (&dyn Clock, f64),
     samples: u32,
 ) -> Option<Affordable> {
+    let wanted = Wanted { samples, few: FEW, rough: true, too_coarse: &|_| 0.0 };
+    resolving(studio, depths, list, seed, time, &wanted)
+}
+
+/// As [`reference`]; where it would be too coarse, of fewer pixels with more samples each.
+pub fn resolving(
+    studio: &Studio,
+    depths: &Depths,
+    list: &[(u32, u32)],
+    seed: u64,
+    (clock, until): (&dyn Clock, f64),
+    wanted: &Wanted,
+) -> Option<Affordable> {
     let rough = deepest(studio, depths, &list[..list.len().min(LEAST)], seed, (clock, until))?;
-    let left = until - clock.wall();
-    let affordable = (PREDICTED * left / rough.a_sample).max(0.0);
-    let enough = |step| {
-        let pixels = affordable / f64::from(Reference::samples_at(step));
-        (pixels as usize).min(list.len())
-    };
-    // All pixels, then more samples of each; where even few pixels are too many, fewer samples.
-    let coarse = enough(Reference::COARSEST);
-    let (step, pixels) = match coarse >= FEW.min(list.len()) {
-        true => {
-            let each = (affordable / coarse.max(1) as f64).min(f64::from(samples));
-            (Reference::finest_within(each as usize).max(Reference::COARSEST), coarse)
-        }
-        false => (Reference::ROUGH, enough(Reference::ROUGH)),
-    };
-    if pixels <= rough.reference.pixels() && step <= rough.reference.step() {
-        return Some(rough);
-    }
     let in_time = Deadline { clock, until, watch: studio.watch };
     let studio = Studio { watch: &in_time, ..*studio };
-    // Where the prediction was too careful, the time ends the list.
-    let first = |step| Reference::first(&studio, &rough.plan, list, seed, step);
-    let mut finer = first(step);
-    // Nothing is lost where it was stopped: the pixels that were done are a list's first.
-    if finer.pixels() < rough.reference.pixels() {
-        return Some(rough);
+    let reference = finest(&studio, &rough, list, seed, (clock, until), wanted)?;
+    Some(Affordable { reference, ..rough })
+}
+
+/// As [`resolving`], after a rough look.
+fn finest(
+    studio: &Studio,
+    rough: &Affordable,
+    list: &[(u32, u32)],
+    seed: u64,
+    (clock, until): (&dyn Clock, f64),
+    wanted: &Wanted,
+) -> Option<Reference> {
+    let first =
+        |pixels: usize, step| Reference::first(studio, &rough.plan, &list[..pixels], seed, step);
+    let affordable = |step, part: f64| {
+        let samples = part * PREDICTED * (until - clock.wall()).max(0.0) / rough.a_sample;
+        ((samples / f64::from(Reference::samples_at(step))) as usize).min(list.len())
+    };
+    let finest = Reference::finest_within(wanted.samples as usize).max(Reference::COARSEST);
+
+    // Where even few pixels are too many, fewer samples; and nothing is lost where that was stopped: the
+    // pixels that were done are a list's first.
+    let roughly = || {
+        let more = first(affordable(Reference::ROUGH, 1.0), Reference::ROUGH);
+        let is_more = more.pixels() > rough.reference.pixels();
+        wanted.rough.then(|| if is_more { more } else { rough.reference.clone() })
+    };
+    let few = wanted.few.min(list.len());
+    if affordable(Reference::COARSEST, 1.0) < few {
+        return roughly();
     }
-    while finer.pixels() == list.len()
-        && finer.step() < Reference::finest_within(samples as usize)
-        && clock.wall() < until
-    {
-        let better = first(finer.step() + 1);
+    // A part of the time tells how fine it must be.
+    let tasted = affordable(Reference::COARSEST, FOR_TASTE).max(few);
+    let mut known = first(tasted, Reference::COARSEST);
+    if known.pixels() < few {
+        return roughly();
+    }
+    // The error of n × n samples, one in each part of a pixel, falls with n^1.5: see `refine`.
+    let samples = pow((wanted.too_coarse)(&known).max(1.0), 4.0 / 3.0)
+        * f64::from(Reference::samples_at(Reference::COARSEST));
+    let steps = Reference::COARSEST..=finest;
+    let enough = steps.clone().find(|&step| f64::from(Reference::samples_at(step)) >= samples);
+    let of_all = steps.rev().find(|&step| affordable(step, 1.0) == list.len());
+    let mut step = enough.unwrap_or(finest).max(of_all.unwrap_or(0));
+    while step > Reference::COARSEST && affordable(step, 1.0) < few {
+        step -= 1;
+    }
+    if step == Reference::COARSEST {
+        let done = known.pixels();
+        if done == tasted {
+            let rest = &list[done..(done + affordable(step, 1.0)).min(list.len())];
+            known = known.and(Reference::first(studio, &rough.plan, rest, seed, step));
+        }
+    } else {
+        let finer = first(affordable(step, 1.0), step);
+        if finer.pixels() >= few.min(known.pixels()) {
+            known = finer;
+        }
+    }
+    // Where the prediction was too careful, the time ends the list.
+    while known.pixels() == list.len() && known.step() < finest && clock.wall() < until {
+        let better = first(list.len(), known.step() + 1);
         let all = better.pixels() == list.len();
-        finer.first_from(better);
+        known.first_from(better);
         if !all {
             break;
         }
     }
-    Some(Affordable { reference: finer, ..rough })
+    Some(known)
 }
 
 /// A rough reference of a few pixels, as deep as there is time for: all the way, or where that takes
@@ -165,8 +228,8 @@ fn deepest(
     found
 }
 
-/// How deep a reference may look whose samples send no more than [`MOST_RAYS`] as a rule, and at least
-/// as deep as `own`: counted, so the same on every run. `None` when stopped.
+/// How deep a reference may look whose samples send no more than [`MOST_RAYS`] as a rule, or
+/// [`MOST_OWN_RAYS`] up to a depth of `own`: counted, so the same on every run. `None` when stopped.
 pub fn counted_depth(
     studio: &Studio,
     depths: &Depths,
@@ -181,14 +244,15 @@ pub fn counted_depth(
         let reference = Reference::new(studio, &plan, few, seed, Reference::ROUGH)?;
         let samples = f64::from(reference.samples()) * few.len() as f64;
         let rays = reference.counters.rays() as f64 / samples;
-        if rays > MOST_RAYS {
+        let allowed = if depth <= own { MOST_OWN_RAYS } else { MOST_RAYS };
+        if rays > allowed {
             break;
         }
         found = depth;
         let deeper = depth + doublings(rays, MOST_RAYS).max(1);
         depth = if depth < depths.most() { deeper.min(depths.most()) } else { deeper };
     }
-    Some(found.max(own).min(depths.most()))
+    Some(found.min(depths.most()))
 }
 
 /// How much deeper one can look for `allowed` than for `took`, if every path forks at each surface.

@@ -1,6 +1,7 @@
 //! Budgets are kept where one pixel is more work than all others together. Time is counted here:
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
+use super::reference;
 use super::refine::{refine, spread};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
@@ -55,11 +56,87 @@ fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_l
         let finer = spent.traced.film.samples.iter().filter(|&&samples| samples > 1).count();
         assert!(finer > 0 && finer <= spent.refined);
     }
-    // Not even the first pass.
+}
+
+#[test]
+fn where_the_scenes_own_settings_do_not_fit_the_first_pass_is_made_with_what_does() {
+    // A single pixel would take longer.
     let (world, origins) = compiled(GLASS, 200.0);
+    let spent = |time: f64| {
+        let clock = Ticking::new(1.0);
+        let spent = spend(&world, &origins, &asked(48, 36), &|_| time, &clock, &Unwatched);
+        assert!(clock.wall() <= 1.05 * time, "{}", clock.wall());
+        spent
+    };
+    let depth = |flags: &str| {
+        let (_, depth) = flags.split_once("--depth ").expect("a depth");
+        depth.split(' ').next().and_then(|depth| depth.parse::<u32>().ok()).expect("a number")
+    };
+    let mut last = 0;
+    for time in [1000.0, 5000.0, 30_000.0] {
+        let spent = spent(time);
+        assert!(spent.traced.complete && spent.is_less && spent.audit.is_some(), "{time}");
+        assert!((1..=25).contains(&depth(&spent.first)), "{}", spent.first);
+        assert!(depth(&spent.first) >= last, "{}", spent.first);
+        last = depth(&spent.first);
+    }
+    assert!(last > 1, "more time is used for more depth");
+    // Not even the cheapest.
+    let spent = spent(60.0);
+    assert!(!spent.traced.complete && spent.is_less && spent.audit.is_none());
+    assert!(spent.first.starts_with("--depth 1 --adc-bailout 0.1 "), "{}", spent.first);
+    assert_eq!(spent.first, spent.least);
+}
+
+#[test]
+fn a_picture_as_fine_as_it_gets_is_said_to_be_and_takes_no_more_time() {
+    let (world, origins) = compiled(GLASS, 2.0);
     let clock = Ticking::new(1.0);
-    let spent = spend(&world, &origins, &asked(48, 36), &|_| 2000.0, &clock, &Unwatched);
-    assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 2100.0);
+    let spent = spend(&world, &origins, &asked(16, 12), &|_| 2e5, &clock, &Unwatched);
+    assert!(spent.is_finest && clock.wall() < 1.9e5, "{}", clock.wall());
+    assert!(spent.traced.film.samples.iter().all(|&samples| samples == 1024));
+}
+
+#[test]
+fn a_reference_that_would_tell_nothing_has_more_samples_of_fewer_pixels() {
+    let (world, origins) = compiled(super::tests::BALLS, 0.0);
+    let own = own(&world, Frame::whole(160, 120));
+    let depths = Depths { origins: &origins, deepest: dearest(own, KNOBS) };
+    let list = audit::shuffled(audit::sets(own.frame.region, 2048, 1, 3).remove(0), 3);
+    let geometry = Geometries::default();
+    let studio =
+        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+    let plain = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
+    let film = studio.picture(&plain, &Unwatched).film;
+    for metric in Metric::ALL {
+        // A tenth of the error of one ray a pixel is to be told.
+        let too_coarse = |known: &Reference| {
+            let colors = reference::colors_of(&film, &list[..known.pixels()]);
+            4.0 * known.floor(metric) / (0.1 * metric.of(&known.deviations(&colors)))
+        };
+        let made = |ticks: f64, aims: bool| {
+            let clock = Ticking::new(1.0);
+            let wanted = afford::Wanted {
+                samples: Reference::samples_at(usize::MAX),
+                few: afford::LEAST,
+                rough: metric == Metric::Rmse,
+                too_coarse: if aims { &too_coarse } else { &|_| 0.0 },
+            };
+            let time = (&clock as &dyn Clock, ticks);
+            let made = afford::resolving(&studio, &depths, &list, 3, time, &wanted);
+            assert!(clock.wall() <= 1.05 * ticks + 5.0, "{}", clock.wall());
+            made.map(|made| made.reference)
+        };
+        for ticks in [20.0, 60.0, 200.0] {
+            let rough = made(ticks, true).is_some_and(|made| made.step() == Reference::ROUGH);
+            assert!(metric == Metric::Rmse || !rough, "{metric:?} {ticks}");
+        }
+        let (plain, aimed) = (made(3000.0, false), made(3000.0, true));
+        let (plain, aimed) = (plain.expect("there is time"), aimed.expect("there is time"));
+        assert!(aimed.samples() > plain.samples() && aimed.pixels() < plain.pixels());
+        assert!(aimed.pixels() >= afford::LEAST);
+        assert!(too_coarse(&aimed) < 0.7 * too_coarse(&plain), "{metric:?}");
+    }
 }
 
 #[test]
@@ -99,6 +176,12 @@ fn without_a_clock_a_reference_is_as_deep_on_every_run() {
     };
     assert_eq!(depth(1), depth(3));
     assert!((5..40).contains(&depth(1)), "{}", depth(1));
+    // Where the scene looks deeper than anybody could wait for, it does not.
+    let geometry = Geometries::default();
+    let studio =
+        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+    let own = afford::counted_depth(&studio, &depths, &list, 1, 200).expect("not stopped");
+    assert!(own >= depth(1) && own < 60, "{own}");
 }
 
 /// A film of one ray a pixel, refined until the clock shows `until`.

@@ -10,7 +10,7 @@ use super::knob::{Knob, cost};
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
-use crate::plan::{PlanOptions, plan};
+use crate::plan::{Antialias, PlanOptions, plan};
 use crate::trace::{Counters, Sampling, Watch};
 use crate::world::Origins;
 
@@ -38,14 +38,18 @@ pub struct Tuning<'a> {
     settings: Vec<Vec<f64>>,
     /// When the choice is to be made.
     until: Option<(&'a dyn Clock, f64)>,
-    /// Who is told how many settings were tried, of how many.
-    pub tell: Option<&'a dyn Watch>,
+    /// Who is told how much of the work of turning a knob is done.
+    pub watch: Option<&'a dyn Watch>,
+    /// Hears of a knob before it is turned, and of how many samples of each pixel that takes at most.
+    pub tell: Option<&'a dyn Fn(&'static str, f64)>,
 }
 
 /// Part of the error that a dearer setting must take off.
 const WORTHWHILE: f64 = 0.02;
 /// Of the time that is left to choose in, what one trial may take.
 const FOR_A_TRIAL: f64 = 0.25;
+/// Of the work that a setting is predicted to be: what it is at least.
+const PREDICTED: f64 = 0.9;
 
 impl<'a> Tuning<'a> {
     pub fn new(
@@ -57,9 +61,20 @@ impl<'a> Tuning<'a> {
         own: PlanOptions,
     ) -> Self {
         let settings = knobs.iter().map(|knob| knob.with((knob.get)(&own))).collect();
-        let tried = BTreeMap::new();
-        let (until, tell) = (None, None);
-        Self { studio, origins, list, reference, metric, knobs, own, tried, settings, until, tell }
+        Self {
+            studio,
+            origins,
+            list,
+            reference,
+            metric,
+            knobs,
+            own,
+            tried: BTreeMap::new(),
+            settings,
+            until: None,
+            watch: None,
+            tell: None,
+        }
     }
 
     /// Nothing deeper is tried, unless the scene's own setting is: of what looks deeper than the
@@ -98,49 +113,76 @@ impl<'a> Tuning<'a> {
         if let Some(known) = self.tried.get(places) {
             return Some(known.clone());
         }
-        let mut options = self.own;
-        for ((knob, settings), &place) in self.knobs.iter().zip(&self.settings).zip(places) {
-            (knob.set)(&mut options, settings[place]);
-        }
+        let options = self.options(places);
         let (colors, counters) = self.colors(&options)?;
         let error = self.metric.estimate(&self.reference.deviations(&colors));
         let factors = self.knobs.iter().map(|knob| (knob.factor)((knob.get)(&options)));
         let cost = factors.product::<f64>() * cost(&counters) / self.list.len() as f64;
         let choice = Choice { options, cost, error };
         self.tried.insert(places.to_vec(), choice.clone());
-        if let Some(watch) = self.tell {
-            let all = self.settings.iter().map(Vec::len).sum::<usize>();
-            watch.progress(self.tried.len().min(all), all);
-        }
         Some(choice)
     }
 
-    /// The cheapest settings whose error is below `aim` at the upper end of its interval; the
-    /// dearest when none is. One knob after the other is lowered, the rest at their dearest or as
-    /// settled before.
-    pub fn cheapest(&mut self, aim: f64) -> Option<Choice> {
-        let mut places: Vec<usize> = self.settings.iter().map(|all| all.len() - 1).collect();
+    fn options(&self, places: &[usize]) -> PlanOptions {
+        let mut options = self.own;
+        for ((knob, settings), &place) in self.knobs.iter().zip(&self.settings).zip(places) {
+            (knob.set)(&mut options, settings[place]);
+        }
+        options
+    }
+
+    fn last_places(&self) -> Vec<usize> {
+        self.settings.iter().map(|all| all.len() - 1).collect()
+    }
+
+    /// What the tuning pixels say of every knob at its dearest. `None` when stopped.
+    pub fn dearest(&mut self) -> Option<Choice> {
+        self.try_out(&self.last_places())
+    }
+
+    pub fn is_dearest(&self, options: &PlanOptions) -> bool {
+        self.options(&self.last_places()) == *options
+    }
+
+    /// The cheapest settings whose error is one that `keeps` the promise; the dearest when none is. One
+    /// knob after the other is lowered, the rest at their dearest or as settled before.
+    pub fn cheapest(&mut self, keeps: &dyn Fn(&Estimate) -> bool) -> Option<Choice> {
+        let mut places = self.last_places();
         let mut best: Option<Choice> = None;
         for turned in 0..places.len() {
             if turned > 0 && best.is_none() {
                 break;
             }
             let settings = self.settings[turned].clone();
+            let samples: Vec<f64> = (0..settings.len())
+                .map(|place| {
+                    let mut trial = places.clone();
+                    trial[turned] = place;
+                    most_samples(self.options(&trial).antialias)
+                })
+                .collect();
+            let all = samples.iter().sum::<f64>();
+            self.tell.iter().for_each(|tell| tell(self.knobs[turned].name, all));
+            // What a frame costs here of nothing but what it sends at least.
+            let mut unit = 1.0f64;
             for (place, &setting) in settings.iter().enumerate() {
-                // Not even a frame of nothing but its rays could be cheaper.
+                let done = samples[..place].iter().sum::<f64>();
+                self.watch.iter().for_each(|watch| watch.progress(done as usize, all as usize));
                 let least = (self.knobs[turned].least)(setting);
-                if best.as_ref().is_some_and(|best| least >= best.cost) {
+                if best.as_ref().is_some_and(|best| least * unit >= best.cost) {
                     continue;
                 }
                 let mut trial = places.clone();
                 trial[turned] = place;
                 let choice = self.try_out(&trial)?;
-                let keeps = choice.error.high <= aim;
+                if least > 1.0 || place == 0 {
+                    unit = unit.max(PREDICTED * choice.cost / least);
+                }
                 // Of equals the first, so that nothing is set deeper than it is looked at.
                 let cheaper = best.as_ref().is_none_or(|best| {
                     choice.cost < best.cost || (choice.cost == best.cost && place < places[turned])
                 });
-                if keeps && cheaper {
+                if keeps(&choice.error) && cheaper {
                     places = trial;
                     best = Some(choice);
                 }
@@ -148,7 +190,7 @@ impl<'a> Tuning<'a> {
         }
         match best {
             Some(best) => Some(best),
-            None => self.try_out(&places),
+            None => self.dearest(),
         }
     }
 
@@ -181,5 +223,15 @@ impl<'a> Tuning<'a> {
             }
         }
         best
+    }
+}
+
+/// That a pixel is tried with: where neighbours decide, theirs count.
+fn most_samples(antialias: Antialias) -> f64 {
+    let samples = |grid: u32| f64::from(grid) * f64::from(grid);
+    match antialias {
+        Antialias::Off => 1.0,
+        Antialias::Grid(grid) => samples(grid),
+        Antialias::Adaptive { grid, .. } => 9.0 + samples(grid),
     }
 }

@@ -7,6 +7,7 @@
 mod afford;
 mod audit;
 mod choose;
+mod easel;
 mod front;
 pub mod json;
 mod knob;
@@ -15,6 +16,7 @@ mod promise;
 mod reference;
 mod refine;
 mod sentence;
+mod spend;
 mod statistics;
 pub mod svg;
 pub mod table;
@@ -24,7 +26,8 @@ pub use afford::LEAST as LEAST_PIXELS;
 pub use front::{Order, Verdict};
 pub use knob::{KNOBS, Knob, Need};
 pub use measure::{Clock, Span, Times};
-pub use promise::{Audit, Kept, Spent, Step, TooSmall, keep, spend};
+pub use promise::{Audit, Kept, Step, TooSmall, keep};
+pub use spend::{First, Spent, spend};
 pub use statistics::{Estimate, Metric};
 
 use crate::plan::{Frame, PlanOptions, Region, plan};

@@ -1,32 +1,36 @@
-//! Pictures with a promise: an error not exceeded, or a time.
+//! Pictures of a promised error.
 //!
-//! **Invariant:** the error reported is found on pixels that had no part in the choice of settings.
-//! [`keep`] reads a clock to say how long it will take, and for nothing else: the same picture and the
-//! same numbers on every run.
+//! **Invariant:** the error reported is found on pixels that had no part in the choice of settings. A
+//! clock is read to say how long it will take, and for nothing else: the same picture and the same
+//! numbers on every run.
 
-use super::afford::{self, Deadline, Depths, LEAST};
+use std::cell::Cell;
+
+use super::afford::{self, Depths, LEAST};
+use super::audit;
 use super::choose::{Choice, Tuning};
-use super::knob::{Knob, cost};
-use super::measure::{Clock, Timer};
+use super::easel::Easel;
+use super::knob::cost;
+use super::measure::Clock;
 use super::reference::{Geometries, Reference, Studio, colors_of};
 use super::statistics::{Estimate, Metric};
-use super::{Options, Quiet, called_for, dearest, own};
-use super::{audit, refine};
-use crate::film::Film;
-use crate::plan::{Antialias, PlanOptions, plan};
-use crate::trace::{TraceOptions, Traced, Watch};
+use super::{Options, Quiet};
+use crate::plan::{Plan, PlanOptions, plan};
+use crate::trace::{Counters, TraceOptions, Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Part of the promised error that is aimed at: room for what chance does to the audit.
 const AIM: f64 = 0.9;
-/// Of the time that is left after the first pass: for trying settings out, and for the audit.
-const FOR_TUNING: f64 = 0.1;
-const FOR_AUDIT: f64 = 0.15;
-/// Of all the time: what is kept for the audit, and what it may take beyond the end where the first pass
-/// left none.
-const KEPT_FOR_AUDIT: f64 = 0.04;
-/// Of the time to render in: what the prediction may be wrong by.
-const PREDICTED: f64 = 0.85;
+/// About how many pixels there are of each kind where the picture has enough.
+pub const WANTED: u32 = 2048;
+/// Pixels that tell about how long a sample takes.
+const TIMED: usize = 256;
+/// The most rays that samples of the pixels of one kind may send, each as the dearest setting has it;
+/// where those are too many, fewer pixels are looked at, and at least so many.
+const MOST_RAYS: f64 = 4e9;
+const LEAST_KEPT: usize = 256;
+/// Samples of a pixel from which on more of them are dearer than to try the dearest settings.
+const DEAREST: u32 = 1000;
 
 /// What fresh pixels say of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,42 +62,28 @@ pub struct Kept {
     pub audit: Option<Audit>,
     /// A second picture had to be made.
     pub refined: bool,
-}
-
-/// A picture whose time was promised.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Spent {
-    /// Not complete when even the first pass did not fit. Its film says how many samples each pixel has.
-    pub traced: Traced,
-    /// The flags that the first pass was made with: one ray a pixel.
-    pub first: String,
-    /// Those that pixels were traced anew with, where they are others, the number of samples aside.
-    pub then: Option<String>,
-    /// How many pixels were traced anew.
-    pub refined: usize,
-    /// None when no time was left for it.
-    pub audit: Option<Audit>,
+    /// No setting of any knob is finer.
+    pub is_dearest: bool,
 }
 
 /// The picture has too few pixels to choose by some and audit by others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooSmall;
 
-/// About how many there are of each kind where the picture has enough.
-const WANTED: u32 = 2048;
-
-/// What [`keep`] does next.
+/// What [`keep`] does next. Seconds are about those that will pass.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
     /// Choosing settings, on a few pixels.
     Choosing,
-    /// Finding out what so many pixels look like, by so many samples of each, in about so many seconds.
+    /// Finding out what so many pixels look like, by so many samples of each.
     Learning { pixels: usize, samples: u32, seconds: f64 },
-    /// Trying settings on these pixels.
-    Trying,
-    /// Rendering with the settings of these flags, which will take about so many seconds: what the same
-    /// work took on a few pixels.
-    Rendering { flags: String, seconds: f64 },
+    /// Trying the settings of this knob on these pixels, which takes no longer.
+    Trying { knob: &'static str, seconds: f64 },
+    /// Not even the dearest settings keep the promise: this is the error they are known to have, and what
+    /// is below `resolution` cannot be told.
+    Unreachable { error: Estimate, resolution: f64 },
+    /// Rendering with the settings of these flags, and then finding out more of what pixels look like.
+    Rendering { flags: String, seconds: f64, audit: f64 },
     /// Choosing better ones: the first picture did not prove the promise.
     Refining(Audit),
 }
@@ -113,17 +103,6 @@ pub fn keep(
     if sets.iter().any(|set| set.len() < LEAST) {
         return Err(TooSmall);
     }
-    Ok(kept((world, origins), (options, promise), &sets, clock, watch, tell))
-}
-
-fn kept(
-    (world, origins): (&World, &Origins),
-    (options, promise): (&Options, f64),
-    sets: &[Vec<(u32, u32)>],
-    clock: &dyn Clock,
-    watch: &dyn Watch,
-    tell: &dyn Fn(Step),
-) -> Option<Kept> {
     tell(Step::Choosing);
     let geometry = Geometries::default();
     let quiet = Quiet(watch);
@@ -131,226 +110,292 @@ fn kept(
     let counted = TraceOptions { count_work: true, ..options.trace };
     let studio = Studio { world, geometry: &geometry, options: counted, watch: &quiet };
     let easel = Easel::new(world, origins, options);
-    let metric = options.metric;
-    let depths = Depths { origins, deepest: easel.deepest };
-    let few = audit::shuffled(sets[0].clone(), options.seed);
-    let own_depth = easel.own.depth.unwrap_or(1);
-    let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
-    let deep = depths.plan(&studio, depth);
-    let cut = (depth < depths.most()).then_some(depth);
-    let few = &few[..few.len().min(LEAST)];
-    let began = clock.wall();
-    let rough = Reference::new(&studio, &deep, few, options.seed, Reference::ROUGH)?;
-    let a_sample = (clock.wall() - began) / f64::from(rough.samples()) / few.len() as f64;
-    // Until its own error is below a quarter of that, or it is as fine as it gets.
-    let resolved = |mut known: Option<Reference>, list: &[(u32, u32)], error: f64| {
-        loop {
-            let step = match &known {
-                None => Reference::COARSEST,
-                Some(known) if 4.0 * known.floor(metric) <= error || known.is_finest() => break,
-                Some(known) => known.step() + 1,
-            };
-            let (pixels, samples) = (list.len(), Reference::samples_at(step));
-            let seconds = a_sample * f64::from(samples) * pixels as f64;
-            tell(Step::Learning { pixels, samples, seconds });
-            match &mut known {
-                None => known = Some(Reference::new(&studio, &deep, list, options.seed, step)?),
-                Some(known) => _ = known.double(&studio, &deep, list)?,
+    let search =
+        Search::new(studio, origins, &easel, (options, promise), (clock, watch, tell), sets);
+    Ok(search.and_then(|search| search.kept()))
+}
+
+/// What was traced to find things out.
+#[derive(Debug, Clone, Copy, Default)]
+struct Spent {
+    seconds: f64,
+    samples: f64,
+    cost: f64,
+}
+
+struct Search<'a> {
+    studio: Studio<'a>,
+    origins: &'a Origins,
+    easel: &'a Easel<'a>,
+    options: &'a Options<'a>,
+    promise: f64,
+    /// What the reference is traced with, and how deep that is.
+    deep: Plan,
+    depth: u32,
+    /// That depth, where it is not as deep as can be.
+    cut: Option<u32>,
+    /// To choose by, to audit by, and to audit a second picture by.
+    sets: Vec<Vec<(u32, u32)>>,
+    spent: Cell<Spent>,
+    clock: &'a dyn Clock,
+    watch: &'a dyn Watch,
+    tell: &'a dyn Fn(Step),
+}
+
+impl<'a> Search<'a> {
+    /// Finds out how deep the reference can look. `None` when stopped.
+    fn new(
+        studio: Studio<'a>,
+        origins: &'a Origins,
+        easel: &'a Easel<'a>,
+        (options, promise): (&'a Options<'a>, f64),
+        (clock, watch, tell): (&'a dyn Clock, &'a dyn Watch, &'a dyn Fn(Step)),
+        mut sets: Vec<Vec<(u32, u32)>>,
+    ) -> Option<Self> {
+        let depths = Depths { origins, deepest: easel.deepest };
+        let few = audit::shuffled(sets[0].clone(), options.seed);
+        let own_depth = easel.own.depth.unwrap_or(1);
+        let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
+        let deep = depths.plan(&studio, depth);
+        let cut = (depth < depths.most()).then_some(depth);
+        let few = &few[..few.len().min(TIMED)];
+        let began = clock.wall();
+        let rough = Reference::new(&studio, &deep, few, options.seed, Reference::ROUGH)?;
+        let spent = Cell::default();
+        let samples = f64::from(rough.samples()) * few.len() as f64;
+        add(&spent, clock.wall() - began, samples, &rough.counters);
+        let a_sample = rough.counters.rays() as f64 / samples;
+        let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))) as usize;
+        for set in &mut sets {
+            if set.len() > most.max(LEAST_KEPT) {
+                *set = audit::shuffled(std::mem::take(set), options.seed);
+                set.truncate(most.max(LEAST_KEPT));
             }
         }
-        known
-    };
-    let truth = |list: &[(u32, u32)]| resolved(None, list, promise);
-    let choose =
-        |list: &[(u32, u32)], reference: &Reference, aims: &[f64], not: Option<&Choice>| {
-            tell(Step::Trying);
-            let mut tuning =
-                Tuning::new(studio, origins, (list, reference), metric, &easel.knobs, easel.own);
-            tuning.no_deeper_than(depth);
-            tuning.tell = Some(watch);
-            let mut choice = tuning.cheapest(aims[0])?;
-            for &aim in &aims[1..] {
-                if not.is_some_and(|not| not.options == choice.options) {
-                    choice = tuning.cheapest(aim)?;
-                }
-            }
-            Some(choice)
-        };
-    let mut kept = Kept {
-        traced: Traced::unbegun(options.frame, world.settings.assumed_gamma),
-        flags: String::new(),
-        audit: None,
-        refined: false,
-    };
-    let region = options.frame.region;
-    let pixels = f64::from(region.width) * f64::from(region.height);
-    let began = clock.wall();
-    let reference = truth(&sets[0])?;
-    // Of a unit of cost, by all threads together.
-    let a_unit = (clock.wall() - began) / cost(&reference.counters);
-    let asked = Studio { options: options.trace, ..studio };
-    let mut render = |choice: &Choice, list: &[(u32, u32)], reference: Reference| {
-        kept.flags = easel.flags(&choice.options);
-        let seconds = a_unit * choice.cost * pixels;
-        tell(Step::Rendering { flags: kept.flags.clone(), seconds });
-        kept.audit = None;
-        kept.traced = asked.picture(&plan(world, origins, &choice.options), watch);
-        if !kept.traced.complete {
-            return None;
-        }
-        let error = audited(&kept.traced, list, &reference, metric).error.value;
-        let reference = resolved(Some(reference), list, error)?;
-        let audit = audited(&kept.traced, list, &reference, metric);
-        kept.audit = Some(Audit { depth: cut, ..audit });
-        Some((audit, reference))
-    };
-
-    let choice = choose(&sets[0], &reference, &[AIM * promise], None)?;
-    let fresh = truth(&sets[1])?;
-    let Some((audit, fresh)) = render(&choice, &sets[1], fresh) else { return Some(kept) };
-    // A better picture proves no more where the reference does not look all the way.
-    if audit.error.high <= promise {
-        return Some(kept);
-    }
-    tell(Step::Refining(audit));
-    // By how much it failed is how much lower to aim; what audited it now helps to choose.
-    let aim = AIM * promise * (promise / audit.error.high);
-    let both: Vec<_> = sets[0].iter().chain(&sets[1]).copied().collect();
-    let aims = [AIM * aim, 0.7 * aim, 0.5 * aim, 0.3 * aim];
-    let better = choose(&both, &reference.and(fresh), &aims, Some(&choice))?;
-    // There is nothing better: the same picture would prove no more.
-    if better.options == choice.options {
-        return Some(kept);
-    }
-    let choice = better;
-    let fresh = truth(&sets[2])?;
-    render(&choice, &sets[2], fresh);
-    kept.refined = true;
-    Some(kept)
-}
-
-/// Renders as well as can be before the clock shows what `until` says, and audits in what is left of it.
-/// `until` is asked twice: before the first pass, and with the film of that.
-pub fn spend(
-    world: &World,
-    origins: &Origins,
-    options: &Options,
-    until: &dyn Fn(Option<&Film>) -> f64,
-    clock: &dyn Clock,
-    watch: &dyn Watch,
-) -> Spent {
-    let began = clock.wall();
-    let easel = Easel::new(world, origins, options);
-    let geometry = Geometries::default();
-    // Many parts, none of which is the whole.
-    let quiet = Quiet(watch);
-    let late = |until| Deadline { clock, until, watch: &quiet };
-    let in_time = late(until(None));
-    // Counting takes no time worth the name, and what is counted is what settings cost.
-    let counted = TraceOptions { count_work: true, ..options.trace };
-    let studio = Studio { world, geometry: &geometry, options: counted, watch: &in_time };
-    let off = PlanOptions { antialias: Antialias::Off, ..easel.own };
-    let timer = Timer::new(clock, &in_time);
-    let first = studio.picture(&plan(world, origins, &off), &timer);
-    let took = timer.read().1;
-    let mut spent = Spent {
-        traced: first,
-        first: easel.flags_of_rays(&off),
-        then: None,
-        refined: 0,
-        audit: None,
-    };
-    if !spent.traced.complete {
-        return spent;
-    }
-    let until = until(Some(&spent.traced.film));
-    let kept = KEPT_FOR_AUDIT * (until - began).max(0.0);
-    let in_time = late(until);
-    let studio = Studio { watch: &in_time, ..studio };
-    let left = until - clock.wall();
-    let pixels = spent.traced.film.radiance.len() as f64;
-    let a_unit = took / cost(&spent.traced.counters);
-    let mut sets = audit::sets(options.frame.region, WANTED, 2, options.seed).into_iter();
-    let mut next = || audit::shuffled(sets.next().unwrap_or_default(), options.seed);
-    let (tuning, fresh) = (next(), next());
-    let depths = Depths { origins, deepest: easel.deepest };
-
-    // The truth of the fresh pixels is found first: then all the time that is left is the picture's.
-    let known_by = clock.wall() + (FOR_AUDIT * left).max(kept);
-    let in_time = late(known_by);
-    let auditor = Studio { watch: &in_time, ..studio };
-    let fine = Reference::samples_at(usize::MAX);
-    let truth = afford::reference(&auditor, &depths, &fresh, options.seed, (clock, known_by), fine);
-
-    let tuned = clock.wall() + FOR_TUNING * left;
-    let samples = Reference::samples_at(Reference::COARSEST);
-    let known = afford::reference(&studio, &depths, &tuning, options.seed, (clock, tuned), samples);
-    let choice = known.and_then(|known| {
-        let list = &tuning[..known.reference.pixels()];
-        let (knobs, metric) = (&easel.knobs, options.metric);
-        let own = easel.own;
-        let mut tuning = Tuning::new(studio, origins, (list, &known.reference), metric, knobs, own);
-        tuning.no_deeper_than(known.plan.max_trace_level);
-        tuning.in_time((clock, clock.wall() + FOR_TUNING * left));
-        tuning.best(PREDICTED * (until - clock.wall()) / (a_unit * pixels))
-    });
-    // Where nothing is known of anything better, the scene's own.
-    let chosen = choice.map_or(easel.own, |choice| choice.options);
-    let then = PlanOptions { antialias: Antialias::Off, ..chosen };
-    let refiner = Studio { options: options.trace, ..studio };
-    let then_plan = plan(world, origins, &then);
-    let anew = easel.dearer(&off, &then);
-    let refined = refine::refine(&refiner, &then_plan, anew, &mut spent.traced.film);
-    spent.traced.counters += refined.counters;
-    spent.then = (then != off).then(|| easel.flags_of_rays(&then));
-    spent.refined = refined.pixels;
-
-    spent.audit = truth.map(|known| {
-        let list = &fresh[..known.reference.pixels()];
-        let audit = audited(&spent.traced, list, &known.reference, options.metric);
-        let deep = known.plan.max_trace_level;
-        Audit { depth: (deep < depths.most()).then_some(deep), ..audit }
-    });
-    spent
-}
-
-/// The plans a picture is made and judged by.
-struct Easel<'a> {
-    own: PlanOptions,
-    deepest: PlanOptions,
-    knobs: Vec<&'a Knob>,
-}
-
-impl<'a> Easel<'a> {
-    fn new(world: &World, origins: &Origins, options: &Options<'a>) -> Self {
-        let own = own(world, options.frame);
-        let deepest = dearest(own, options.knobs);
-        Self { own, deepest, knobs: called_for(world, origins, own, options.knobs) }
-    }
-
-    fn flags(&self, options: &PlanOptions) -> String {
-        let flags = self.knobs.iter().map(|knob| (knob.flag)((knob.get)(options)));
-        flags.collect::<Vec<_>>().join(" ")
-    }
-
-    /// The same without the knob that the first pass and what follows it turn themselves.
-    fn flags_of_rays(&self, options: &PlanOptions) -> String {
-        let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
-        let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));
-        flags.collect::<Vec<_>>().join(" ")
-    }
-
-    /// Whether a knob stands dearer in the second than in the first.
-    fn dearer(&self, than: &PlanOptions, options: &PlanOptions) -> bool {
-        self.knobs.iter().any(|knob| {
-            let settings = knob.with((knob.get)(than));
-            let place = |of| settings.iter().position(|&setting| setting == (knob.get)(of));
-            place(options) > place(than)
+        Some(Self {
+            studio,
+            origins,
+            easel,
+            options,
+            promise,
+            deep,
+            depth,
+            cut,
+            sets,
+            spent,
+            clock,
+            watch,
+            tell,
         })
     }
+
+    fn a_sample(&self) -> f64 {
+        let Spent { seconds, samples, .. } = self.spent.get();
+        seconds / samples.max(1.0)
+    }
+
+    /// A finer reference than `known`, or the coarsest. `None` when stopped.
+    fn finer(&self, known: Option<Reference>, list: &[(u32, u32)]) -> Option<Reference> {
+        let step = known.as_ref().map_or(Reference::COARSEST, |known| known.step() + 1);
+        let (pixels, samples) = (list.len(), Reference::samples_at(step));
+        let all = f64::from(samples) * pixels as f64;
+        (self.tell)(Step::Learning { pixels, samples, seconds: self.a_sample() * all });
+        let began = self.clock.wall();
+        let finer = Reference::new(&self.studio, &self.deep, list, self.options.seed, step)?;
+        add(&self.spent, self.clock.wall() - began, all, &finer.counters);
+        Some(finer)
+    }
+
+    fn is_enough(&self, known: &Reference, error: f64) -> bool {
+        4.0 * known.floor(self.options.metric) <= error || known.is_finest()
+    }
+
+    /// Until its own error is below a quarter of that, or it is as fine as it gets.
+    fn resolved(
+        &self,
+        mut known: Option<Reference>,
+        list: &[(u32, u32)],
+        error: f64,
+    ) -> Option<Reference> {
+        while known.as_ref().is_none_or(|known| !self.is_enough(known, error)) {
+            known = Some(self.finer(known, list)?);
+        }
+        known
+    }
+
+    /// Seconds that [`Search::resolved`] will take, whose noise falls as `refine` says.
+    fn to_resolve(&self, known: &Reference, error: f64) -> f64 {
+        let (mut floor, mut step, mut samples) =
+            (known.floor(self.options.metric), known.step(), 0.0);
+        while 4.0 * floor > error && step < Reference::finest_within(usize::MAX) {
+            step += 1;
+            samples += f64::from(Reference::samples_at(step));
+            floor *= 0.6;
+        }
+        samples * known.pixels() as f64 * self.a_sample()
+    }
+
+    fn tuning<'b>(&'b self, list: &'b [(u32, u32)], reference: &'b Reference) -> Tuning<'b> {
+        let Easel { own, knobs, .. } = self.easel;
+        // Of what lies deeper than the reference looks that cannot tell the error.
+        let own = PlanOptions { depth: own.depth.map(|depth| depth.min(self.depth)), ..*own };
+        let known = (list, reference);
+        let mut tuning =
+            Tuning::new(self.studio, self.origins, known, self.options.metric, knobs, own);
+        tuning.no_deeper_than(self.depth);
+        tuning
+    }
+
+    /// A reference to choose by; with the dearest settings, where even those are known not to keep the
+    /// promise.
+    fn learned(&self) -> Option<(Reference, Option<Choice>)> {
+        let list = &self.sets[0];
+        let mut known = self.finer(None, list)?;
+        while !self.is_enough(&known, self.promise) {
+            if known.samples() >= DEAREST {
+                let dearest = self.tuning(list, &known).dearest()?;
+                if dearest.error.low > self.promise {
+                    return Some((known, Some(dearest)));
+                }
+            }
+            known = self.finer(Some(known), list)?;
+        }
+        Some((known, None))
+    }
+
+    /// The first of what `keeps` that does not lead to settings that are known to fail, or the last.
+    fn chosen(
+        &self,
+        list: &[(u32, u32)],
+        reference: &Reference,
+        keeps: &[&dyn Fn(&Estimate) -> bool],
+        not: Option<&Choice>,
+    ) -> Option<Choice> {
+        let tell = |knob: &'static str, samples: f64| {
+            let seconds = samples * list.len() as f64 * self.a_sample();
+            (self.tell)(Step::Trying { knob, seconds });
+        };
+        let mut tuning = self.tuning(list, reference);
+        tuning.watch = Some(self.watch);
+        tuning.tell = Some(&tell);
+        let mut choice = None;
+        for keeps in keeps {
+            let found = tuning.cheapest(keeps)?;
+            let is_new = not.is_none_or(|not| not.options != found.options);
+            choice = Some(found);
+            if is_new {
+                break;
+            }
+        }
+        choice
+    }
+
+    fn kept(&self) -> Option<Kept> {
+        let [tuned, audited, again] = &self.sets[..] else { return None };
+        let promise = self.promise;
+        let (reference, unreachable) = self.learned()?;
+        let choice = match unreachable {
+            Some(choice) => choice,
+            None => {
+                self.chosen(tuned, &reference, &[&|error| error.high <= AIM * promise], None)?
+            }
+        };
+        let is_dearest = self.tuning(tuned, &reference).is_dearest(&choice.options);
+        let mut goal = promise;
+        if is_dearest && choice.error.high > promise {
+            goal = choice.error.value.max(promise);
+            let resolution = 4.0 * reference.floor(self.options.metric);
+            (self.tell)(Step::Unreachable { error: choice.error, resolution });
+        }
+        let fresh = self.resolved(None, audited, goal)?;
+        let (first, fresh) = self.rendered(&choice, audited, fresh, is_dearest);
+        // A better picture proves no more where the reference does not look all the way, nor does the
+        // same one.
+        let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
+        if audit.error.high <= promise || is_dearest {
+            return Some(first);
+        }
+        (self.tell)(Step::Refining(audit));
+        // What audited it now helps to choose.
+        let both: Vec<_> = tuned.iter().chain(audited).copied().collect();
+        let reference = reference.and(fresh);
+        let expected = |error: &Estimate| expected(error, both.len(), again.len());
+        let keeps: [&dyn Fn(&Estimate) -> bool; 4] = [
+            &|error| expected(error) <= promise,
+            &|error| expected(error) <= 0.7 * promise,
+            &|error| expected(error) <= 0.5 * promise,
+            &|error| expected(error) <= 0.3 * promise,
+        ];
+        let better = self.chosen(&both, &reference, &keeps, Some(&choice))?;
+        // There is nothing better: the same picture would prove no more.
+        if better.options == choice.options {
+            return Some(first);
+        }
+        let is_dearest = self.tuning(&both, &reference).is_dearest(&better.options);
+        let fresh = self.resolved(None, again, promise)?;
+        let (second, _) = self.rendered(&better, again, fresh, is_dearest);
+        Some(Kept { refined: true, ..second })
+    }
+
+    /// A picture, and what the pixels of a list, whose truth is known, say of it.
+    fn rendered(
+        &self,
+        choice: &Choice,
+        list: &[(u32, u32)],
+        reference: Reference,
+        is_dearest: bool,
+    ) -> (Kept, Option<Reference>) {
+        let flags = self.easel.flags(&choice.options);
+        let region = self.options.frame.region;
+        let pixels = f64::from(region.width) * f64::from(region.height);
+        let Spent { seconds, cost, .. } = self.spent.get();
+        (self.tell)(Step::Rendering {
+            flags: flags.clone(),
+            seconds: seconds / cost.max(1.0) * choice.cost * pixels,
+            audit: self.to_resolve(&reference, choice.error.value),
+        });
+        let asked = Studio { options: self.options.trace, ..self.studio };
+        let plan = plan(self.studio.world, self.origins, &choice.options);
+        let traced = asked.picture(&plan, self.watch);
+        let mut kept = Kept { traced, flags, audit: None, refined: false, is_dearest };
+        if !kept.traced.complete {
+            return (kept, None);
+        }
+        let metric = self.options.metric;
+        let error = audited(&kept.traced, list, &reference, metric).error.value;
+        let reference = self.resolved(Some(reference), list, error);
+        kept.audit = reference.as_ref().map(|reference| {
+            let audit = audited(&kept.traced, list, reference, metric);
+            Audit { depth: self.cut, ..audit }
+        });
+        (kept, reference)
+    }
 }
 
-fn audited(traced: &Traced, list: &[(u32, u32)], reference: &Reference, metric: Metric) -> Audit {
+/// The upper end that an audit by `fresh` pixels will hardly exceed, of settings of which `known` pixels
+/// tell an error: intervals are as much wider as there are fewer pixels, and both are off by chance.
+fn expected(error: &Estimate, known: usize, fresh: usize) -> f64 {
+    let more = known as f64 / fresh as f64;
+    let width = (error.high - error.value) * more.sqrt();
+    error.value + width * (1.0 + (1.0 + 1.0 / more).sqrt())
+}
+
+fn add(spent: &Cell<Spent>, seconds: f64, samples: f64, counters: &Counters) {
+    let before = spent.get();
+    spent.set(Spent {
+        seconds: before.seconds + seconds,
+        samples: before.samples + samples,
+        cost: before.cost + cost(counters),
+    });
+}
+
+/// What the pixels of a list, whose truth is known, say of a picture.
+pub fn audited(
+    traced: &Traced,
+    list: &[(u32, u32)],
+    reference: &Reference,
+    metric: Metric,
+) -> Audit {
     let colors = colors_of(&traced.film, list);
     Audit {
         metric,

@@ -52,7 +52,8 @@ pub struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    fn geometry(&self, plan: &Plan) -> Arc<Geometry> {
+    /// Made now if it is not yet.
+    pub fn geometry(&self, plan: &Plan) -> Arc<Geometry> {
         let mut made = self.geometry.made.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, geometry)) = made.iter().find(|(made, _)| *made == plan.arithmetic()) {
             return geometry.clone();

@@ -6,11 +6,13 @@
 
 use super::reference::{Studio, clamped};
 use crate::film::Film;
-use crate::plan::{Antialias, Plan};
+use crate::plan::{Antialias, Plan, Region};
 use crate::trace::{Counters, Sampling};
 
 /// Samples along a pixel's side, one after the other.
-const SIDES: [u32; 5] = [2, 4, 8, 16, 32];
+const SIDES: [u32; 5] = [2, 4, 8, 16, MOST_SIDE];
+/// At most: as in the dearest setting of the knob.
+const MOST_SIDE: u32 = 32;
 /// Even a flat pixel may hide something: it counts as if it differed this much from its neighbours.
 const HIDDEN: f64 = 1e-3;
 /// From one sweep over the picture to the next, what is worth its samples falls by this.
@@ -23,6 +25,8 @@ const RUN: usize = 16;
 pub struct Refined {
     /// Pixels that were traced anew.
     pub pixels: usize,
+    /// Each has the most samples there are.
+    pub is_finest: bool,
     pub counters: Counters,
 }
 
@@ -43,7 +47,7 @@ pub fn refine(studio: &Studio, plan: &Plan, other: bool, film: &mut Film) -> Ref
         canvas.refine();
     }
     let pixels = canvas.sides.iter().filter(|&&side| side > first).count();
-    Refined { pixels, counters: canvas.counters }
+    Refined { pixels, is_finest: canvas.is_finest(), counters: canvas.counters }
 }
 
 /// What twice as many parts along a side as before, `side` then, take off the square error for a
@@ -66,10 +70,14 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
+    fn is_finest(&self) -> bool {
+        self.sides.iter().all(|&side| side == MOST_SIDE)
+    }
+
     fn refine(&mut self) {
         let greatest = self.heights.iter().copied().fold(HIDDEN, f64::max);
         let mut least = worth(greatest, 2);
-        while self.sides.iter().any(|&side| side < SIDES[SIDES.len() - 1]) {
+        while !self.is_finest() {
             // The finest first: a pixel gets at once all that it is worth.
             for &side in SIDES.iter().rev() {
                 let is_worth =
@@ -88,9 +96,7 @@ impl Canvas<'_> {
         let list = spread(list);
         let plan = Plan { antialias: Antialias::Grid(side), ..self.plan.clone() };
         let region = self.film.frame.region;
-        let width = region.width as usize;
-        let place = |&i: &usize| (region.x + (i % width) as u32, region.y + (i / width) as u32);
-        let places: Vec<_> = list.iter().map(place).collect();
+        let places: Vec<_> = list.iter().map(|&i| place(region, i)).collect();
         let seen = self.studio.pixels(&plan, &places, Sampling::Planned);
         self.counters += seen.counters;
         let mut all = true;
@@ -116,6 +122,12 @@ impl Canvas<'_> {
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+}
+
+/// Where the pixel lies that a film of this region has at `i`.
+pub fn place(region: Region, i: usize) -> (u32, u32) {
+    let width = region.width as usize;
+    (region.x + (i % width) as u32, region.y + (i / width) as u32)
 }
 
 /// How much each pixel differs from one of its four neighbours.

@@ -68,19 +68,24 @@ pub struct RenderArguments {
     /// Bits a channel: 8 or 16 (png and ppm)
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
-    /// Choose the settings so that the error is at most E, prove it on pixels that had no part in
-    /// the choice, and exit with 5 if it cannot be
+    /// Choose the settings so that the error is at most E (0.01, 1% or 2/255), prove it on pixels that
+    /// had no part in the choice, and exit with 5 if it cannot be
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
+    #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "time_budget"])]
     pub max_error: Option<f64>,
     /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
     /// one ray a pixel fits
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance"])]
     pub time_budget: Option<f64>,
     /// What `--max-error` and `--time-budget` call an error
-    #[arg(long, value_enum, default_value_t, value_name = "METRIC")]
+    #[arg(long, value_enum, default_value_t, value_name = "METRIC", requires = "promise")]
     pub metric: MetricArgument,
+    /// Of the pixels that `--max-error` and `--time-budget` choose and audit by
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "promise")]
+    pub seed: u64,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     #[arg(allow_negative_numbers = true)]

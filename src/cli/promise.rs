@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::Mutex;
+use std::thread::available_parallelism;
 
-use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Spent, Step, TooSmall, table};
+use lucarne::accuracy::{self, Audit, Clock, First, KNOBS, Options, Spent, Step, TooSmall, table};
 use lucarne::film::{Depth, Film, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::plan::{Frame, PlanOptions, Region, plan};
@@ -17,8 +18,6 @@ use super::messages;
 use super::progress::Progress;
 use super::stats::Stopwatch;
 
-/// The pixels and samples of an audit are drawn from this.
-const SEED: u64 = 1;
 /// Seconds to encode and write a pixel of one colour in.
 const LEAST_TO_WRITE: f64 = 2e-8;
 /// Of a picture's rows one of so many is written on trial, in so many bands; and how much longer the final
@@ -26,8 +25,10 @@ const LEAST_TO_WRITE: f64 = 2e-8;
 const ON_TRIAL: u32 = 8;
 const BANDS: u32 = 8;
 const FINER: f64 = 1.2;
-/// Seconds to find an interval in.
-const TO_REPORT: f64 = 0.02;
+/// Seconds to stop and to end in, where each thread has a processor.
+const TO_END: f64 = 0.01;
+/// Of the time there is: the most that is kept for what else the machine does.
+const FOR_OTHERS: f64 = 0.1;
 
 /// A picture, and what is to be said of it.
 pub struct Made {
@@ -44,22 +45,22 @@ pub fn make(
     (world, origins): (&World, &Origins),
     plain: &PlanOptions,
     trace_options: TraceOptions,
-    clock: &Stopwatch,
-    progress: &Progress,
+    written: (Depth, Format),
+    (clock, progress): (&Stopwatch, &Progress),
 ) -> Result<Made, Failure> {
     let options = Options {
         frame: plain.frame,
         knobs: KNOBS,
         metric: arguments.metric.into(),
         budget: 0.0,
-        seed: SEED,
+        seed: arguments.seed,
         trace: trace_options,
     };
     if let Some(promise) = arguments.max_error {
         return keep(world, origins, &options, promise, clock, progress);
     }
     if let Some(seconds) = arguments.time_budget {
-        return Ok(spend(world, origins, &options, seconds, clock, progress));
+        return Ok(spend((world, origins), &options, seconds, written, clock, progress));
     }
     let traced = trace(world, &plan(world, origins, plain), &trace_options, progress);
     let exit = if traced.complete { Exit::Done } else { Exit::Interrupted };
@@ -74,24 +75,55 @@ fn keep(
     clock: &Stopwatch,
     progress: &Progress,
 ) -> Result<Made, Failure> {
-    let told = Told { progress, clock, last: Mutex::new(clock.wall()) };
+    let told = Told { progress, clock, now: Mutex::new(Now::new("choosing settings", clock)) };
     let tell = |step: Step| {
-        let note = match step {
-            Step::Learning { seconds, .. } if seconds < WORTH_TELLING => return,
-            Step::Learning { pixels, samples, seconds } => format!(
-                "finding out what {pixels} pixels look like, by {samples} samples of each, takes about {}",
-                duration(seconds)
-            ),
-            Step::Trying => "trying settings on them".to_owned(),
-            Step::Choosing => "choosing settings on a few pixels".to_owned(),
-            Step::Rendering { flags, seconds } => {
-                format!("rendering with {flags}\nnote: that takes about {}", duration(seconds))
+        let (name, note) = match &step {
+            Step::Choosing => {
+                ("choosing settings", Some("choosing settings on a few pixels".to_owned()))
+            }
+            Step::Learning { pixels, samples, seconds } => {
+                let takes = format!(
+                    "finding out what {pixels} pixels look like, by {samples} samples of each, takes about {}",
+                    duration(*seconds)
+                );
+                ("finding out", (*seconds >= WORTH_TELLING).then_some(takes))
+            }
+            Step::Trying { knob, seconds } => {
+                let takes = format!(
+                    "trying settings of {knob} on them takes at most about {}",
+                    duration(*seconds)
+                );
+                ("trying settings", (*seconds >= WORTH_TELLING).then_some(takes))
+            }
+            Step::Unreachable { error, resolution } => {
+                let amount = |error| table::amount(options.metric, error);
+                let best = match error.value < *resolution {
+                    true => format!("below {}", amount(resolution.max(error.high))),
+                    false => format!("about {}", amount(error.value)),
+                };
+                let note = format!(
+                    "no settings are known to keep {}; the best that can be reached here is {best}: rendering that",
+                    amount(promise)
+                );
+                ("choosing settings", Some(note))
+            }
+            Step::Rendering { flags, seconds, audit } => {
+                let audit = match *audit >= WORTH_TELLING {
+                    true => format!(", and to find out the error {}", duration(*audit)),
+                    false => String::new(),
+                };
+                let seconds = duration(*seconds);
+                let note =
+                    format!("rendering with {flags}\nnote: that takes about {seconds}{audit}");
+                ("rendering", Some(note))
             }
             Step::Refining(audit) => {
-                format!("{}: not proven, choosing better settings", error(&audit))
+                let note = format!("{}: not proven, choosing better settings", error(audit));
+                ("choosing settings", Some(note))
             }
         };
-        progress.say(&format!("note: {note}\n"));
+        told.now.lock().iter_mut().for_each(|now| **now = Now::new(name, clock));
+        note.iter().for_each(|note| progress.say(&format!("note: {note}\n")));
     };
     let kept = accuracy::keep(world, origins, options, promise, clock, (&told, &tell));
     let kept = kept.map_err(|TooSmall| {
@@ -116,13 +148,18 @@ fn keep(
         (false, false) => ">",
     };
     let amount = table::amount(audit.metric, promise);
-    let refined = match (kept.refined, proven) {
-        (true, _) => ", in the second picture",
-        (false, true) => "",
-        (false, false) => "; no settings are known to be better",
+    let refined = if kept.refined { ", in the second picture" } else { "" };
+    let better = match (proven, audit.depth, kept.is_dearest) {
+        (true, ..) => "",
+        (false, Some(_), _) => "; what lies deeper took too long to look at",
+        (false, None, true) => {
+            "; these are the finest settings it tries: `--antialias 64` is finer, and `--time-budget` \
+             comes as near sooner"
+        }
+        (false, None, false) => "; no settings are known to be better",
     };
     let said = format!(
-        "{} {sign} {amount}, on {} fresh pixels{refined}\nthe same picture: {}\n",
+        "{} {sign} {amount}, on {} fresh pixels{refined}{better}\nthe same picture: {}\n",
         error(&audit),
         audit.pixels,
         kept.flags
@@ -144,8 +181,22 @@ fn duration(seconds: f64) -> String {
 struct Told<'a> {
     progress: &'a Progress,
     clock: &'a Stopwatch,
-    /// When the last line was written.
-    last: Mutex<f64>,
+    now: Mutex<Now>,
+}
+
+/// What is being done.
+struct Now {
+    name: &'static str,
+    /// When it was begun, and when the last line was written.
+    began: f64,
+    last: f64,
+}
+
+impl Now {
+    fn new(name: &'static str, clock: &Stopwatch) -> Self {
+        let began = clock.wall();
+        Self { name, began, last: began }
+    }
 }
 
 /// Seconds that one wants to be told of beforehand.
@@ -160,12 +211,13 @@ impl Watch for Told<'_> {
             return;
         }
         // Whoever comes while a line is written has nothing new to say.
-        let Ok(mut last) = self.last.try_lock() else { return };
-        let now = self.clock.wall();
-        if now - *last >= NOW_AND_THEN {
-            *last = now;
+        let Ok(mut now) = self.now.try_lock() else { return };
+        let time = self.clock.wall();
+        if time - now.last >= NOW_AND_THEN {
+            now.last = time;
             let percent = 100 * done / total.max(1);
-            messages::eprint(&format!("note: {percent} % of that, after {}\n", duration(now)));
+            let passed = duration(time - now.began);
+            messages::eprint(&format!("note: {}: {percent} % after {passed}\n", now.name));
         }
     }
 
@@ -179,18 +231,24 @@ impl Watch for Told<'_> {
 }
 
 fn spend(
-    world: &World,
-    origins: &Origins,
+    (world, origins): (&World, &Origins),
     options: &Options,
     seconds: f64,
+    written: (Depth, Format),
     clock: &Stopwatch,
     progress: &Progress,
 ) -> Made {
     let region = options.frame.region;
     let pixels = f64::from(region.width) * f64::from(region.height);
-    // What it takes to write is known once there is something to write.
-    let until = |film: Option<&Film>| {
-        let to_end = film.map_or(LEAST_TO_WRITE * pixels, |film| to_write(film, clock) + TO_REPORT);
+    let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
+    // What it takes to write is known once there is something to write; and how busy the machine is,
+    // once something was traced.
+    let until = |first: Option<First>| {
+        let to_end = first.map_or(LEAST_TO_WRITE * pixels, |First { film, processors }| {
+            let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
+            let alone = to_write(film, written, clock) + TO_END;
+            alone + (alone * (busy - 1.0)).clamp(0.0, FOR_OTHERS * seconds)
+        });
         0.99 * seconds - to_end
     };
     let spent = accuracy::spend(world, origins, options, &until, clock, progress);
@@ -201,7 +259,13 @@ fn spend(
             let samples = &spent.traced.film.samples;
             let done = samples.iter().filter(|samples| **samples > 0).count();
             let share = 100 * done / samples.len().max(1);
-            format!("{seconds} s are too few for one ray a pixel: {share} % of them are done\n")
+            let with = match spent.is_less || spent.rest > 0 {
+                true => format!(", even with {}", spent.least),
+                false => String::new(),
+            };
+            format!(
+                "{seconds} s are too few for one ray a pixel{with}: {share} % of them are done\n"
+            )
         }
         (None, true) if pixels < 256.0 => {
             format!("too few pixels to find the error by\n{}\n", made(&spent))
@@ -225,8 +289,9 @@ fn spend(
     Made { traced: spent.traced, said, exit }
 }
 
-/// About how many seconds it takes to write a picture: measured on some of its rows, from top to bottom.
-fn to_write(film: &Film, clock: &Stopwatch) -> f64 {
+/// About how many seconds of one processor it takes to write a picture: measured on some of its rows,
+/// from top to bottom.
+fn to_write(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> f64 {
     let Region { width, height, .. } = film.frame.region;
     let row = width as usize;
     let high = (height / (BANDS * ON_TRIAL)).max(1);
@@ -239,10 +304,10 @@ fn to_write(film: &Film, clock: &Stopwatch) -> f64 {
     }
     some.frame.region.height = BANDS.min(height) * high;
     let part = f64::from(some.frame.region.height) / f64::from(height);
-    let began = clock.wall();
+    let began = clock.cpu();
     // What cannot be written is told when it is.
-    drop(encode(&develop(&some, Depth::Eight), Format::Png));
-    FINER * (clock.wall() - began) / part
+    drop(encode(&develop(&some, depth), format));
+    FINER * (clock.cpu() - began) / part
 }
 
 /// What was done: `one ray a pixel (--depth 5 …), then 4 samples in 20 % of the pixels, 16 in 7 %`.
@@ -252,7 +317,12 @@ fn made(spent: &Spent) -> String {
         *pixels_with.entry(samples).or_insert(0) += 1;
     }
     let all = spent.traced.film.samples.len();
-    let mut said = format!("one ray a pixel ({})", spent.first);
+    let less = if spent.is_less { ": more would not fit" } else { "" };
+    let rest = match spent.rest {
+        0 => String::new(),
+        rest => format!("; {} of the pixels with {}", share(rest, all), spent.least),
+    };
+    let mut said = format!("one ray a pixel ({}{less}{rest})", spent.first);
     let more: Vec<String> = pixels_with
         .iter()
         .filter(|&(&samples, _)| samples > 1)
@@ -263,6 +333,9 @@ fn made(spent: &Spent) -> String {
     }
     if let Some(flags) = &spent.then {
         said += &format!("; {} of the pixels anew with {flags}", share(spent.refined, all));
+    }
+    if spent.is_finest {
+        said += "; that is the most there is, and more time changes nothing";
     }
     said
 }
@@ -281,7 +354,7 @@ fn error(audit: &Audit) -> String {
     let error = match audit.error.value < audit.resolution {
         true => {
             let most = amount(audit.resolution.max(audit.error.high));
-            format!("< {most} [0, {most}]")
+            format!("< {most} (it could not be told better than that)")
         }
         false => {
             let [value, low, high] =

@@ -64,7 +64,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let progress = Progress::start();
     let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
     let threads = TraceOptions { threads, count_work: arguments.stats.is_some() };
-    let made = promise::make(arguments, (&world, &origins), &options, threads, &watch, &progress);
+    let (scene, written) = ((&world, &origins), (depth, format));
+    let made = promise::make(arguments, scene, &options, threads, written, (&watch, &progress));
     progress.end();
     let Made { traced, said, exit } = made?;
     stats.build_cpu_s = progress.build_cpu_seconds();

@@ -97,9 +97,18 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
     tolerance.ok_or_else(|| "expected a number from 0 to 0.1, such as 1e-6".to_owned())
 }
 
+/// `0.01`, `1%` or `2/255`.
 pub fn error(text: &str) -> Result<f64, String> {
-    let error = text.parse().ok().filter(|error: &f64| *error > 0.0 && *error <= 1.0);
-    error.ok_or_else(|| "expected an error above 0 and at most 1, such as 0.01".to_owned())
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let error = match (text.trim().strip_suffix('%'), text.split_once('/')) {
+        (Some(percent), _) => number(percent).map(|percent| percent / 100.0),
+        (None, Some((parts, of))) => number(parts).zip(number(of)).map(|(parts, of)| parts / of),
+        (None, None) => number(text),
+    };
+    let error = error.filter(|&error| error > 0.0 && error <= 1.0);
+    error.ok_or_else(|| {
+        "expected an error above 0 and at most 1, such as 0.01, 1% or 2/255".to_owned()
+    })
 }
 
 /// `90`, `90s`, `1.5m`, `2h` or `500ms`.
@@ -225,7 +234,13 @@ mod tests {
             assert!(seconds(wrong).is_err(), "{wrong}");
         }
         assert_eq!(error("0.01"), Ok(0.01));
-        assert!(error("0").is_err() && error("2").is_err() && error("x").is_err());
+        assert_eq!((error("1%"), error("1.5 %")), (Ok(0.01), Ok(0.015)));
+        assert_eq!((error("2/255"), error("1 / 4")), (Ok(2.0 / 255.0), Ok(0.25)));
+        for wrong in
+            ["0", "2", "x", "", "%", "0%", "101%", "-1%", "1/0", "0/0", "/255", "2/", "3/2", "1/2%"]
+        {
+            assert!(error(wrong).is_err(), "{wrong}");
+        }
         assert_eq!(weight("0"), Ok(0.0));
         assert!(weight("-1").is_err() && weight("nan").is_err());
         assert_eq!(knob("depth"), Ok("depth"));
