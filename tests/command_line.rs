@@ -880,9 +880,11 @@ fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
     place.run(&format!("a.scene --size 64x48 -o other.png {}", flags.trim())).ends(0, &[]);
     assert_eq!(place.read("one.png"), place.read("other.png"));
     let again = place.run(&words.replace("one.png", "one.png --threads 3")).ends(0, &[]).stderr();
-    // All but the lines with seconds: those that it was about to take, and those that it took.
+    // All but the lines with seconds: those that it is about to take, and those that it took.
     let found = |said: &str| -> Vec<String> {
-        let is_timed = |line: &&str| line.contains(".png: ") || line.contains(" takes about ");
+        let is_timed = |line: &&str| {
+            [".png: ", " about ", " % after "].iter().any(|timed| line.contains(timed))
+        };
         said.lines().filter(|line| !is_timed(line)).map(str::to_owned).collect()
     };
     assert_eq!(found(&again), found(&said));
