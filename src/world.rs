@@ -160,6 +160,14 @@ pub struct Object {
 }
 
 impl Object {
+    /// Rays can meet it in 32 bits.
+    pub fn has_single_kernel(&self) -> bool {
+        match self.shape {
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) => self.whole.is_none(),
+            Shape::Ellipsoid(_) | Shape::Placed(_) => false,
+        }
+    }
+
     /// A shape of which nothing else is said: the first material, filled with air.
     pub fn plain(shape: Shape) -> Self {
         Self {

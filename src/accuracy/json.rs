@@ -32,6 +32,9 @@ struct Whole<'a> {
     noise_floor: Numbers,
     /// The fewest of a row, and the most.
     runs: [usize; 2],
+    /// The part of the threads' time that tracing had.
+    share_of_time: f64,
+    does_nothing: &'a [String],
     knobs: Vec<KnobJson<'a>>,
     rows: Vec<RowJson<'a>>,
 }
@@ -136,6 +139,22 @@ impl Bounds {
     }
 }
 
+/// What is to be said where no knob that was asked for does anything.
+#[derive(Serialize)]
+struct Nothing<'a> {
+    file: &'a str,
+    does_nothing: &'a [String],
+    knobs: [(); 0],
+    rows: [(); 0],
+}
+
+/// One line, where nothing was measured: none of the knobs does anything.
+pub fn nothing(file: &str, idle: &[String]) -> String {
+    let nothing = Nothing { file, does_nothing: idle, knobs: [], rows: [] };
+    // Texts only: nothing here can fail to serialise.
+    serde_json::to_string(&nothing).unwrap_or_default()
+}
+
 /// One line.
 pub fn line(report: &Report, file: &str, host: &Host) -> String {
     let [rmse, p99, bad] = report.floors;
@@ -182,6 +201,8 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
         reference_samples: report.reference_samples,
         noise_floor: Numbers { rmse, p99, bad },
         runs: report.runs().into(),
+        share_of_time: report.share_of_time(host.threads),
+        does_nothing: &report.idle,
         knobs: knobs.collect(),
         rows: rows.collect(),
     };

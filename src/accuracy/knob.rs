@@ -7,7 +7,7 @@
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
 use crate::trace::Counters;
-use crate::world::World;
+use crate::world::{Object, World};
 
 /// A setting of the plan with its values from cheap to dear.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +15,8 @@ pub struct Knob {
     pub name: &'static str,
     /// Without it the knob does nothing.
     pub needs: Need,
+    /// What is to be said of a scene that has nothing of that.
+    pub idle: &'static str,
     /// From coarse to fine, rising or falling; that is from cheap to dear, but for `precision`, whose
     /// coarse setting costs more. A report has them in the order of what they cost there.
     pub settings: &'static [f64],
@@ -36,8 +38,8 @@ pub struct Knob {
 pub enum Need {
     /// One of these effects.
     Effect(&'static [Effect]),
-    /// Something that rays can meet.
-    Object,
+    /// Something that rays can meet in 32 bits.
+    SinglePrecision,
     /// A solid whose crossings are found by steps that come nearer and nearer.
     IteratedRoots,
 }
@@ -46,7 +48,7 @@ impl Need {
     pub fn is_met(self, world: &World, plan: &Plan) -> bool {
         match self {
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
-            Self::Object => !world.objects.is_empty(),
+            Self::SinglePrecision => world.objects.iter().any(Object::has_single_kernel),
             Self::IteratedRoots => world.has_iterated_roots(),
         }
     }
@@ -57,6 +59,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "antialias",
         needs: Need::Effect(&[Effect::Antialiasing]),
+        idle: "there is nothing to see",
         settings: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0],
         between: false,
         set: |options, place| options.antialias = LADDER[place as usize % LADDER.len()],
@@ -86,6 +89,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "depth",
         needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
+        idle: "no surface reflects or is clear",
         settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
         between: true,
         set: |options, depth| options.depth = Some(depth as u32),
@@ -98,6 +102,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "adc-bailout",
         needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
+        idle: "no surface reflects or is clear",
         settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
         between: true,
         set: |options, weight| options.adc_bailout = Some(weight),
@@ -112,7 +117,8 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "precision",
-        needs: Need::Object,
+        needs: Need::SinglePrecision,
+        idle: "no object has a kernel for single precision",
         settings: &[0.0, 1.0],
         between: false,
         set: |options, double| options.precision = PRECISIONS[usize::from(double > 0.0)],
@@ -125,6 +131,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "root-tolerance",
         needs: Need::IteratedRoots,
+        idle: "no solid's crossings are found by steps that come nearer and nearer",
         settings: &[1e-2, 1e-4, 1e-6, 0.0],
         between: false,
         set: |options, tolerance| options.root_tolerance = tolerance,

@@ -8,6 +8,7 @@ mod afford;
 mod audit;
 mod choose;
 mod easel;
+mod forecast;
 mod front;
 pub mod json;
 mod knob;
@@ -52,6 +53,9 @@ pub struct Options<'a> {
     pub trace: TraceOptions,
 }
 
+/// Seconds of tracing below which it is not told whether the machine was busy.
+const LEAST_TO_TELL: f64 = 0.5;
+
 /// Why there is no report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unmeasured {
@@ -74,6 +78,8 @@ pub struct Report {
     /// The reference's own error, in each of [`Metric::ALL`].
     pub floors: [f64; 3],
     pub knobs: Vec<Tried>,
+    /// What the caller wants said of knobs that do nothing here.
+    pub idle: Vec<String>,
     /// The first is the picture as `render` makes it.
     pub rows: Vec<Row>,
 }
@@ -159,6 +165,17 @@ impl Report {
         (runs().min().unwrap_or(0), runs().max().unwrap_or(0))
     }
 
+    /// The part of its threads' time that tracing had, all runs together: much less than 1 where the
+    /// machine had other things to do. 1 where runs are too short to tell.
+    pub fn share_of_time(&self, threads: usize) -> f64 {
+        let total = |of: fn(&Times) -> &[f64]| -> f64 {
+            self.rows.iter().flat_map(|row| of(&row.times)).sum()
+        };
+        let (cpu, wall) = (total(|times| &times.cpu), total(|times| &times.wall));
+        let whole = wall * threads.max(1) as f64;
+        if wall >= LEAST_TO_TELL { (cpu / whole).min(1.0) } else { 1.0 }
+    }
+
     /// Puts settings in order and says what they are worth.
     fn judge(&mut self) {
         let order = self.order();
@@ -234,6 +251,14 @@ fn called_for<'a>(
     knobs.iter().filter(called).collect()
 }
 
+/// For each knob that the scene does not call for, one sentence that says so and why.
+pub fn idle(world: &World, origins: &Origins, frame: Frame, knobs: &[Knob]) -> Vec<String> {
+    let called = called_for(world, origins, own(world, frame), knobs);
+    let is_idle = |knob: &&Knob| called.iter().all(|called| called.name != knob.name);
+    let say = |knob: &Knob| format!("{} does nothing here: {}", knob.name, knob.idle);
+    knobs.iter().filter(is_idle).map(say).collect()
+}
+
 /// Tries every setting of every knob that there is time for, the others as the scene has them.
 ///
 /// # Errors
@@ -261,13 +286,11 @@ pub fn accuracy(
     let factor = |options: &PlanOptions| {
         called.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
     };
-    let mut factors = vec![factor(&own)];
     let mut candidates = vec![Candidate {
         name: "*".to_owned(),
         plan: plan(world, origins, &own),
-        knob: called.len(),
         least: 1.0,
-        rises: false,
+        factor: factor(&own),
     }];
     let mut settings = Vec::new();
     for (number, knob) in called.iter().enumerate() {
@@ -278,13 +301,11 @@ pub fn accuracy(
             if !is_own {
                 let mut turned = own;
                 (knob.set)(&mut turned, setting);
-                factors.push(factor(&turned));
                 candidates.push(Candidate {
                     name: format!("{} {}", knob.name, (knob.label)(setting)),
                     plan: plan(world, origins, &turned),
-                    knob: number,
                     least: (knob.least)(setting),
-                    rises: knob.between,
+                    factor: factor(&turned),
                 });
             }
         }
@@ -334,7 +355,7 @@ pub fn accuracy(
             name: candidates[candidate].name.clone(),
             times,
             counters,
-            factor: factors[candidate],
+            factor: candidates[candidate].factor,
             errors: Metric::ALL.map(|metric| metric.estimate(&off)),
             verdict: Verdict::Front,
             resamples: options.metric.resampled(&off),
@@ -351,6 +372,7 @@ pub fn accuracy(
         floors,
         rows: rows.collect(),
         knobs,
+        idle: Vec::new(),
     };
     report.judge();
     Ok(report)

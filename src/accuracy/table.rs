@@ -35,7 +35,16 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
         runs(report),
         count(threads, "thread")
     )?;
-    writeln!(out, "faster is less cost counted, and a middle run below the other's shortest\n")?;
+    writeln!(out, "faster is less cost counted, and a middle run below the other's shortest")?;
+    let share = report.share_of_time(threads);
+    if share < BUSY {
+        let percent = 100.0 * share;
+        writeln!(
+            out,
+            "the machine is busy: of their time the threads had {percent:.0} %, and seconds say less than cost"
+        )?;
+    }
+    writeln!(out)?;
     writeln!(
         out,
         "  {:18} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
@@ -79,6 +88,9 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
     for knob in &report.knobs {
         writeln!(out, "{}", knob.sentence)?;
     }
+    for sentence in &report.idle {
+        writeln!(out, "{sentence}.")?;
+    }
     Ok(())
 }
 
@@ -110,6 +122,9 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
         }
     }
 }
+
+/// A machine that leaves its threads less than this part of their time is busy.
+const BUSY: f64 = 0.75;
 
 /// From here on a ratio is told as one, and below as a percentage.
 const LARGE: f64 = 1.2;

@@ -137,6 +137,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
 const PLANTED: Knob = Knob {
     name: "planted",
     needs: Need::Effect(&[Effect::Antialiasing]),
+    idle: "nothing ever calls for it",
     settings: &[1.0, 2.0, 3.0],
     between: false,
     set: |_, _| (),
@@ -177,13 +178,65 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     };
     assert_eq!(names(PLAIN), ["antialias", "precision"]);
     assert_eq!(names(BALLS), ["antialias", "depth", "adc-bailout", "precision"]);
-    let ring = format!("{PLAIN} torus {{ 1, 0.2 pigment {{ rgb 1 }} }}");
+    // A torus, also as a part of something else, is met in 64 bits alone.
+    let torus = "torus { 1, 0.2 pigment { rgb 1 } }";
+    let alone = format!("camera {{ }} {torus}");
+    assert_eq!(names(&alone), ["antialias", "root-tolerance"]);
+    let cut = format!("camera {{ }} intersection {{ {torus} sphere {{ 0, 1 }} }}");
+    assert_eq!(names(&cut), ["antialias", "root-tolerance"]);
+    let ring = format!("{PLAIN} {torus}");
     assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);
     // A sky, and nothing that a ray could meet.
     assert_eq!(names("camera { } background { rgb 0.5 }"), ["antialias"]);
     // A scene that reflects and says how deep not to look is told what that costs it.
     let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
     assert_eq!(names(&flat), ["antialias", "depth", "adc-bailout", "precision"]);
+}
+
+#[test]
+fn of_a_knob_that_is_not_called_for_it_is_said_why() {
+    let said = |text, knobs| {
+        let (world, origins) = compiled(text, 0.0);
+        idle(&world, &origins, Frame::whole(8, 6), knobs)
+    };
+    let why = "does nothing here: no surface reflects or is clear";
+    assert_eq!(said(PLAIN, &KNOBS[..3]), [format!("depth {why}"), format!("adc-bailout {why}")]);
+    assert_eq!(said(BALLS, &KNOBS[..4]), [""; 0]);
+}
+
+/// The wall clock's seconds of a picture are of its work: so a forecast by work is one by seconds.
+#[test]
+fn of_every_knob_the_cheap_settings_are_tried_and_none_twice_before() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let mut left = Vec::new();
+    for budget in [150.0, 400.0, 1200.0, 5000.0] {
+        let options = Options { budget, knobs: &KNOBS[..4], ..asked(160, 120) };
+        let clock = Ticking::new(1.0 / 16.0);
+        let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
+        assert!(clock.wall() <= 1.05 * budget, "{} of {budget}", clock.wall());
+        let dearest =
+            report.rows.iter().map(|row| Span::of(&row.times.wall).min).fold(0.0, f64::max);
+        for knob in &report.knobs {
+            // What was left out is dearer than what was tried: grids are told by their samples.
+            let side = |label: &str| label.split_once('×').and_then(|(_, n)| n.parse::<u32>().ok());
+            let grids = knob.settings.iter().filter(|s| !s.label.starts_with("adaptive"));
+            let most = grids.filter_map(|setting| side(&setting.label)).max();
+            let least = knob
+                .left_out
+                .iter()
+                .filter(|l| !l.starts_with("adaptive"))
+                .filter_map(|l| side(l))
+                .min();
+            assert!(most.zip(least).is_none_or(|(most, least)| most < least), "{knob:?}");
+            if knob.name != "antialias" && !knob.left_out.is_empty() {
+                // Their pictures take about as long as the scene's own.
+                let own = Span::of(&report.rows[0].times.wall).min;
+                assert!(dearest < 2.0 * own, "{budget}: {dearest} {own} {knob:?}");
+            }
+        }
+        left.push(report.knobs.iter().map(|knob| knob.left_out.len()).sum::<usize>());
+    }
+    assert!(left.is_sorted_by(|a, b| a >= b) && left[0] > left[3], "{left:?}");
 }
 
 #[test]

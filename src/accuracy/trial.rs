@@ -1,11 +1,13 @@
 //! A picture of each setting and the reference they are held against, within a time.
 //!
 //! **In:** plans, pixels to audit, a time to be done by. **Out:** a [`Trial`]. **Invariant:** the time is
-//! kept: what does not fit is not in it, dear settings first, then audited pixels, samples and depth
-//! of the reference. Runs are interleaved: the k-th of one picture stands between the k-th ones of the
-//! others that have as many, so that whatever else the machine does meets all of them alike.
+//! kept: what does not fit is not in it, dear settings first, of whichever knob, then audited pixels,
+//! samples and depth of the reference. No picture is made twice before each that fits was made once.
+//! Runs are interleaved: the k-th of one picture stands between the k-th ones of the others that have
+//! as many, so that whatever else the machine does meets all of them alike.
 
 use super::afford::{self, Affordable, Deadline, Depths};
+use super::forecast::{Forecast, forecast};
 use super::measure::{Clock, Span, Timer, Times};
 use super::reference::{Reference, Studio, colors_of};
 use super::statistics::{Deviation, Metric};
@@ -13,15 +15,20 @@ use super::{Options, Unmeasured};
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{Counters, Watch};
 
-/// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then one
-/// picture of each other setting, then a finer reference.
+/// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then
+/// a forecast, then one picture of each other setting, then a finer reference, then one picture of each
+/// setting that was not tried yet.
 const FOR_OWN: f64 = 0.7;
 const FOR_REFERENCE: f64 = 0.3;
-const FOR_PICTURES: f64 = 0.35;
+const FOR_FORECAST: f64 = 0.05;
+const FOR_PICTURES: f64 = 0.4;
 const FOR_FINER: f64 = 0.6;
+const FOR_THE_REST: f64 = 0.4;
 /// Of all the time: what finding the intervals of all settings may take.
 const FOR_STATISTICS: f64 = 0.1;
-/// Of the time for pictures that is left: what one may take.
+/// What one picture may take: so many times as long as was forecast, or this part of the time for pictures
+/// that is left.
+const AS_FORECAST: f64 = 2.0;
 const FOR_ONE: f64 = 0.5;
 /// Runs that as many pictures as can be should have, cheap ones first: their middle and their shortest
 /// tell close ones apart. Then all should have more, as far as time goes.
@@ -35,12 +42,10 @@ const PREDICTED: f64 = 0.8;
 pub struct Candidate {
     pub name: String,
     pub plan: Plan,
-    /// Of its knob.
-    pub knob: usize,
     /// The least it can cost, in camera rays a pixel.
     pub least: f64,
-    /// Each setting of the knob takes at least as long as the one before.
-    pub rises: bool,
+    /// The unit cost of a ray in its arithmetic, in rays of the camera.
+    pub factor: f64,
 }
 
 /// A setting's picture.
@@ -127,7 +132,10 @@ impl Bench<'_> {
 
         let mut pictures = vec![own];
         pictures[0].colors.truncate(list.len());
-        self.others(candidates, &deep, list, self.after(FOR_PICTURES, until), &mut pictures)?;
+        let mut forecast =
+            forecast(&self.studio, candidates, list, (self.clock, self.after(FOR_FORECAST, until)));
+        let first_until = self.after(FOR_PICTURES, until);
+        self.others(candidates, &mut forecast, &deep, list, first_until, &mut pictures)?;
 
         // As fine a reference as is needed, or as there is time for.
         let finer_until = self.after(FOR_FINER, until);
@@ -143,6 +151,8 @@ impl Bench<'_> {
                 break;
             }
         }
+        let rest_until = self.after(FOR_THE_REST, until);
+        self.others(candidates, &mut forecast, &deep, list, rest_until, &mut pictures)?;
         self.more_runs(candidates, until, &mut pictures)?;
         Ok(Trial { reference, depth: deep.max_trace_level, pictures })
     }
@@ -201,39 +211,37 @@ impl Bench<'_> {
         }
     }
 
-    /// One picture of each other candidate that there is time for, the cheap ones first, and none that
-    /// looks deeper than the reference.
+    /// One picture of each candidate not tried yet that there is time for: those that should take least
+    /// first, of whichever knob, until one does not fit. None looks deeper than the reference.
     fn others(
         &self,
         candidates: &[Candidate],
+        forecast: &mut Forecast,
         deep: &Plan,
         list: &[(u32, u32)],
         until: f64,
         pictures: &mut Vec<Picture>,
     ) -> Result<(), Unmeasured> {
-        let tried = |number: &usize| pictures.iter().any(|picture| picture.candidate == *number);
-        let mut order: Vec<usize> = (0..candidates.len()).filter(|n| !tried(n)).collect();
-        order.sort_by(|&a, &b| candidates[a].least.total_cmp(&candidates[b].least));
-        // Of those a camera ray a pixel was seen to take less than.
-        let mut a_ray = f64::INFINITY;
-        let mut too_dear = Vec::new();
+        let untried = |number: &usize| pictures.iter().all(|picture| picture.candidate != *number);
+        let shallow =
+            |number: &usize| candidates[*number].plan.max_trace_level <= deep.max_trace_level;
+        let mut order: Vec<usize> = (0..candidates.len()).filter(untried).filter(shallow).collect();
+        order.sort_by(|&a, &b| forecast.compare(candidates, a, b));
         for number in order {
-            let candidate = &candidates[number];
-            for picture in pictures.iter() {
-                let least = candidates[picture.candidate].least;
-                a_ray = a_ray.min(Span::of(&picture.times.wall).min / least);
+            let seconds = forecast.seconds(number, pictures);
+            let now = self.clock.wall();
+            if now + seconds > until && seconds.is_finite() {
+                break;
             }
             let end = self.after(FOR_ONE, until);
-            let cannot = self.clock.wall() + candidate.least * a_ray > end && candidate.least > 1.0;
-            let deeper = candidate.plan.max_trace_level > deep.max_trace_level;
-            if cannot || deeper || too_dear.contains(&candidate.knob) {
-                continue;
-            }
-            match self.picture((number, candidate), list, end) {
+            let end = if seconds.is_finite() { end.max(now + AS_FORECAST * seconds) } else { end };
+            match self.picture((number, &candidates[number]), list, end.min(until)) {
                 Some(picture) => pictures.push(picture),
                 None if self.studio.watch.should_stop() => return Err(Unmeasured::Stopped),
-                None if candidate.rises => too_dear.push(candidate.knob),
-                None => {}
+                None => {
+                    forecast.is_at_least(number, self.clock.wall() - now, pictures);
+                    break;
+                }
             }
         }
         pictures.sort_by_key(|picture| picture.candidate);

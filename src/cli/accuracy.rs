@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 
 use lucarne::accuracy::json::{self, Host};
 use lucarne::accuracy::{
-    Clock, KNOBS, Knob, LEAST_PIXELS, Options, Unmeasured, accuracy, svg, table,
+    Clock, KNOBS, Knob, LEAST_PIXELS, Options, Report, Unmeasured, accuracy, idle, svg, table,
 };
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
@@ -18,6 +18,7 @@ use super::files::DiskFiles;
 use super::messages;
 use super::output::write_whole;
 use super::progress::Progress;
+use super::promise::Told;
 use super::stats::{Stopwatch, cpu_seconds};
 use super::text::{name_of, read_main};
 
@@ -57,6 +58,17 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
 
     let asked = |knob: &&Knob| arguments.knobs.is_empty() || arguments.knobs.contains(&knob.name);
     let knobs: Vec<Knob> = KNOBS.iter().filter(asked).copied().collect();
+    let idle = match arguments.knobs.is_empty() {
+        true => Vec::new(),
+        false => idle(&world, &origins, frame, &knobs),
+    };
+    if !knobs.is_empty() && idle.len() == knobs.len() {
+        match arguments.json {
+            true => messages::print(&(json::nothing(&name, &idle) + "\n"))?,
+            false => messages::print(&(idle.join(".\n") + ".\n"))?,
+        }
+        return Ok(Exit::Done);
+    }
     let cores = available_parallelism().map_or(1, NonZero::get);
     let threads = arguments.threads.map_or(cores, usize::from);
     let options = Options {
@@ -73,10 +85,11 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Err(Failure::usage(sentence).help(format!("{LEAST_PIXELS} are the least")));
     }
     let progress = Progress::start();
-    let report = accuracy(&world, &origins, &options, &clock, &progress);
+    let told = Told::new(&progress, &clock, "measuring");
+    let report = accuracy(&world, &origins, &options, &clock, &told);
     progress.end();
     let report = match report {
-        Ok(report) => report,
+        Ok(report) => Report { idle, ..report },
         Err(Unmeasured::Stopped) => {
             messages::eprint("interrupted: nothing was reported\n");
             return Ok(Exit::Interrupted);

@@ -75,7 +75,7 @@ fn keep(
     clock: &Stopwatch,
     progress: &Progress,
 ) -> Result<Made, Failure> {
-    let told = Told { progress, clock, now: Mutex::new(Now::new("choosing settings", clock)) };
+    let told = Told::new(progress, clock, "choosing settings");
     let tell = |step: Step| {
         let (name, note) = match &step {
             Step::Choosing => {
@@ -178,7 +178,7 @@ fn duration(seconds: f64) -> String {
 }
 
 /// Where no bar can be seen, a line now and then says how far it has come.
-struct Told<'a> {
+pub(super) struct Told<'a> {
     progress: &'a Progress,
     clock: &'a Stopwatch,
     now: Mutex<Now>,
@@ -203,6 +203,12 @@ impl Now {
 const WORTH_TELLING: f64 = 5.0;
 /// Seconds from one line to the next.
 const NOW_AND_THEN: f64 = 10.0;
+
+impl<'a> Told<'a> {
+    pub(super) fn new(progress: &'a Progress, clock: &'a Stopwatch, name: &'static str) -> Self {
+        Self { progress, clock, now: Mutex::new(Now::new(name, clock)) }
+    }
+}
 
 impl Watch for Told<'_> {
     fn progress(&self, done: usize, total: usize) {

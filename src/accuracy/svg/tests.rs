@@ -154,6 +154,7 @@ pub(in crate::accuracy) fn report(
         reference_samples: 512,
         floors: [floor; 3],
         knobs,
+        idle: Vec::new(),
         rows,
     };
     report.judge();
