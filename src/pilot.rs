@@ -1,42 +1,86 @@
 //! The plan's pilot: some pixels of the picture, traced to see what all of them will cost.
 //!
 //! **In:** [`World`], its [`Plan`]. **Out:** the Plan with rays counted. **Invariant:** the same numbers
-//! on every run: they are counts, of pixels that depend on nothing but the picture's size.
+//! on every run: they are counts, of pixels that depend on nothing but the picture's size, and of no more
+//! of them than a limit that is counted, too.
+
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::math::random::Random;
 use crate::plan::{Antialias, Effect, Pilot, Plan, Region};
-use crate::trace::{Counters, Sampling, TraceOptions, Unwatched, geometry, pixels};
+use crate::trace::{Counters, Sampling, TraceOptions, Watch, geometry, pixels};
 use crate::world::World;
 
 /// Pixels along the longer side of the picture, of those that are traced.
 const SIDE: u32 = 64;
 
+/// Rays that are enough to count, without those of the neighbours that adaptive antialiasing looks at.
+const RAYS: u64 = 1 << 20;
+/// Pixels that are traced at a time: those of one that goes beyond the limit do not count.
+const CHUNK: usize = 64;
+/// Where not so many chunks are done, less deep is better.
+const ENOUGH: usize = 2;
+/// How deep it looks then.
+const DEPTHS: [u32; 5] = [20, 10, 5, 3, 2];
+
 /// Traces some pixels, spread over the picture, and notes how many rays each effect sent. With adaptive
 /// antialiasing they and their neighbours are looked at as the picture will be, and those on an edge
-/// traced as finely; a regular grid of samples costs so many times one, which is traced.
+/// traced as finely; a regular grid of samples costs so many times one, which is traced. Where that is
+/// too much work it traces fewer pixels, and if even few are too many, looks less deep.
 pub fn pilot(world: &World, plan: &mut Plan) {
+    pilot_within(world, plan, RAYS);
+}
+
+fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     let antialias = match plan.antialias {
         Antialias::Off | Antialias::Grid(_) => Antialias::Off,
         adaptive @ Antialias::Adaptive { .. } => adaptive,
     };
-    let small = Plan { antialias, ..plan.clone() };
-    let (width, height) = thinned(plan.frame.region);
-    let places = spread(plan.frame.region, (width, height));
     let options = TraceOptions::on_threads(1);
-    let geometry = geometry(world, &small, &options);
-    let planned = Sampling::Planned;
-    let counters =
-        pixels(world, &geometry, &small, &places, planned, &options, &Unwatched).counters;
+    let geometry = geometry(world, plan, &options);
+    let (width, height) = thinned(plan.frame.region);
+    let places = mixed(spread(plan.frame.region, (width, height)));
+    let look = |max_trace_level: u32| {
+        let plan = Plan { antialias, max_trace_level, ..plan.clone() };
+        let patience = Patience { left: AtomicU64::new(limit / STEPS_A_QUESTION) };
+        let (mut counters, mut pixels_done) = (Counters::default(), 0);
+        for chunk in places.chunks(CHUNK) {
+            let planned = Sampling::Planned;
+            let seen = pixels(world, &geometry, &plan, chunk, planned, &options, &patience);
+            if seen.radiance.contains(&None) {
+                break;
+            }
+            counters += seen.counters;
+            pixels_done += chunk.len();
+            if counters.rays() >= limit {
+                break;
+            }
+        }
+        (counters, pixels_done)
+    };
+    let enough = places.len().min(ENOUGH * CHUNK);
+    let deep = plan.max_trace_level;
+    let less = DEPTHS.into_iter().filter(|&depth| depth < deep).chain([1]);
+    let mut found = (look(deep), None);
+    for depth in less {
+        let ((_, pixels_done), _) = found;
+        if pixels_done >= enough {
+            break;
+        }
+        found = (look(depth), Some(depth));
+    }
+    let ((counters, pixels_done), depth) = found;
     let camera = counters.camera.max(1) as f64;
     let edges = match antialias {
         Antialias::Off | Antialias::Grid(_) => None,
         Antialias::Adaptive { grid, .. } => {
-            let finer = counters.camera - places.len() as u64;
-            let each = u64::from(grid.max(1)).pow(2) * places.len() as u64;
+            let finer = counters.camera - pixels_done as u64;
+            let each = u64::from(grid.max(1)).pow(2) * pixels_done.max(1) as u64;
             Some(finer as f64 / each as f64)
         }
     };
-    plan.pilot = Some(Pilot { width, height, rays: 1.0, edges });
+    let found = Pilot { width, height, pixels: pixels_done, depth, rays: 1.0, edges };
+    plan.pilot = Some(found);
     let a_pixel = plan.camera_rays_a_pixel();
     let mut all = 1.0;
     for called in &mut plan.effects {
@@ -46,7 +90,36 @@ pub fn pilot(world: &World, plan: &mut Plan) {
         let more = (called.effect == Effect::Antialiasing).then_some(1.0 - 1.0 / a_pixel);
         called.rays = sent.or(more);
     }
-    plan.pilot = Some(Pilot { width, height, rays: all, edges });
+    plan.pilot = Some(Pilot { rays: all, ..found });
+}
+
+/// Surfaces and samples between two questions whether to stop.
+const STEPS_A_QUESTION: u64 = 64;
+
+/// Stops a trace after so many questions: on one thread always in the same place.
+struct Patience {
+    left: AtomicU64,
+}
+
+impl Watch for Patience {
+    fn progress(&self, _: usize, _: usize) {}
+
+    fn should_stop(&self) -> bool {
+        let one_less = |left: u64| left.checked_sub(1);
+        self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_less).is_err()
+    }
+}
+
+/// The same in an order of which any first part is spread over all.
+fn mixed(places: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
+    let mut keyed: Vec<(u64, (u32, u32))> = places
+        .into_iter()
+        .enumerate()
+        // Multiples of the golden section, of 2^64.
+        .map(|(i, place)| ((i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15), place))
+        .collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|(_, place)| place).collect()
 }
 
 /// The rays of an effect; `None` for those that send none of their own.
@@ -55,12 +128,13 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         Effect::Shadows => Some(counters.shadow),
         Effect::Reflection => Some(counters.reflection),
         Effect::Transparency => Some(counters.transmission),
+        // What cannot be bent out of a medium stays in it.
+        Effect::Refraction => Some(counters.total_reflection),
         Effect::Diffuse
         | Effect::Highlights
         | Effect::Attenuation
         | Effect::DoubleIllumination
         | Effect::Hiding
-        | Effect::Refraction
         | Effect::ColoredShadows
         | Effect::Patterns
         | Effect::Sky
@@ -96,6 +170,10 @@ fn spread(region: Region, (wide, high): (u32, u32)) -> Vec<(u32, u32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::{Frame, PlanOptions, plan};
+    use crate::road::{Options, Road};
+    use crate::scene::Dialect;
+    use crate::source::NoFiles;
 
     #[test]
     fn a_thinned_picture_keeps_its_shape() {
@@ -120,5 +198,65 @@ mod tests {
         let small = Region { x: 2, y: 1, width: 3, height: 2 };
         let all = [(2, 1), (3, 1), (4, 1), (2, 2), (3, 2), (4, 2)];
         assert_eq!(spread(small, thinned(small)), all);
+    }
+
+    #[test]
+    fn a_first_part_of_the_mixed_pixels_is_spread_over_all() {
+        let all: Vec<(u32, u32)> = (0..3072).map(|i| (i % 64, i / 64)).collect();
+        let mixed = mixed(all.clone());
+        let mut sorted = mixed.clone();
+        sorted.sort_unstable_by_key(|&(x, y)| (y, x));
+        assert_eq!(sorted, all);
+        for band in 0..4 {
+            let inside = mixed[..256].iter().filter(|(_, y)| y / 12 == band).count();
+            assert!((48..=80).contains(&inside), "{inside} in band {band}");
+        }
+    }
+
+    /// Clear balls that mirror: paths fork at each surface.
+    fn glass(depth: u32) -> (World, Plan) {
+        let text = format!(
+            "global_settings {{ max_trace_level {depth} }}
+            camera {{ location <0, 3, 6> look_at 0 angle 45 }}
+            light_source {{ <-8, 12, 10>, rgb 1 }}
+            #for (I, 0, 3) #for (J, 0, 3) sphere {{
+              <2*I - 3, 0, 2*J - 3>, 0.9 pigment {{ rgbt 1 }}
+              finish {{ ambient 0 diffuse 0 reflection 0.9 }} interior {{ ior 1.5 }}
+            }} #end #end"
+        );
+        let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+        let (world, origins) = road.compile("a.scene", text.into_bytes());
+        assert!(!road.diagnostics.has_errors());
+        let plan = plan(&world, &origins, &PlanOptions::new(Frame::whole(320, 240)));
+        (world, plan)
+    }
+
+    fn piloted(depth: u32, limit: u64) -> Pilot {
+        let (world, mut plan) = glass(depth);
+        pilot_within(&world, &mut plan, limit);
+        let again = plan.pilot;
+        pilot_within(&world, &mut plan, limit);
+        assert_eq!(plan.pilot, again, "the same on every run");
+        let sent: f64 = plan
+            .effects
+            .iter()
+            .filter_map(|called| match called.effect {
+                Effect::Antialiasing => None,
+                _ => called.rays,
+            })
+            .sum();
+        let pilot = plan.pilot.expect("sent");
+        assert!((1.0 + sent - pilot.rays).abs() < 1e-9 * pilot.rays, "the lines add up to all");
+        pilot
+    }
+
+    #[test]
+    fn where_paths_fork_the_pilot_traces_fewer_pixels_or_looks_less_deep() {
+        let shallow = piloted(2, 1 << 20);
+        assert_eq!((shallow.pixels, shallow.depth), (64 * 48, None));
+        let fewer = piloted(4, 1 << 15);
+        assert!((128..64 * 48).contains(&fewer.pixels) && fewer.depth.is_none(), "{fewer:?}");
+        let less = piloted(200, 1 << 16);
+        assert!(less.pixels >= 128 && less.depth.is_some_and(|depth| depth < 20), "{less:?}");
     }
 }

@@ -12,7 +12,7 @@ use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Frame, Kernel, Plan, PlanOptions, plan};
 use lucarne::road::{Options, Road, dialect};
 use lucarne::source::{FileError, Files, Found, Sources, Span};
-use lucarne::trace::{TraceOptions, Traced, Unwatched, trace};
+use lucarne::trace::{Counters, Evaluations, TraceOptions, Traced, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
 #[path = "effects/dropped.rs"]
@@ -114,8 +114,42 @@ fn traced(world: &World, plan: &Plan) -> Traced {
     trace(world, plan, &TraceOptions::on_threads(1), &Unwatched)
 }
 
+/// How often an effect was at work.
+fn counted(effect: Effect, counters: &Counters) -> u64 {
+    let Evaluations {
+        diffuse,
+        highlights,
+        attenuation,
+        from_behind,
+        refraction,
+        colored_shadows,
+        patterns,
+        hiding,
+        sky,
+    } = counters.evaluations;
+    match effect {
+        Effect::Diffuse => diffuse,
+        Effect::Highlights => highlights,
+        Effect::Shadows => counters.shadow,
+        Effect::Attenuation => attenuation,
+        Effect::DoubleIllumination => from_behind,
+        Effect::Reflection => counters.reflection,
+        Effect::Transparency => counters.transmission,
+        Effect::Refraction => refraction + counters.total_reflection,
+        Effect::ColoredShadows => colored_shadows,
+        Effect::Patterns => patterns,
+        Effect::Hiding => hiding,
+        Effect::Sky => sky,
+        Effect::Antialiasing => {
+            let pixels = OPTIONS.frame.width * OPTIONS.frame.height;
+            counters.camera.saturating_sub(u64::from(pixels))
+        }
+    }
+}
+
 #[test]
 fn what_is_off_is_counted_zero() {
+    let mut seen = BTreeSet::new();
     for name in scenes() {
         let Seen { world, plan, .. } = see(&name, &Changed::default());
         let options = TraceOptions { count_work: true, ..TraceOptions::on_threads(1) };
@@ -123,18 +157,15 @@ fn what_is_off_is_counted_zero() {
         // So few need no tree of boxes.
         let visits = counters.work.box_visits;
         assert!(world.objects.len() >= 8 || visits == 0, "{name}: {visits} boxes");
-        for (effect, rays) in [
-            (Effect::Shadows, counters.shadow),
-            // Beyond the critical angle all is reflected.
-            (
-                Effect::Reflection,
-                if plan.simulates(Effect::Refraction) { 0 } else { counters.reflection },
-            ),
-            (Effect::Transparency, counters.transmission),
-        ] {
-            assert!(plan.simulates(effect) || rays == 0, "{name}: {effect:?} {rays}");
+        for effect in Effect::ALL {
+            let times = counted(effect, &counters);
+            assert!(plan.simulates(effect) || times == 0, "{name}: {effect:?} {times}");
+            if times > 0 {
+                seen.insert(effect);
+            }
         }
     }
+    assert_eq!(seen.len(), Effect::ALL.len(), "each is on and counted somewhere: {seen:?}");
 }
 
 #[test]

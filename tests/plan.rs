@@ -97,7 +97,14 @@ fn written(plan: &Value) -> String {
     out += if near.is_empty() { "  no transform nearly flattens space\n" } else { "" };
     out += &format!("rays: {}", counted(number(&rays["per_camera_ray"]), rays));
     let pilot = &rays["pilot"];
-    out += &format!(" (counted by a pilot of {}×{} pixels", pilot[0], pilot[1]);
+    let all = number(&pilot[0]) * number(&pilot[1]);
+    let fewer = number(&rays["pilot_pixels"]) < all;
+    let done = if fewer { format!("{} of ", rays["pilot_pixels"]) } else { String::new() };
+    out += &format!(" (counted by a pilot of {done}{}×{} pixels", pilot[0], pilot[1]);
+    if let Some(depth) = rays["pilot_depth"].as_u64() {
+        let deep = &plan["max_trace_level"];
+        out += &format!(", only {depth} of {deep} surfaces deep: there are more rays");
+    }
     if let Some(edges) = rays["edges"].as_f64() {
         out += &format!(", {:.1} % of them on an edge", 100.0 * edges);
     }

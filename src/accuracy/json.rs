@@ -108,6 +108,7 @@ struct Rays {
     shadow: u64,
     reflection: u64,
     transmission: u64,
+    total_reflection: u64,
 }
 
 #[derive(Serialize)]
@@ -176,13 +177,21 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
     });
     let rows = report.rows.iter().enumerate().map(|(place, row)| {
         let [rmse, p99, bad] = Metric::ALL.map(|metric| Bounds::of(report, place, metric));
-        let Counters { camera, shadow, reflection, transmission, work } = row.counters;
+        let Counters {
+            camera,
+            shadow,
+            reflection,
+            transmission,
+            total_reflection,
+            work,
+            evaluations: _,
+        } = row.counters;
         let geometry::Work { box_visits, root_solves } = work;
         RowJson {
             name: &row.name,
             cpu_s: &row.times.cpu,
             wall_s: &row.times.wall,
-            rays: Rays { camera, shadow, reflection, transmission },
+            rays: Rays { camera, shadow, reflection, transmission, total_reflection },
             work: Work { box_visits, root_solves },
             cost: report.cost(place),
             errors: Errors { rmse, p99, bad },

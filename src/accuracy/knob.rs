@@ -208,10 +208,18 @@ const ROOT_SOLVE: f64 = 0.23;
 
 /// What was counted, in rays of the camera that meet nothing.
 pub fn cost(counters: &Counters) -> f64 {
-    let Counters { camera, shadow: _, reflection, transmission, work } = *counters;
+    let Counters {
+        camera,
+        shadow: _,
+        reflection,
+        transmission,
+        total_reflection,
+        work,
+        evaluations: _,
+    } = *counters;
     let Work { box_visits, root_solves } = work;
     camera as f64
-        + REFLECTION * reflection as f64
+        + REFLECTION * (reflection + total_reflection) as f64
         + TRANSMISSION * transmission as f64
         + BOX_VISIT * box_visits as f64
         + ROOT_SOLVE * root_solves as f64

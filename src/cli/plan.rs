@@ -110,6 +110,11 @@ struct Rays {
     camera: f64,
     all: f64,
     pilot: [u32; 2],
+    /// As many as its limit of rays allowed.
+    pilot_pixels: usize,
+    /// How deep it looked, where that is less than the plan says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pilot_depth: Option<u32>,
     /// The share of the pilot's pixels that adaptive antialiasing samples anew.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<f64>,
@@ -201,6 +206,8 @@ impl<'a> Report<'a> {
                 camera: plan.camera_rays(),
                 all: pilot.rays * plan.camera_rays(),
                 pilot: [pilot.width, pilot.height],
+                pilot_pixels: pilot.pixels,
+                pilot_depth: pilot.depth,
                 edges: pilot.edges,
             }),
         }

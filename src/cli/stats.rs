@@ -37,6 +37,8 @@ pub struct Rays {
     pub shadow: u64,
     pub reflection: u64,
     pub transmission: u64,
+    /// Where a clear surface mirrors all, for nothing can go through.
+    pub total_reflection: u64,
 }
 
 /// What it took to find what they meet: visits to nodes of the tree of boxes (four boxes each), and
@@ -49,9 +51,17 @@ pub struct Work {
 
 impl Stats {
     pub fn count(&mut self, counters: &Counters) {
-        let Counters { camera, shadow, reflection, transmission, work } = *counters;
+        let Counters {
+            camera,
+            shadow,
+            reflection,
+            transmission,
+            total_reflection,
+            work,
+            evaluations: _,
+        } = *counters;
         let geometry::Work { box_visits, root_solves } = work;
-        self.rays = Rays { camera, shadow, reflection, transmission };
+        self.rays = Rays { camera, shadow, reflection, transmission, total_reflection };
         self.work = Work { box_visits, root_solves };
     }
 

@@ -197,7 +197,8 @@ impl Geometry {
         self
     }
 
-    fn counts(&self) -> bool {
+    /// Whether it counts what its searches take.
+    pub fn counts(&self) -> bool {
         match self.manner {
             Manner::Double | Manner::Single => false,
             Manner::DoubleCounted | Manner::SingleCounted => true,

@@ -210,9 +210,13 @@ pub struct LeftOut {
 /// Some pixels of the picture, traced to count rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pilot {
-    /// How many pixels, side by side and one above the other, spread over the region.
+    /// How many pixels there were to be, side by side and one above the other, spread over the region.
     pub width: u32,
     pub height: u32,
+    /// How many were traced, as far as its limit of rays went; these are spread over the region, too.
+    pub pixels: usize,
+    /// How many surfaces deep, where as deep as the plan says not one of many would have been done.
+    pub depth: Option<u32>,
     /// All rays, a ray of the camera.
     pub rays: f64,
     /// The share of the pixels that adaptive antialiasing samples anew; `None` where it is not

@@ -125,7 +125,16 @@ impl Printer<'_> {
     fn rays(&self, out: &mut String) -> fmt::Result {
         let Some(pilot) = self.plan.pilot else { return Ok(()) };
         write!(out, "rays: {}", self.counted(pilot.rays))?;
-        write!(out, " (counted by a pilot of {}×{} pixels", pilot.width, pilot.height)?;
+        let whole = (pilot.width as usize) * (pilot.height as usize);
+        write!(out, " (counted by a pilot of ")?;
+        if pilot.pixels < whole {
+            write!(out, "{} of ", pilot.pixels)?;
+        }
+        write!(out, "{}×{} pixels", pilot.width, pilot.height)?;
+        if let Some(depth) = pilot.depth {
+            let all = self.plan.max_trace_level;
+            write!(out, ", only {depth} of {all} surfaces deep: there are more rays")?;
+        }
         if let Some(edges) = pilot.edges {
             write!(out, ", {:.1} % of them on an edge", 100.0 * edges)?;
         }

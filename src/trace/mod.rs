@@ -7,6 +7,7 @@
 mod antialias;
 mod attenuation;
 mod camera;
+mod counters;
 mod highlight;
 mod media;
 mod metal;
@@ -22,11 +23,9 @@ mod sharpness;
 mod sky;
 mod tiles;
 
-use std::ops::AddAssign;
-
 use crate::color::{Gamma, Rgb};
 use crate::film::Film;
-use crate::geometry::{Geometry, Hit, Occluder, Work};
+use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
 use crate::world::World;
 
@@ -37,13 +36,14 @@ use path::{Fork, Link, Tracer};
 use shadow::Filters;
 use tiles::Crew;
 
+pub use counters::{Counters, Evaluations};
 pub use pixels::{Pixels, Sampling, pixels};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {
     /// `None`: one for each processor.
     pub threads: Option<usize>,
-    /// Count the [`Work`], too. Some scenes take 1 % longer.
+    /// Count the [`crate::geometry::Work`] and the [`Evaluations`], too. Some scenes take 1 % longer.
     pub count_work: bool,
 }
 
@@ -72,38 +72,6 @@ impl Watch for Unwatched {
     fn progress(&self, _: usize, _: usize) {}
     fn should_stop(&self) -> bool {
         false
-    }
-}
-
-/// How much work it was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counters {
-    /// Rays from the camera.
-    pub camera: u64,
-    /// Rays toward lights.
-    pub shadow: u64,
-    /// Mirrored rays.
-    pub reflection: u64,
-    /// Rays that go on behind a clear surface.
-    pub transmission: u64,
-    /// What it took to find what they meet; nothing where it was not to be counted.
-    pub work: Work,
-}
-
-impl Counters {
-    /// Of every kind.
-    pub fn rays(&self) -> u64 {
-        self.camera + self.shadow + self.reflection + self.transmission
-    }
-}
-
-impl AddAssign for Counters {
-    fn add_assign(&mut self, other: Self) {
-        self.camera += other.camera;
-        self.shadow += other.shadow;
-        self.reflection += other.reflection;
-        self.transmission += other.transmission;
-        self.work += other.work;
     }
 }
 
@@ -204,11 +172,15 @@ pub fn trace_in(
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options.threads, watch);
-    match (plan.kernel.shadows, plan.kernel.secondary) {
-        (false, false) => frame::<false, false>(&tracer, plan, &crew),
-        (false, true) => frame::<false, true>(&tracer, plan, &crew),
-        (true, false) => frame::<true, false>(&tracer, plan, &crew),
-        (true, true) => frame::<true, true>(&tracer, plan, &crew),
+    match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
+        (false, false, false) => frame::<false, false, false>(&tracer, plan, &crew),
+        (false, true, false) => frame::<false, true, false>(&tracer, plan, &crew),
+        (true, false, false) => frame::<true, false, false>(&tracer, plan, &crew),
+        (true, true, false) => frame::<true, true, false>(&tracer, plan, &crew),
+        (false, false, true) => frame::<false, false, true>(&tracer, plan, &crew),
+        (false, true, true) => frame::<false, true, true>(&tracer, plan, &crew),
+        (true, false, true) => frame::<true, false, true>(&tracer, plan, &crew),
+        (true, true, true) => frame::<true, true, true>(&tracer, plan, &crew),
     }
 }
 
@@ -228,7 +200,7 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 
 /// Traces the region with one kernel. A function of its own, so that its instructions can be counted.
 #[inline(never)]
-fn frame<const SHADOWS: bool, const SECONDARY: bool>(
+fn frame<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
     tracer: &Tracer,
     plan: &Plan,
     crew: &Crew,
@@ -238,7 +210,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height);
     // Inlined into each pass: as a closure of its own it would be called for each pixel.
-    let sampled = sampled::<SHADOWS, SECONDARY>;
+    let sampled = sampled::<SHADOWS, SECONDARY, COUNTS>;
     let region = plan.frame.region;
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
@@ -269,7 +241,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool>(
 
 /// The mean of a pixel's samples, and how many.
 #[inline(always)]
-fn sampled<const SHADOWS: bool, const SECONDARY: bool>(
+fn sampled<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
     tracer: &Tracer,
     lens: &Lens,
     walk: &mut Walk,
@@ -278,7 +250,7 @@ fn sampled<const SHADOWS: bool, const SECONDARY: bool>(
 ) -> (Rgb, u32) {
     let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
         walk.counters.camera += 1;
-        tracer.radiance::<SHADOWS, SECONDARY>(walk, lens.ray(pixel, (i, j), grid))
+        tracer.radiance::<SHADOWS, SECONDARY, COUNTS>(walk, lens.ray(pixel, (i, j), grid))
     });
     (radiance, grid * grid)
 }

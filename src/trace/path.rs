@@ -11,7 +11,7 @@
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
-use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
+use super::{Evaluations, Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
 use crate::math::Vector;
@@ -124,7 +124,7 @@ impl<'a> Tracer<'a> {
     /// that lets through less brightness than that, whatever the weight, nothing is followed either,
     /// as in POV-Ray. A seed finish neither lowers the weight nor is cut by it.
     #[inline(never)]
-    pub fn radiance<const SHADOWS: bool, const SECONDARY: bool>(
+    pub fn radiance<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
         &self,
         walk: &mut Walk,
         ray: Ray,
@@ -137,14 +137,18 @@ impl<'a> Tracer<'a> {
         }
         loop {
             let mut seen = loop {
-                let Some(hit) = met_by.nearest_counted(&way.ray, &mut walk.counters.work) else {
+                let found = met_by.nearest_counted(&way.ray, &mut walk.counters.work);
+                if COUNTS {
+                    self.count(met_by, found.as_ref(), &mut walk.counters.evaluations);
+                }
+                let Some(hit) = found else {
                     break sky::seen(self.world, &self.sharpness, way.ray.direction);
                 };
                 let Stand { surface, paint, place } = self.stand(&way.ray, &hit);
                 let finish = place.finish;
-                let mut local = shade::local::<SHADOWS>(self, walk, &place);
+                let mut local = shade::local::<SHADOWS, COUNTS>(self, walk, &place);
                 if self.world.objects[hit.object as usize].double_illuminate {
-                    local += self.lit_behind::<SHADOWS>(walk, way.ray, hit);
+                    local += self.lit_behind::<SHADOWS, COUNTS>(walk, way.ray, hit);
                 }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
@@ -155,7 +159,9 @@ impl<'a> Tracer<'a> {
                         .flat
                         .map_or_else(|| surface.spawn(-place.normal), |Flat { behind, .. }| behind);
                     let met = Met { hit, place, paint, behind, local };
-                    let Some(next) = self.part(walk, way, &met) else { break clamped(local) };
+                    let Some(next) = self.part::<COUNTS>(walk, way, &met) else {
+                        break clamped(local);
+                    };
                     way = next;
                     met_by = self.met_by(&way);
                     continue;
@@ -194,6 +200,24 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// What a ray that was followed through `met_by` will evaluate whatever the lights are.
+    fn count(&self, met_by: &Geometry, found: Option<&Hit>, evaluations: &mut Evaluations) {
+        evaluations.hiding += u64::from(!std::ptr::eq(met_by, self.geometry));
+        let patterned = |pigment: &&Pigment| matches!(pigment, Pigment::Patterned { .. });
+        match found {
+            Some(hit) => {
+                let object = &self.world.objects[hit.object as usize];
+                let pigment = &self.world.materials[object.material as usize].pigment;
+                evaluations.patterns += u64::from(patterned(&pigment));
+            }
+            None => {
+                let pigments = || self.world.sky.iter().flat_map(|sky| &sky.pigments);
+                evaluations.sky += pigments().count() as u64;
+                evaluations.patterns += pigments().filter(patterned).count() as u64;
+            }
+        }
+    }
+
     /// What there is where a ray meets a surface, on the side it comes from.
     #[inline(always)]
     fn stand(&self, ray: &Ray, hit: &Hit) -> Stand<'a> {
@@ -228,10 +252,18 @@ impl<'a> Tracer<'a> {
     /// few: all is found once more, and nothing is kept at hand for it elsewhere.
     #[cold]
     #[inline(never)]
-    fn lit_behind<const SHADOWS: bool>(&self, walk: &mut Walk, ray: Ray, hit: Hit) -> Rgb {
+    fn lit_behind<const SHADOWS: bool, const COUNTS: bool>(
+        &self,
+        walk: &mut Walk,
+        ray: Ray,
+        hit: Hit,
+    ) -> Rgb {
+        if COUNTS {
+            walk.counters.evaluations.from_behind += 1;
+        }
         let Stand { surface, place, .. } = self.stand(&ray, &hit);
         let normal = place.flat.map_or(place.normal, |Flat { normal, .. }| normal);
-        shade::from_behind::<SHADOWS>(self, walk, &place, surface.spawn(-normal))
+        shade::from_behind::<SHADOWS, COUNTS>(self, walk, &place, surface.spawn(-normal))
     }
 
     /// What a ray under way can meet.
@@ -289,7 +321,7 @@ impl<'a> Tracer<'a> {
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured to 1/65,535.
     #[inline(never)]
-    fn part(&self, walk: &mut Walk, way: Way, met: &Met) -> Option<Way> {
+    fn part<const COUNTS: bool>(&self, walk: &mut Walk, way: Way, met: &Met) -> Option<Way> {
         let Met { ref hit, ref place, paint, local, .. } = *met;
         let seed = place.finish.seed;
         let clear = self.clear && paint.is_clear();
@@ -304,6 +336,9 @@ impl<'a> Tracer<'a> {
             let work = &mut counters.work;
             self.met_by(&way).coinciding(&way.ray, hit, &straight, coinciding, work);
         }
+        if COUNTS {
+            walk.counters.evaluations.refraction += u64::from(self.bends);
+        }
         let Border { from, to } = match self.bends {
             true => walk.media.border(self.world, hit, &walk.coinciding),
             false => Border::NONE,
@@ -316,7 +351,7 @@ impl<'a> Tracer<'a> {
         };
         let behind = match (through, bent) {
             (Some((weight, _)), None) => {
-                walk.counters.reflection += 1;
+                walk.counters.total_reflection += 1;
                 walk.chain.push(Link::behind(local, Rgb::WHITE, seed));
                 return Some(way.mirrored(place, weight));
             }

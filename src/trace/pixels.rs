@@ -51,11 +51,15 @@ pub fn pixels(
 ) -> Pixels {
     let tracer = Tracer::new(world, geometry, plan, watch);
     let Frame { width, height, .. } = plan.frame;
-    let kernel = match (plan.kernel.shadows, plan.kernel.secondary) {
-        (false, false) => Tracer::radiance::<false, false>,
-        (false, true) => Tracer::radiance::<false, true>,
-        (true, false) => Tracer::radiance::<true, false>,
-        (true, true) => Tracer::radiance::<true, true>,
+    let kernel = match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
+        (false, false, false) => Tracer::radiance::<false, false, false>,
+        (false, true, false) => Tracer::radiance::<false, true, false>,
+        (true, false, false) => Tracer::radiance::<true, false, false>,
+        (true, true, false) => Tracer::radiance::<true, true, false>,
+        (false, false, true) => Tracer::radiance::<false, false, true>,
+        (false, true, true) => Tracer::radiance::<false, true, true>,
+        (true, false, true) => Tracer::radiance::<true, false, true>,
+        (true, true, true) => Tracer::radiance::<true, true, true>,
     };
     let pixel =
         Pixel { plan, kernel, tracer: &tracer, lens: Lens::new(&world.camera, width, height) };

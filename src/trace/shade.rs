@@ -61,7 +61,11 @@ impl Place<'_> {
 /// Whether the surface faces a light is asked of its point; rays are aimed from where they start,
 /// or what they pass near the light would not be where the light is.
 #[inline(always)]
-pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place: &Place) -> Rgb {
+pub(super) fn local<const SHADOWS: bool, const COUNTS: bool>(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    place: &Place,
+) -> Rgb {
     let Place { finish, body, .. } = *place;
     let mut sum = body * finish.glow;
     if finish.diffuse == 0.0 && finish.lobes.is_empty() {
@@ -80,8 +84,11 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
         };
         let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        let arriving = arriving::<SHADOWS>(tracer, walk, (number, light), origin, &aim);
+        let arriving = arriving::<SHADOWS, COUNTS>(tracer, walk, (number, light), origin, &aim);
         let Some(color) = arriving else { continue };
+        if COUNTS {
+            count(walk, finish, light);
+        }
         sum += color * answer(place, light, aim.to_light, cosine);
     }
     sum
@@ -91,7 +98,7 @@ pub(super) fn local<const SHADOWS: bool>(tracer: &Tracer, walk: &mut Walk, place
 /// but for its highlights, which know where the light is. `behind` is where rays start on that side.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
-pub(super) fn from_behind<const SHADOWS: bool>(
+pub(super) fn from_behind<const SHADOWS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     place: &Place,
@@ -105,16 +112,19 @@ pub(super) fn from_behind<const SHADOWS: bool>(
         }
         let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
         let cosine = place.normal.dot(aim.to_light).min(0.0);
-        if let Some(color) = arriving::<SHADOWS>(tracer, walk, (number, light), behind, &aim) {
-            sum += color * answer(place, light, aim.to_light, cosine);
+        let arriving = arriving::<SHADOWS, COUNTS>(tracer, walk, (number, light), behind, &aim);
+        let Some(color) = arriving else { continue };
+        if COUNTS {
+            count(walk, place.finish, light);
         }
+        sum += color * answer(place, light, aim.to_light, cosine);
     }
     sum
 }
 
 /// What of a light, the `number`th, comes to `origin`; `None` where nothing does.
 #[inline(always)]
-fn arriving<const SHADOWS: bool>(
+fn arriving<const SHADOWS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     (number, light): (usize, &Light),
@@ -123,6 +133,9 @@ fn arriving<const SHADOWS: bool>(
 ) -> Option<Rgb> {
     let mut color = light.color;
     if let Some(attenuation) = &light.attenuation {
+        if COUNTS {
+            walk.counters.evaluations.attenuation += 1;
+        }
         color = attenuated(color, attenuation, &light.kind, origin, *aim)?;
     }
     if SHADOWS && light.casts_shadows {
@@ -130,6 +143,9 @@ fn arriving<const SHADOWS: bool>(
             return None;
         }
         if tracer.filters_shadows {
+            if COUNTS {
+                walk.counters.evaluations.colored_shadows += 1;
+            }
             color = color * shadow::filtered(tracer, walk, origin, aim);
             if color.is_black() {
                 return None;
@@ -150,8 +166,22 @@ fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
         let slant = if finish.brilliance == 1.0 { slant } else { power(slant, finish.brilliance) };
         sum = body * (finish.diffuse * slant);
     }
-    if !finish.lobes.is_empty() && (light.casts_shadows || finish.seed) {
+    if shines(finish, light) {
         sum += highlight::lobes(finish, &Gloss { color, normal, to_viewer, to_light, cosine });
     }
     sum
+}
+
+/// Whether a light makes highlights on a finish.
+#[inline(always)]
+fn shines(finish: &Finish, light: &Light) -> bool {
+    !finish.lobes.is_empty() && (light.casts_shadows || finish.seed)
+}
+
+/// What [`answer`] evaluates.
+fn count(walk: &mut Walk, finish: &Finish, light: &Light) {
+    let evaluations = &mut walk.counters.evaluations;
+    evaluations.diffuse += u64::from(finish.diffuse != 0.0);
+    let lobes = if shines(finish, light) { finish.lobes.len() } else { 0 };
+    evaluations.highlights += lobes as u64;
 }

@@ -1,6 +1,7 @@
 //! Single pixels are those of the film.
 
 use super::*;
+use crate::geometry::Work;
 
 /// Every pixel of a region, in no particular order.
 fn scattered(region: Region) -> Vec<(u32, u32)> {
@@ -50,7 +51,11 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
             }
             let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
             // What last shadowed a ray is another where the pixels come in another order.
-            let sent = |counters| Counters { work: Work::default(), ..counters };
+            let sent = |counters| Counters {
+                work: Work::default(),
+                evaluations: Evaluations::default(),
+                ..counters
+            };
             assert!(border || sent(single.counters) == sent(traced.counters), "{antialias:?}");
         }
     }

@@ -1,6 +1,7 @@
 //! What finding surfaces took: exact where it can be told by hand, the same whoever shares it out.
 
 use super::*;
+use crate::geometry::Work;
 
 /// As it is traced when the work is counted.
 fn counted(world: &World, threads: usize, options: PlanOptions) -> Counters {
@@ -9,7 +10,10 @@ fn counted(world: &World, threads: usize, options: PlanOptions) -> Counters {
     let counted = trace(world, &plan, &options, &Unwatched);
     let plain = traced_by(world, &plan);
     assert_eq!(counted.film, plain.film);
-    assert_eq!(plain.counters, Counters { work: Work::default(), ..counted.counters });
+    assert_eq!(
+        plain.counters,
+        Counters { work: Work::default(), evaluations: Evaluations::default(), ..counted.counters }
+    );
     counted.counters
 }
 

@@ -1,0 +1,83 @@
+//! How much work a picture was: rays by what sent them, what finding what they meet took, and how often
+//! each effect was evaluated.
+//!
+//! **Invariant:** depends on World, Plan and pixels alone. Rays are always counted; work and evaluations
+//! where that is asked for, by kernels of their own: one that does not count has not an instruction for it.
+
+use std::ops::AddAssign;
+
+use crate::geometry::Work;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counters {
+    /// Rays from the camera.
+    pub camera: u64,
+    /// Rays toward lights.
+    pub shadow: u64,
+    /// Rays that a finish mirrors.
+    pub reflection: u64,
+    /// Rays that go on behind a clear surface.
+    pub transmission: u64,
+    /// Rays that a clear surface mirrors whole, where nothing can go through.
+    pub total_reflection: u64,
+    /// What it took to find what they meet; nothing where it was not to be counted.
+    pub work: Work,
+    /// Likewise.
+    pub evaluations: Evaluations,
+}
+
+impl Counters {
+    /// Of every kind.
+    pub fn rays(&self) -> u64 {
+        self.camera + self.shadow + self.reflection + self.transmission + self.total_reflection
+    }
+}
+
+impl AddAssign for Counters {
+    fn add_assign(&mut self, other: Self) {
+        self.camera += other.camera;
+        self.shadow += other.shadow;
+        self.reflection += other.reflection;
+        self.transmission += other.transmission;
+        self.total_reflection += other.total_reflection;
+        self.work += other.work;
+        self.evaluations += other.evaluations;
+    }
+}
+
+/// How often each effect was evaluated that sends no rays of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Evaluations {
+    /// Lights whose light a surface scatters.
+    pub diffuse: u64,
+    /// Lobes that answer a light.
+    pub highlights: u64,
+    /// Lights that are less than their colour somewhere, asked what of it comes to a place.
+    pub attenuation: u64,
+    /// Surfaces asked what the lights on their other side add.
+    pub from_behind: u64,
+    /// Borders between media, asked where a ray goes on.
+    pub refraction: u64,
+    /// Ways to a light, searched for what lets a part of it through.
+    pub colored_shadows: u64,
+    /// Patterns of surfaces and of the sky.
+    pub patterns: u64,
+    /// Rays that do not meet all there is.
+    pub hiding: u64,
+    /// Pigments of the sky.
+    pub sky: u64,
+}
+
+impl AddAssign for Evaluations {
+    fn add_assign(&mut self, other: Self) {
+        self.diffuse += other.diffuse;
+        self.highlights += other.highlights;
+        self.attenuation += other.attenuation;
+        self.from_behind += other.from_behind;
+        self.refraction += other.refraction;
+        self.colored_shadows += other.colored_shadows;
+        self.patterns += other.patterns;
+        self.hiding += other.hiding;
+        self.sky += other.sky;
+    }
+}
