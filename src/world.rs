@@ -64,6 +64,8 @@ impl Whole {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
     pub objects: Vec<Site>,
+    /// What makes the wholes, as it is written: several may make one.
+    pub operations: Vec<OperationOrigin>,
     /// All of each, as a piece that can be taken out of the text.
     pub lights: Vec<Site>,
     /// What has to be taken out for each not to shine: mostly all of it.
@@ -102,6 +104,14 @@ pub struct MaterialOrigin {
     pub clear: Vec<Site>,
     /// Of those on objects that cast shadows.
     pub filter: Vec<Site>,
+}
+
+/// An operation that makes one solid of others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OperationOrigin {
+    /// `difference`, `clipped_by`.
+    pub word: &'static str,
+    pub site: Site,
 }
 
 /// Where the sky was written.

@@ -41,14 +41,28 @@ fn written(plan: &Value) -> String {
         ),
     };
     out += &format!("max_trace_level {}\n", plan["max_trace_level"]);
-    out += &format!("adc_bailout {}\n", number(&plan["adc_bailout"]));
+    let bailout = number(&plan["adc_bailout"]);
+    out += &match 1.0 / bailout {
+        parts if parts > 1.0 && parts.fract() == 0.0 => format!("adc_bailout 1/{parts}\n"),
+        _ => format!("adc_bailout {bailout}\n"),
+    };
     if plan["precision"] != "double" {
         out += &format!("precision {}\n", text(&plan["precision"]));
     }
-    let compiled = list(&plan["kernels_compiled"]).len();
-    out += &format!("kernel {}, one of {compiled} compiled in\n", text(&plan["kernel"]));
+    assert_eq!(list(&plan["kernels_compiled"]).len(), 4);
+    let rays = match text(&plan["kernel"]) {
+        "bare" => "the camera's alone",
+        "shadows" => "the camera's, and to lights",
+        "secondary" => "the camera's, and from surface to surface",
+        _ => "the camera's, to lights, and from surface to surface",
+    };
+    out += &format!("rays traced: {rays}\n");
     let (on, off): (Vec<&Value>, Vec<&Value>) =
         list(&plan["effects"]).iter().partition(|row| row["on"] == true);
+    let dropped = list(&plan["dropped"]);
+    let parts = if dropped.len() == 1 { "part" } else { "parts" };
+    let numbers = (on.len(), off.len(), dropped.len());
+    out += &format!("{} effects on, {} off, {} {parts} dropped\n", numbers.0, numbers.1, numbers.2);
     out += if on.is_empty() { "" } else { "on\n" };
     let rays = &plan["rays"];
     for row in on {
@@ -62,18 +76,36 @@ fn written(plan: &Value) -> String {
             out += &format!("    {}{}\n", quote(place), at(place));
         }
         out += &and_more(places, "    ");
-        out += if places.is_empty() { "    by the options\n" } else { "" };
+        let default = text(&antialias["kind"]) == "adaptive" && *n == 4 && *threshold == 0.05;
+        let by = if default { "    by default\n" } else { "    by the options\n" };
+        out += if places.is_empty() { by } else { "" };
     }
     out += if off.is_empty() { "" } else { "off\n" };
     for row in off {
         let (effect, why) = (text(&row["effect"]), text(&row["why"]));
         out += &format!("  {effect}: {why}{}\n", at(&row["place"]));
     }
-    let dropped = list(&plan["dropped"]);
     out += if dropped.is_empty() { "" } else { "dropped\n" };
     for part in dropped {
         out +=
             &format!("  {}: {}{}\n", text(&part["what"]), text(&part["why"]), at(&part["place"]));
+    }
+    let shapes = list(&plan["shapes"]);
+    out += if shapes.is_empty() { "" } else { "shapes\n" };
+    for kind in shapes {
+        out += &format!("  {}, {}: {}\n", text(&kind["shape"]), kind["count"], text(&kind["cost"]));
+        let places = list(&kind["places"]);
+        let first: Vec<String> = places
+            .iter()
+            .take(3)
+            .map(|place| at(place).trim_matches([' ', '(', ')']).to_owned())
+            .collect();
+        let more = if places.len() > 3 {
+            format!(" and {} more", places.len() - 3)
+        } else {
+            String::new()
+        };
+        out += &format!("    ({}{more})\n", first.join(", "));
     }
     out += "numerics\n";
     let numerics = &plan["numerics"];
@@ -87,6 +119,20 @@ fn written(plan: &Value) -> String {
         let (value, place) = (digits(&far["value"]), at(&far["place"]));
         out += &format!("  farthest for its size: {value} half widths away{place}\n");
     }
+    for endless in list(&numerics["endless"]) {
+        let (shape, place) = (text(&endless["shape"]), at(&endless["place"]));
+        out += &format!("  no half width: a {shape} has no end{place}\n");
+    }
+    if plan["precision"] == "single" && numerics["exceeds_single"] == true {
+        out += &format!("  {}\n", lucarne::plan::print::BEYOND_SINGLE);
+    }
+    let thin = list(&numerics["thin"]);
+    for found in thin.iter().take(3) {
+        let (what, times) = (text(&found["what"]), digits(&found["value"]));
+        let place = at(&found["place"]);
+        out += &format!("  nearly degenerate: {what}, {times} times as long as thick{place}\n");
+    }
+    out += &and_more(thin, "  ");
     let near = list(&numerics["near_singular"]);
     for found in near.iter().take(3) {
         let (piece, place) = (quote(&found["place"]), at(&found["place"]));

@@ -53,6 +53,7 @@ struct Report<'a> {
     kernels_compiled: Vec<&'a str>,
     effects: Vec<Row<'a>>,
     dropped: Vec<Part<'a>>,
+    shapes: Vec<Shapes<'a>>,
     numerics: Numbers<'a>,
     rays: Option<Rays>,
 }
@@ -90,10 +91,35 @@ struct Part<'a> {
 }
 
 #[derive(Serialize)]
+struct Shapes<'a> {
+    shape: &'a str,
+    count: usize,
+    cost: &'a str,
+    places: Vec<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Thin<'a> {
+    what: &'a str,
+    value: f64,
+    place: Option<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Endless<'a> {
+    shape: &'a str,
+    place: Option<Place<'a>>,
+}
+
+#[derive(Serialize)]
 struct Numbers<'a> {
     smallest_half_width: Option<Number<'a>>,
     largest_half_width: Option<Number<'a>>,
     farthest_in_half_widths: Option<Number<'a>>,
+    endless: Vec<Endless<'a>>,
+    /// Sizes that differ by more than 24 bits tell apart.
+    exceeds_single: bool,
+    thin: Vec<Thin<'a>>,
     near_singular: Vec<Number<'a>>,
 }
 
@@ -189,10 +215,37 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|part| Part { what: &part.what, why: &part.why, place: place(part.site) })
                 .collect(),
+            shapes: plan
+                .kinds
+                .iter()
+                .map(|kind| Shapes {
+                    shape: kind.word,
+                    count: kind.count,
+                    cost: kind.cost,
+                    places: kind.by.iter().copied().map(place).collect(),
+                })
+                .collect(),
             numerics: Numbers {
                 smallest_half_width: plan.numerics.smallest.map(number),
                 largest_half_width: plan.numerics.largest.map(number),
                 farthest_in_half_widths: plan.numerics.farthest.map(number),
+                endless: plan
+                    .numerics
+                    .endless
+                    .iter()
+                    .map(|&(shape, site)| Endless { shape, place: site.map(place) })
+                    .collect(),
+                exceeds_single: plan.numerics.exceeds_single(),
+                thin: plan
+                    .numerics
+                    .thin
+                    .iter()
+                    .map(|thin| Thin {
+                        what: thin.what,
+                        value: thin.slenderness,
+                        place: thin.site.map(place),
+                    })
+                    .collect(),
                 near_singular: plan
                     .numerics
                     .near_singular

@@ -7,7 +7,8 @@
 use super::Lowering;
 use crate::scene::Operation;
 use crate::shape::csg::Node;
-use crate::world::Whole;
+use crate::source::Site;
+use crate::world::{OperationOrigin, Whole};
 
 /// A whole under way.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub(super) struct Building {
     kind: Kind,
     /// So many parts it has so far.
     parts: u32,
+    /// The operations that make it, as they are written.
+    operations: Vec<OperationOrigin>,
 }
 
 /// What an operation comes to, on solids or on what is outside of them.
@@ -48,6 +51,14 @@ pub(super) enum Making {
 }
 
 impl Making {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Union => "union",
+            Self::Operation(operation) => operation.word().name(),
+            Self::Clip => "clipped_by",
+        }
+    }
+
     /// By de Morgan.
     fn kind(self, inverse: bool) -> Kind {
         match (self, inverse) {
@@ -88,18 +99,21 @@ impl Kind {
 
 impl Lowering<'_, '_> {
     /// Opens an operation; `None` where its parts may stand by themselves.
-    pub(super) fn open(&mut self, making: Making, inverse: bool) -> Option<Open> {
+    pub(super) fn open(&mut self, making: Making, inverse: bool, site: Site) -> Option<Open> {
         let kind = making.kind(inverse);
+        let written = OperationOrigin { word: making.word(), site };
         if let Some(building) = &mut self.building {
             let outer = (building.kind, building.parts);
             (building.kind, building.parts) = (kind, 0);
+            building.operations.extend((making != Making::Union).then_some(written));
             return Some(Open { inverse, outer: Some(outer) });
         }
         if kind == Kind::Union {
             return None;
         }
         let first = self.world.objects.len() as u32;
-        self.building = Some(Building { first, nodes: Vec::new(), kind, parts: 0 });
+        self.building =
+            Some(Building { first, nodes: Vec::new(), kind, parts: 0, operations: vec![written] });
         Some(Open { inverse, outer: None })
     }
 
@@ -141,13 +155,15 @@ impl Lowering<'_, '_> {
     }
 
     fn finish(&mut self) {
-        let Some(Building { first, nodes, .. }) = self.building.take() else { return };
+        let Some(building) = self.building.take() else { return };
+        let Building { first, nodes, operations, .. } = building;
         match &mut self.world.objects[first as usize..] {
             [] => {}
             [only] if nodes.len() == 1 => only.whole = None,
             leaves => {
                 let count = leaves.len() as u32;
                 self.world.wholes.push(Whole { nodes, first, count });
+                self.origins.operations.extend(operations);
             }
         }
     }

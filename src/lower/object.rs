@@ -182,7 +182,7 @@ impl<'s> Lowering<'s, '_> {
             inherited,
         };
         if !modified.clips.is_empty() {
-            let open = self.open(Making::Clip, inverse);
+            let open = self.open(Making::Clip, inverse, object.site);
             let region = Inherited {
                 // Of its surface nothing is seen.
                 hidden_by: Some(id),
@@ -198,7 +198,7 @@ impl<'s> Lowering<'s, '_> {
                 if children.is_empty() {
                     self.drop_part(object.site, "union", "it is empty");
                 }
-                let open = self.open(Making::Union, inverse);
+                let open = self.open(Making::Union, inverse, object.site);
                 let children = Children::Listed(children.iter());
                 stack.push(frame(open, false, children, here, modified.calls));
             }
@@ -206,7 +206,7 @@ impl<'s> Lowering<'s, '_> {
                 if children.is_empty() {
                     self.drop_part(object.site, operation.word().name(), "it is empty");
                 }
-                let open = self.open(Making::Operation(*operation), inverse);
+                let open = self.open(Making::Operation(*operation), inverse, object.site);
                 let difference = *operation == Operation::Difference;
                 let children = Children::Listed(children.iter());
                 stack.push(frame(open, difference, children, here, modified.calls));

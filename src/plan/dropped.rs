@@ -5,7 +5,7 @@
 //! light or shape lacks the tracer does not ask it for.
 
 use super::Precision;
-use crate::shape::Shape;
+use super::kinds::without_single_kernel;
 use crate::world::{Dropped, Origins, World};
 
 /// What single lights and shapes lack, and what lowering dropped.
@@ -28,13 +28,11 @@ fn shadowless(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped>
     })
 }
 
-/// The first shape that is met in double precision all the same.
-fn without_single_precision(world: &World, origins: &Origins) -> Option<Dropped> {
-    let mut objects = world.objects.iter().zip(&origins.objects);
-    let first = objects.find(|(object, _)| matches!(object.shape, Shape::Ellipsoid(_)));
-    first.map(|(_, &site)| Dropped {
+/// The first of each kind of shapes that is met in double precision all the same.
+fn without_single_precision(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped> {
+    without_single_kernel(world, origins).into_iter().map(|(word, site)| Dropped {
         site,
-        what: "single precision of ellipsoids".to_owned(),
-        why: "they have no kernel for it".to_owned(),
+        what: format!("single precision of every {word}"),
+        why: "it has no kernel for it".to_owned(),
     })
 }

@@ -5,6 +5,7 @@
 //! zero, or nothing by its own flags can take part in it. No guess about what is visible.
 
 use super::dropped::dropped;
+use super::kinds::kinds;
 use super::numerics::numerics;
 use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
@@ -28,6 +29,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         left_out: Vec::new(),
         dropped: dropped(world, origins, options.precision),
         numerics: numerics(world, origins),
+        kinds: kinds(world, origins),
         pilot: None,
     };
     for effect in Effect::ALL {

@@ -9,12 +9,14 @@
 mod dropped;
 mod effects;
 mod kernel;
+mod kinds;
 mod numerics;
 pub mod print;
 
 pub use effects::plan;
 pub use kernel::Kernel;
-pub use numerics::{Measured, Numerics};
+pub use kinds::Kind;
+pub use numerics::{Measured, Numerics, Thin};
 
 use crate::source::Site;
 use crate::world::Dropped;
@@ -181,6 +183,8 @@ pub struct Plan {
     /// Parts of the scene that cannot change the picture.
     pub dropped: Vec<Dropped>,
     pub numerics: Numerics,
+    /// Each kind of shape that there is.
+    pub kinds: Vec<Kind>,
     /// `None` where nobody sent one.
     pub pilot: Option<Pilot>,
 }

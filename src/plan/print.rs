@@ -2,11 +2,15 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Effect, Kernel, Measured, Plan, Precision};
+use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan, Precision};
 use crate::source::{Site, Sources};
 
 /// Places named for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
+
+/// What is to be said of single precision where it is asked for and not enough.
+pub const BEYOND_SINGLE: &str =
+    "single precision cannot resolve this range: its 24 bits tell 17 million sizes apart";
 
 /// Characters shown of a piece of the text.
 const QUOTE: usize = 48;
@@ -47,6 +51,7 @@ impl Printer<'_> {
                 writeln!(out, "  {}: {}{}", part.what, part.why, self.at(Some(part.site)))?;
             }
         }
+        self.kinds(out)?;
         self.numerics(out)?;
         self.rays(out)
     }
@@ -69,7 +74,7 @@ impl Printer<'_> {
             )?,
         }
         writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
-        writeln!(out, "adc_bailout {}", plan.adc_bailout)?;
+        writeln!(out, "adc_bailout {}", part(plan.adc_bailout))?;
         match plan.precision {
             Precision::Double => {}
             Precision::Single => writeln!(out, "precision single")?,
@@ -77,8 +82,20 @@ impl Printer<'_> {
         if plan.root_tolerance > 0.0 {
             writeln!(out, "root_tolerance {}", plan.root_tolerance)?;
         }
-        let compiled = Kernel::ALL.iter().filter(|kernel| kernel.is_compiled()).count();
-        writeln!(out, "kernel {}, one of {compiled} compiled in", plan.kernel.name())
+        let kernel = match plan.kernel {
+            Kernel { shadows: false, secondary: false } => "the camera's alone",
+            Kernel { shadows: true, secondary: false } => "the camera's, and to lights",
+            Kernel { shadows: false, secondary: true } => {
+                "the camera's, and from surface to surface"
+            }
+            Kernel { shadows: true, secondary: true } => {
+                "the camera's, to lights, and from surface to surface"
+            }
+        };
+        writeln!(out, "rays traced: {kernel}")?;
+        let (on, off) = (plan.effects.len(), plan.left_out.len());
+        let dropped = plan.dropped.len();
+        writeln!(out, "{on} effects on, {off} off, {} dropped", count(dropped, "part"))
     }
 
     fn called(&self, out: &mut String, called: &Called) -> fmt::Result {
@@ -91,10 +108,30 @@ impl Printer<'_> {
             writeln!(out, "    {}{}", self.quote(site), self.at(Some(site)))?;
         }
         match called.by.len() {
-            0 if called.effect == Effect::Antialiasing => writeln!(out, "    by the options"),
+            0 if called.effect == Effect::Antialiasing => {
+                let default = self.plan.antialias == Antialias::default();
+                writeln!(out, "    by {}", if default { "default" } else { "the options" })
+            }
             0..=PLACES_SHOWN => Ok(()),
             more => writeln!(out, "    and {} more", more - PLACES_SHOWN),
         }
+    }
+
+    fn kinds(&self, out: &mut String) -> fmt::Result {
+        if !self.plan.kinds.is_empty() {
+            writeln!(out, "shapes")?;
+        }
+        for Kind { word, count, by, cost } in &self.plan.kinds {
+            writeln!(out, "  {word}, {count}: {cost}")?;
+            let places = by.iter().take(PLACES_SHOWN).map(|site| self.sources.place(site.span));
+            let places = places.collect::<Vec<_>>().join(", ");
+            match by.len() {
+                0 => {}
+                1..=PLACES_SHOWN => writeln!(out, "    ({places})")?,
+                more => writeln!(out, "    ({places} and {} more)", more - PLACES_SHOWN)?,
+            }
+        }
+        Ok(())
     }
 
     fn numerics(&self, out: &mut String) -> fmt::Result {
@@ -108,6 +145,19 @@ impl Printer<'_> {
         if let Some(far) = &numerics.farthest {
             let value = number(far.value);
             writeln!(out, "  farthest for its size: {value} half widths away{}", at(far))?;
+        }
+        for (word, site) in &numerics.endless {
+            writeln!(out, "  no half width: a {word} has no end{}", self.at(*site))?;
+        }
+        if self.plan.precision == Precision::Single && numerics.exceeds_single() {
+            writeln!(out, "  {BEYOND_SINGLE}")?;
+        }
+        for thin in numerics.thin.iter().take(PLACES_SHOWN) {
+            let (what, times, place) = (thin.what, number(thin.slenderness), self.at(thin.site));
+            writeln!(out, "  nearly degenerate: {what}, {times} times as long as thick{place}")?;
+        }
+        if let more @ 1.. = numerics.thin.len().saturating_sub(PLACES_SHOWN) {
+            writeln!(out, "  and {more} more")?;
         }
         let near = &numerics.near_singular;
         for found in near.iter().take(PLACES_SHOWN) {
@@ -160,6 +210,18 @@ impl Printer<'_> {
             None => format!("`{text}`"),
         }
     }
+}
+
+/// A number, as one part of so many where it is.
+pub fn part(value: f64) -> String {
+    match 1.0 / value {
+        parts if parts > 1.0 && parts.round() == parts => format!("1/{parts}"),
+        _ => format!("{value}"),
+    }
+}
+
+fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 /// Three digits, in the shortest form.

@@ -65,6 +65,19 @@ impl Mesh {
         Some(Self { corners, normals, faces, tree, inside, reach })
     }
 
+    /// Of the slenderest face: its longest side over its height there.
+    pub fn slenderness(&self) -> f64 {
+        let slenderness = |face: &Face| {
+            let [a, b, c] = self.corners_of(face);
+            let sides = [b - a, c - b, a - c];
+            let longest = sides.map(Vector::length).into_iter().fold(0.0, f64::max);
+            // Near 1, so that nothing underflows.
+            let [e, f, _] = sides.map(|side| side / longest);
+            1.0 / e.cross(f).length()
+        };
+        self.faces.iter().map(slenderness).fold(0.0, f64::max)
+    }
+
     fn corners_of(&self, face: &Face) -> [Vector; 3] {
         face.corners.map(|i| self.corners[i as usize])
     }

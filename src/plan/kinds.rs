@@ -1,0 +1,84 @@
+//! Which kinds of shapes a World has, and what it costs to meet one.
+//!
+//! **In:** [`World`], its [`Origins`]. **Out:** each kind once, as the language calls it, in a fixed order.
+//! **Invariant:** a kind that is not there has no line.
+
+use std::collections::BTreeMap;
+
+use crate::shape::{Body, Shape};
+use crate::source::Site;
+use crate::world::{Object, Origins, World};
+
+/// A kind of shape, or an operation on shapes, that the World has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kind {
+    /// `sphere`, `difference`.
+    pub word: &'static str,
+    /// How many of them there are to be met; of operations, how many are written.
+    pub count: usize,
+    /// In text order, each place once.
+    pub by: Vec<Site>,
+    /// What it takes to hold one against a ray.
+    pub cost: &'static str,
+}
+
+/// The word for an object's shape, and what a ray costs there.
+pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'static str) {
+    match shape {
+        Shape::Sphere(_) => ("sphere", "a square root a ray"),
+        Shape::Plane(_) => ("plane", "a division a ray"),
+        Shape::Box(_) => ("box", "three pairs of planes a ray"),
+        Shape::Ellipsoid(_) => ("stretched sphere", "a map and a square root a ray"),
+        Shape::Placed(at) => {
+            let body = &*world.placed[at as usize].body;
+            let cost = match body {
+                Body::Cylinder(_) | Body::Cone(_) => "a map and a square root a ray",
+                Body::Disc(_) => "a map and a division a ray",
+                Body::Torus(_) => "a map and up to four roots by steps a ray",
+                Body::Algebraic(_) => "a map and all roots by steps a ray",
+                Body::Mesh(_) => "a map and a tree of triangles a ray",
+            };
+            (body.word(), cost)
+        }
+    }
+}
+
+pub(super) fn kinds(world: &World, origins: &Origins) -> Vec<Kind> {
+    let mut found: BTreeMap<(u8, &'static str), Kind> = BTreeMap::new();
+    let mut note = |order: u8, word, cost, site: Option<Site>| {
+        let fresh = || Kind { word, count: 0, by: Vec::new(), cost };
+        let kind = found.entry((order, word)).or_insert_with(fresh);
+        kind.count += 1;
+        kind.by.extend(site);
+    };
+    for (i, object) in world.objects.iter().enumerate() {
+        let (word, cost) = word_and_cost(world, object.shape);
+        note(0, word, cost, origins.objects.get(i).copied());
+    }
+    for operation in &origins.operations {
+        note(1, operation.word, "the crossings of all its parts, in order", Some(operation.site));
+    }
+    let mut kinds: Vec<Kind> = found.into_values().collect();
+    for kind in &mut kinds {
+        kind.by.sort_by_key(|site| (site.span, site.expansion));
+        kind.by.dedup_by_key(|site| site.span);
+    }
+    kinds
+}
+
+/// Those of the objects that are met in double precision whatever is asked: the first of each kind.
+pub(super) fn without_single_kernel<'a>(
+    world: &'a World,
+    origins: &'a Origins,
+) -> Vec<(&'static str, Site)> {
+    let mut found: BTreeMap<&'static str, Site> = BTreeMap::new();
+    let objects = world.objects.iter().zip(&origins.objects);
+    for (object, &site) in objects.filter(|(object, _)| !Object::has_single_kernel(object)) {
+        let word = match object.whole {
+            Some(_) => "part of a whole",
+            None => word_and_cost(world, object.shape).0,
+        };
+        found.entry(word).or_insert(site);
+    }
+    found.into_iter().collect()
+}
