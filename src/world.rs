@@ -14,7 +14,7 @@ use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
 use crate::shape::csg::Node;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
-use crate::source::{Expansions, Site};
+use crate::source::{Expansions, Site, Span};
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct World {
@@ -133,6 +133,8 @@ pub struct Dropped {
     pub what: String,
     /// `its colour is black`.
     pub why: String,
+    /// Of what stands in a macro the calls that made it, each place once.
+    pub calls: Vec<Span>,
 }
 
 /// A map that costs more than half of the digits of what goes through it.

@@ -398,3 +398,63 @@ plane { y, -1e9 }",
     assert_eq!(place, "a.scene:3:1");
     assert!((far / 1e6 / 12_500f64.sqrt() - 1.0).abs() < 1e-12, "{far}");
 }
+
+#[test]
+fn half_widths_are_those_of_the_shape_and_what_has_none_is_named() {
+    let halves = |solid: &str| {
+        let seen = see_text(&format!("camera {{ location 9*z look_at 0 }} {solid}"));
+        assert_eq!(seen.errors, "", "{solid}");
+        let numerics = seen.plan.numerics;
+        let value = |found: Option<lucarne::plan::Measured>| found.map(|found| found.value);
+        let endless: Vec<&str> = numerics.endless.iter().map(|(word, _)| *word).collect();
+        (value(numerics.smallest).zip(value(numerics.largest)), endless)
+    };
+    for (solid, least, greatest) in [
+        ("cylinder { -2*y, 2*y, 0.6 }", 0.6, 2.0),
+        ("cone { 0, 1, 2*y, 0 }", 1.0, 1.0),
+        ("triangle { -x, x, y }", 0.5, 1.0),
+        ("torus { 3, 0.5 }", 0.5, 3.5),
+        ("disc { 0, y, 2 }", 2.0, 2.0),
+        ("cylinder { 0, 6*y, 1 scale <1, 2, 5> }", 1.0, 6.0),
+    ] {
+        let (found, endless) = halves(solid);
+        let (from, to) = found.expect(solid);
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        assert!(close(from, least) && close(to, greatest), "{solid}: {from} to {to}");
+        assert!(endless.is_empty(), "{solid}");
+    }
+    assert_eq!(halves("quadric { <1, 1, 1>, 0, 0, -1 }"), (None, vec!["polynomial"]));
+    assert_eq!(halves("plane { y, 0 }"), (None, vec!["plane"]));
+}
+
+#[test]
+fn what_is_thin_for_its_length_is_found_at_its_place() {
+    let thin = |solid: &str| {
+        let seen = see_text(&format!("{LIT}{solid}"));
+        assert_eq!(seen.errors, "", "{solid}");
+        let thin = seen.plan.numerics.thin.first().copied();
+        thin.map(|thin| (thin.what, thin.slenderness))
+    };
+    let (what, times) = thin("torus { 1e9, 1 }").expect("thin");
+    assert!(what == "torus" && (times / 1e9 - 1.0).abs() < 1e-6, "{what} {times}");
+    let needle = "mesh { triangle { 0, x, <0.5, 1e-13, 0> } triangle { 0, x, y } }";
+    let (what, times) = thin(needle).expect("thin");
+    assert!(what == "triangle of a mesh" && (times / 1e13 - 1.0).abs() < 0.01, "{what} {times}");
+    assert_eq!(thin("torus { 1, 1e-6 }"), None);
+    assert_eq!(thin("box { 0, <1, 1e-3, 1> }"), None);
+}
+
+#[test]
+fn each_kind_of_shape_has_a_line_and_what_is_not_there_has_none() {
+    let kinds = |text: &str| {
+        let kinds = see_text(text).plan.kinds;
+        kinds.iter().map(|kind| (kind.word, kind.count, kind.by.len())).collect::<Vec<_>>()
+    };
+    let many = "#for (I, 1, 3) sphere { I, 1 } #end union { box { 0, 1 } sphere { 0, 1 } }";
+    assert_eq!(kinds(many), [("box", 1, 1), ("sphere", 4, 2)]);
+    let cut = "difference { box { 0, 1 } merge { torus { 1, 0.1 } cylinder { 0, x, 1 } } }";
+    let parts = [("box", 1, 1), ("cylinder", 1, 1), ("torus", 1, 1)];
+    let made = [("difference", 1, 1), ("merge", 1, 1)];
+    assert_eq!(kinds(cut), [&parts[..], &made[..]].concat());
+    assert_eq!(kinds("light_source { 9, rgb 1 }"), []);
+}

@@ -87,25 +87,18 @@ fn written(plan: &Value) -> String {
     }
     out += if dropped.is_empty() { "" } else { "dropped\n" };
     for part in dropped {
-        out +=
-            &format!("  {}: {}{}\n", text(&part["what"]), text(&part["why"]), at(&part["place"]));
+        out += &format!("  {}: {}{}", text(&part["what"]), text(&part["why"]), at(&part["place"]));
+        out += &match list(&part["calls"]) {
+            [] => "\n".to_owned(),
+            [one] => format!(", in 1 call at {}\n", places(std::slice::from_ref(one))),
+            more => format!(", in {} calls at {}\n", more.len(), places(more)),
+        };
     }
     let shapes = list(&plan["shapes"]);
     out += if shapes.is_empty() { "" } else { "shapes\n" };
     for kind in shapes {
         out += &format!("  {}, {}: {}\n", text(&kind["shape"]), kind["count"], text(&kind["cost"]));
-        let places = list(&kind["places"]);
-        let first: Vec<String> = places
-            .iter()
-            .take(3)
-            .map(|place| at(place).trim_matches([' ', '(', ')']).to_owned())
-            .collect();
-        let more = if places.len() > 3 {
-            format!(" and {} more", places.len() - 3)
-        } else {
-            String::new()
-        };
-        out += &format!("    ({}{more})\n", first.join(", "));
+        out += &format!("    ({})\n", places(list(&kind["places"])));
     }
     out += "numerics\n";
     let numerics = &plan["numerics"];
@@ -164,6 +157,14 @@ fn and_more(list: &[Value], indent: &str) -> String {
     }
 }
 
+/// The first, and how many more.
+fn places(list: &[Value]) -> String {
+    let first = list.iter().take(3).map(|place| at(place).trim_matches([' ', '(', ')']).to_owned());
+    let first: Vec<String> = first.collect();
+    let more = list.len().saturating_sub(3);
+    first.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
+}
+
 fn measured(found: &Value) -> String {
     digits(&found["value"]) + &at(&found["place"])
 }
@@ -215,6 +216,9 @@ box { 0, 1 scale <1, 1, 1e-11> } box { 0, 1 scale <1, 1e-12, 1> translate 1e9*x 
 light_source {{ <4, 8, 6>, rgb 1 }} light_source {{ 5, rgb 0 }} light_source {{ y*9, rgb 1 shadowless }}
 sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 1;
 {flat}
+#macro Dark(P) light_source {{ P, rgb 0 }} #end Dark(1) Dark(2)
+torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, 1, 1>, 0, 0, -1 }}
+difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
 "
     );
     std::fs::write(&hard, text).expect("written");
@@ -230,6 +234,19 @@ sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 
         let said = plan(&words);
         let json: Value = serde_json::from_str(&plan(&format!("{words} --json"))).expect("JSON");
         assert_eq!(written(&json), said, "{words}");
+        if words.contains("hard") {
+            for part in [
+                "in 2 calls at ",
+                "  nearly degenerate: torus, 1e9 times as long as thick  (",
+                "  no half width: a polynomial has no end  (",
+                "  difference, 1: ",
+                "  single precision of every torus: it has no kernel for it  (",
+                "  single precision of every part of a whole: ",
+                "  single precision cannot resolve this range: ",
+            ] {
+                assert!(said.contains(part), "{part}\n{said}");
+            }
+        }
         assert!(json["precision"] == if words.contains("single") { "single" } else { "double" });
     }
 }

@@ -183,7 +183,7 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     let lit = "camera { location 9*z look_at 0 } light_source { 9, rgb 1 }";
     let alone = format!("{lit} {torus}");
     assert_eq!(names(&alone), ["antialias", "root-tolerance"]);
-    let cut = format!("{lit} intersection {{ {torus} sphere {{ 0, 1 }} }}");
+    let cut = format!("{lit} intersection {{ {torus} sphere {{ 0, 1 pigment {{ rgb 1 }} }} }}");
     assert_eq!(names(&cut), ["antialias", "root-tolerance"]);
     let ring = format!("{PLAIN} {torus}");
     assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);

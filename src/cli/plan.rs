@@ -3,7 +3,7 @@
 use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, Precision, plan, print};
 use lucarne::road::Road;
-use lucarne::source::{Position, Site, Sources};
+use lucarne::source::{Position, Site, Sources, Span};
 use serde::Serialize;
 
 use super::arguments::PlanArguments;
@@ -88,6 +88,8 @@ struct Part<'a> {
     what: &'a str,
     why: &'a str,
     place: Place<'a>,
+    /// Of what stands in a macro.
+    calls: Vec<Place<'a>>,
 }
 
 #[derive(Serialize)]
@@ -213,7 +215,12 @@ impl<'a> Report<'a> {
             dropped: plan
                 .dropped
                 .iter()
-                .map(|part| Part { what: &part.what, why: &part.why, place: place(part.site) })
+                .map(|part| Part {
+                    what: &part.what,
+                    why: &part.why,
+                    place: place(part.site),
+                    calls: part.calls.iter().map(|&span| Place::at(span, sources)).collect(),
+                })
                 .collect(),
             shapes: plan
                 .kinds
@@ -269,15 +276,13 @@ impl<'a> Report<'a> {
 
 impl<'a> Place<'a> {
     fn of(site: Site, sources: &'a Sources) -> Self {
-        let source = sources.get(site.span.file);
-        let Position { line, column } = source.position(site.span.start as usize);
-        Self {
-            file: &source.name,
-            line,
-            column,
-            start: site.span.start,
-            end: site.span.end,
-            text: sources.text(site.span),
-        }
+        Self::at(site.span, sources)
+    }
+
+    fn at(span: Span, sources: &'a Sources) -> Self {
+        let source = sources.get(span.file);
+        let Position { line, column } = source.position(span.start as usize);
+        let Span { start, end, .. } = span;
+        Self { file: &source.name, line, column, start, end, text: sources.text(span) }
     }
 }

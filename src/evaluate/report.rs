@@ -333,11 +333,20 @@ fn what_is_not_built(word: Word) -> String {
 
 /// The words of a word's family that can stand where it stands, and are built.
 fn built_beside(word: Word) -> Vec<String> {
+    let beside = |other: Word| match other {
+        // Built of lights, and not of interiors.
+        Word::FadeDistance | Word::FadePower => word.family() == Family::Light,
+        // What the parts of a light stand in, and no part.
+        Word::LightSource if word != Word::LightGroup => false,
+        Word::Difference | Word::Intersection | Word::Merge | Word::Union => {
+            matches!(word.family(), Family::Shape | Family::Csg)
+        }
+        _ => other.family() == word.family() && other.block() == word.block(),
+    };
     let fits = |other: &&Word| {
         other.is_built()
             && !other.is_inert()
-            && other.family() == word.family()
-            && other.block() == word.block()
+            && beside(**other)
             && std::mem::discriminant(&other.role()) == std::mem::discriminant(&word.role())
     };
     Word::ALL.iter().filter(fits).map(|word| format!("`{}`", word.name())).collect()

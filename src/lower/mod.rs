@@ -23,7 +23,7 @@ mod transform;
 mod unseen;
 mod view;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use crate::color::Color;
@@ -60,7 +60,7 @@ pub fn lower(
         reporter: Reporter { diagnostics, expansions: &scene.expansions },
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
-        dropped: HashSet::new(),
+        dropped: HashMap::new(),
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         building: None,
@@ -90,8 +90,9 @@ struct Lowering<'s, 'd> {
     reporter: Reporter<'s, 'd>,
     materials: texture::Materials,
     transforms: transform::Transforms<'s>,
-    /// What was left out so far: a place says it once, however often it is gone through.
-    dropped: HashSet<(&'static str, Span)>,
+    /// What was left out so far, and where that is noted: a place says it once, however often it is gone
+    /// through.
+    dropped: HashMap<(&'static str, String, Span), usize>,
     /// Of each object that has an interior, in order.
     fillings: Vec<interior::Filling>,
     /// Where solids stand that have no pigment and do not mirror.
@@ -106,10 +107,16 @@ struct Lowering<'s, 'd> {
 impl Lowering<'_, '_> {
     /// Notes that a part cannot change the picture, and so is not in the World.
     fn drop_part(&mut self, site: Site, what: &'static str, why: &str) {
-        if self.dropped.insert((what, site.span)) {
+        let next = self.origins.dropped.len();
+        let place = *self.dropped.entry((what, why.to_owned(), site.span)).or_insert(next);
+        if place == next {
             let (what, why) = (what.to_owned(), why.to_owned());
-            self.origins.dropped.push(Dropped { site, what, why });
+            self.origins.dropped.push(Dropped { site, what, why, calls: Vec::new() });
         }
+        // Of what stands in a macro each call says it once.
+        let call = self.scene.expansions.get(site.expansion).map(|expansion| expansion.call);
+        let part = &mut self.origins.dropped[place];
+        part.calls.extend(call.filter(|call| !part.calls.contains(call)));
     }
 
     /// The transforms that nearly flatten space; of those of one place the worst.
@@ -138,7 +145,7 @@ impl Lowering<'_, '_> {
         }
         for (name, site) in &scene.unused {
             let (what, why) = (format!("#declare {name}"), "nothing uses it".to_owned());
-            self.origins.dropped.push(Dropped { site: *site, what, why });
+            self.origins.dropped.push(Dropped { site: *site, what, why, calls: Vec::new() });
         }
     }
 

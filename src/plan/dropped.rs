@@ -11,7 +11,16 @@ use crate::world::{Dropped, Origins, World};
 /// What single lights and shapes lack, and what lowering dropped.
 pub(super) fn dropped(world: &World, origins: &Origins, precision: Precision) -> Vec<Dropped> {
     let mut dropped: Vec<Dropped> = shadowless(world, origins).collect();
-    dropped.dedup_by_key(|part| part.site.span);
+    // Of one in a macro each call says it once.
+    dropped.dedup_by(|later, first| {
+        let same = later.site.span == first.site.span;
+        if same {
+            let calls = later.calls.iter().filter(|call| !first.calls.contains(call));
+            let calls: Vec<_> = calls.copied().collect();
+            first.calls.extend(calls);
+        }
+        same
+    });
     if precision == Precision::Single {
         dropped.extend(without_single_precision(world, origins));
     }
@@ -25,6 +34,7 @@ fn shadowless(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped>
         site,
         what: "shadows and highlights of one light".to_owned(),
         why: "it is shadowless".to_owned(),
+        calls: origins.expansions.get(site.expansion).map(|of| of.call).into_iter().collect(),
     })
 }
 
@@ -34,5 +44,6 @@ fn without_single_precision(world: &World, origins: &Origins) -> impl Iterator<I
         site,
         what: format!("single precision of every {word}"),
         why: "it has no kernel for it".to_owned(),
+        calls: Vec::new(),
     })
 }

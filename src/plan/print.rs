@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan, Precision};
-use crate::source::{Site, Sources};
+use crate::source::{Site, Sources, Span};
 
 /// Places named for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
@@ -48,7 +48,16 @@ impl Printer<'_> {
         if !self.plan.dropped.is_empty() {
             writeln!(out, "dropped")?;
             for part in &self.plan.dropped {
-                writeln!(out, "  {}: {}{}", part.what, part.why, self.at(Some(part.site)))?;
+                write!(out, "  {}: {}{}", part.what, part.why, self.at(Some(part.site)))?;
+                if !part.calls.is_empty() {
+                    write!(
+                        out,
+                        ", in {} at {}",
+                        count(part.calls.len(), "call"),
+                        self.list(&part.calls)
+                    )?;
+                }
+                writeln!(out)?;
             }
         }
         self.kinds(out)?;
@@ -123,12 +132,9 @@ impl Printer<'_> {
         }
         for Kind { word, count, by, cost } in &self.plan.kinds {
             writeln!(out, "  {word}, {count}: {cost}")?;
-            let places = by.iter().take(PLACES_SHOWN).map(|site| self.sources.place(site.span));
-            let places = places.collect::<Vec<_>>().join(", ");
-            match by.len() {
-                0 => {}
-                1..=PLACES_SHOWN => writeln!(out, "    ({places})")?,
-                more => writeln!(out, "    ({places} and {} more)", more - PLACES_SHOWN)?,
+            let places: Vec<Span> = by.iter().map(|site| site.span).collect();
+            if !places.is_empty() {
+                writeln!(out, "    ({})", self.list(&places))?;
             }
         }
         Ok(())
@@ -195,6 +201,16 @@ impl Printer<'_> {
     fn counted(&self, rays: f64) -> String {
         let each = rays * self.plan.camera_rays_a_pixel();
         format!("{each:.2} a pixel, about {}", round(rays * self.plan.camera_rays()))
+    }
+
+    /// The first places, and how many more.
+    fn list(&self, places: &[Span]) -> String {
+        let first = places.iter().take(PLACES_SHOWN).map(|span| self.sources.place(*span));
+        let first = first.collect::<Vec<_>>().join(", ");
+        match places.len() {
+            0..=PLACES_SHOWN => first,
+            more => format!("{first} and {} more", more - PLACES_SHOWN),
+        }
     }
 
     fn at(&self, site: Option<Site>) -> String {

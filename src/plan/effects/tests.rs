@@ -214,6 +214,7 @@ fn single_lights_and_what_lowering_dropped_are_listed_with_their_places() {
         site: site(50),
         what: "light_source".to_owned(),
         why: "its colour is black".to_owned(),
+        calls: Vec::new(),
     });
     let plan = plan(&world, &origins, &OPTIONS);
     let sites: Vec<_> = plan.dropped.iter().map(|part| part.site).collect();

@@ -261,7 +261,8 @@ fn where_nothing_can_leave_all_comes_back() {
         .world(|world| world.background = Rgb::gray(0.25));
     assert_eq!(centre(&world), Rgb::gray(0.25), "whole, and not twice");
     let result = traced(&world, 1, 1, Antialias::Off);
-    assert_eq!((result.counters.reflection, result.counters.transmission), (1, 0));
+    let Counters { reflection, transmission, total_reflection, .. } = result.counters;
+    assert_eq!((reflection, transmission, total_reflection), (0, 0, 1));
 }
 
 #[test]
