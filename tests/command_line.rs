@@ -871,6 +871,28 @@ fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
 }
 
 #[test]
+fn accuracy_says_at_once_of_a_knob_that_does_nothing_why() {
+    let place = Place::new();
+    let words = "accuracy a.scene --size 640x480 --knobs depth,adc-bailout --svg d.svg";
+    let run = place.run(words).ends(0, &[]);
+    assert_eq!(
+        run.stdout(),
+        "depth does nothing here: no surface reflects or is clear.
+adc-bailout does nothing here: no surface reflects or is clear.
+"
+    );
+    assert_eq!(place.names(), ["a.scene", "broken.scene"], "nothing to draw");
+    let json = place.run(&format!("{words} --json")).ends(0, &[]).stdout();
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["does_nothing"].as_array().map(Vec::len), Some(2));
+    // Beside one that does something it stands below the table.
+    let words = "accuracy a.scene --size 24x18 --budget 4s --knobs depth,precision";
+    let table = place.run(words).ends(0, &[]).stdout();
+    assert!(table.contains("\nprecision\n") && !table.contains("\ndepth\n"), "{table}");
+    assert!(table.ends_with("\ndepth does nothing here: no surface reflects or is clear.\n"));
+}
+
+#[test]
 fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
     let place = Place::new();
     let words = "a.scene --size 64x48 --max-error 2% --seed 7 -o one.png";

@@ -52,7 +52,12 @@ fn main() -> ExitCode {
             .expect("it runs");
         let report: Value = serde_json::from_slice(&run.stdout).expect("a report");
         for row in report["rows"].as_array().expect("rows") {
-            let count = |(group, name): (&str, &str)| row[group][name].as_f64().expect("a count");
+            let counted = |group: &str, name: &str| row[group][name].as_f64().expect("a count");
+            // What is mirrored whole is mirrored.
+            let count = |(group, name): (&str, &str)| match name {
+                "reflection" => counted(group, name) + counted(group, "total_reflection"),
+                _ => counted(group, name),
+            };
             let seconds = row["cpu_s"].as_array().expect("runs").iter().filter_map(Value::as_f64);
             pictures.push(Picture {
                 scene: number,
