@@ -141,11 +141,14 @@ fn extent(world: &World, shape: Shape) -> Option<(Vector, f64, f64)> {
             let Placed { body, placement, .. } = &world.placed[at as usize];
             let extents = [Vector::X, Vector::Y, Vector::Z].map(|axis| body.extent(axis));
             let half = |(low, high): (f64, f64)| 0.5 * high - 0.5 * low;
+            // What is beyond its plane is the room for rounding that its extent has.
+            let is_flat = |axis: usize| axis == 2 && matches!(&**body, Body::Disc(_));
+            let half_along = |axis: usize| if is_flat(axis) { 0.0 } else { half(extents[axis]) };
             let middle = extents.map(|(low, high)| 0.5 * low + 0.5 * high);
             if !extents.into_iter().all(|extent| half(extent).is_finite()) {
                 return None;
             }
-            let [x, y, z] = [0, 1, 2].map(|i| placement.world_from_local.col(i) * half(extents[i]));
+            let [x, y, z] = [0, 1, 2].map(|i| placement.world_from_local.col(i) * half_along(i));
             let centre = placement.centre + placement.world_from_local * Vector::from_array(middle);
             // A flat one has two that count.
             let half_widths = singular_values(Matrix::from_cols(x, y, z));
