@@ -237,7 +237,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
         if words.contains("hard") {
             for part in [
                 "in 2 calls at ",
-                "  nearly degenerate: torus, 1e9 times as long as thick  (",
+                "  nearly degenerate: box, ",
                 "  no half width: a polynomial has no end  (",
                 "  difference, 1: ",
                 "  single precision of every torus: it has no kernel for it  (",

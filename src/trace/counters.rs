@@ -6,7 +6,8 @@
 
 use std::ops::AddAssign;
 
-use crate::geometry::Work;
+use crate::geometry::{Hit, Work};
+use crate::world::{Pigment, World};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counters {
@@ -66,6 +67,27 @@ pub struct Evaluations {
     pub hiding: u64,
     /// Pigments of the sky.
     pub sky: u64,
+}
+
+impl Evaluations {
+    /// What a ray evaluates that has found something, or leaves, whatever the lights are; `hidden` where it
+    /// did not look at all there is.
+    pub(super) fn count(&mut self, world: &World, found: Option<&Hit>, hidden: bool) {
+        self.hiding += u64::from(hidden);
+        let patterned = |pigment: &&Pigment| matches!(pigment, Pigment::Patterned { .. });
+        match found {
+            Some(hit) => {
+                let material = world.objects[hit.object as usize].material;
+                let pigment = &world.materials[material as usize].pigment;
+                self.patterns += u64::from(patterned(&pigment));
+            }
+            None => {
+                let pigments = || world.sky.iter().flat_map(|sky| &sky.pigments);
+                self.sky += pigments().count() as u64;
+                self.patterns += pigments().filter(patterned).count() as u64;
+            }
+        }
+    }
 }
 
 impl AddAssign for Evaluations {

@@ -11,7 +11,7 @@
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
-use super::{Evaluations, Walk, Watch, pigment, reflection, refraction, shade, sky};
+use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
 use crate::math::Vector;
@@ -139,7 +139,8 @@ impl<'a> Tracer<'a> {
             let mut seen = loop {
                 let found = met_by.nearest_counted(&way.ray, &mut walk.counters.work);
                 if COUNTS {
-                    self.count(met_by, found.as_ref(), &mut walk.counters.evaluations);
+                    let hidden = !std::ptr::eq(met_by, self.geometry);
+                    walk.counters.evaluations.count(self.world, found.as_ref(), hidden);
                 }
                 let Some(hit) = found else {
                     break sky::seen(self.world, &self.sharpness, way.ray.direction);
@@ -196,24 +197,6 @@ impl<'a> Tracer<'a> {
             met_by = self.met_by(&way);
             if self.bends {
                 walk.media.go_on(fork.media);
-            }
-        }
-    }
-
-    /// What a ray that was followed through `met_by` will evaluate whatever the lights are.
-    fn count(&self, met_by: &Geometry, found: Option<&Hit>, evaluations: &mut Evaluations) {
-        evaluations.hiding += u64::from(!std::ptr::eq(met_by, self.geometry));
-        let patterned = |pigment: &&Pigment| matches!(pigment, Pigment::Patterned { .. });
-        match found {
-            Some(hit) => {
-                let object = &self.world.objects[hit.object as usize];
-                let pigment = &self.world.materials[object.material as usize].pigment;
-                evaluations.patterns += u64::from(patterned(&pigment));
-            }
-            None => {
-                let pigments = || self.world.sky.iter().flat_map(|sky| &sky.pigments);
-                evaluations.sky += pigments().count() as u64;
-                evaluations.patterns += pigments().filter(patterned).count() as u64;
             }
         }
     }

@@ -37,6 +37,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ),
     ("evaluate/lint/angle.rs", "TYPED", "radians: what a typed angle may be off by, for a hint"),
     ("evaluate/lint/unit.rs", "TYPED_PI", "radians: what a typed π may be off by, for a hint"),
+    ("plan/numerics.rs", "SINGLE", "a length over a length, for the plan to tell"),
+    ("plan/numerics.rs", "THIN", "a length over a length, for the plan to tell"),
     ("color.rs", "f32::MAX", "of a colour: single precision holds no more"),
     ("film.rs", "let above", "all numbers in their order, halved"),
     ("film.rs", "from_bits(high)", "all numbers in their order, halved"),
