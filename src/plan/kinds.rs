@@ -35,7 +35,11 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Cylinder(_) | Body::Cone(_) => "a map and a square root a ray",
                 Body::Disc(_) => "a map and a division a ray",
                 Body::Torus(_) => "a map and up to four roots by steps a ray",
-                Body::Algebraic(_) => "a map and all roots by steps a ray",
+                Body::Algebraic(_)
+                | Body::Blob(_)
+                | Body::Ovus(_)
+                | Body::SphereSweep(_)
+                | Body::Superellipsoid(_) => "a map and all roots by steps a ray",
                 Body::Mesh(_) => "a map and a tree of triangles a ray",
             };
             (body.word(), cost)
