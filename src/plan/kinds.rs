@@ -40,6 +40,12 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 | Body::Ovus(_)
                 | Body::SphereSweep(_)
                 | Body::Superellipsoid(_) => "a map and all roots by steps a ray",
+                Body::Isosurface(_) => {
+                    "a map and bounds of its function, until each root stands alone, a ray"
+                }
+                Body::Parametric(_) => {
+                    "a map and bounds of its three functions a part a ray may meet"
+                }
                 Body::Mesh(_) => "a map and a tree of triangles a ray",
             };
             (body.word(), cost)
