@@ -7,6 +7,7 @@
 pub mod blob;
 pub mod light;
 pub mod mesh;
+pub mod outline;
 pub mod print;
 pub mod solid;
 pub mod sweep;

@@ -11,6 +11,7 @@ use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, shape, sweep};
+use super::{Fault, Lowering, NO_SIZE, body, outline, shape};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -227,6 +228,27 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
+    /// A body that is made once, however often it is used; of none, nothing is placed.
+    fn place_stored(
+        &mut self,
+        id: ObjectId,
+        make: impl FnOnce() -> Result<Option<(Body, Affine)>, Fault>,
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        let known = match self.bodies.get(&id) {
+            Some(known) => known.clone(),
+            None => {
+                let made = make()?.map(|(body, frame)| (Arc::new(body), frame));
+                self.bodies.entry(id).or_insert(made).clone()
+            }
+        };
+        match known {
+            Some((body, frame)) => self.place_body(body, &frame, here, site),
+            None => Ok(()),
+        }
+    }
+
     fn solid(
         &mut self,
         id: ObjectId,
@@ -281,6 +303,7 @@ impl<'s> Lowering<'s, '_> {
                     Some((body, frame)) => self.place_body(body, &frame, here, site),
                     None => Ok(()),
                 }
+                self.place_stored(id, || body::mesh(triangles), here, site)
             }
             Solid::Blob(ref written) => {
                 let made =
@@ -329,6 +352,16 @@ impl<'s> Lowering<'s, '_> {
                 self.solid(id, &ball, here, site)
             }
             Solid::Torus { major, minor } => self.place_made(body::torus(major, minor), here, site),
+            Solid::Lathe { spline, ref points } => {
+                self.place_stored(id, || outline::lathe(spline, points), here, site)
+            }
+            Solid::Prism { spline, conic, heights, ref points, open } => {
+                let make = || outline::prism(spline, conic, heights, points, open);
+                self.place_stored(id, make, here, site)
+            }
+            Solid::Sor { ref points, open } => {
+                self.place_stored(id, || outline::sor(points, open), here, site)
+            }
             Solid::Polynomial { degree, ref terms, .. } => {
                 self.place_made(body::polynomial(degree, terms)?, here, site)
             }

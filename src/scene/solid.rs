@@ -7,6 +7,7 @@ use super::blob::Blob;
 use super::mesh::Triangles;
 use super::sweep::Sweep;
 use crate::function::Closed;
+use super::outline::{Point, Spline};
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -87,6 +88,30 @@ pub enum Solid {
         /// Of the tube.
         minor: f64,
     },
+    /// A curve turned about the y axis.
+    Lathe {
+        spline: Spline,
+        /// Distance from the axis, and height. Stored once, however often it is used.
+        points: Arc<[Point]>,
+    },
+    /// An outline in the xz plane, drawn up along y.
+    Prism {
+        spline: Spline,
+        /// Its width is the outline's times y.
+        conic: bool,
+        heights: [f64; 2],
+        /// Of all closed curves, in a row. Stored once, however often it is used.
+        points: Arc<[Point]>,
+        /// Its ends are not seen.
+        open: bool,
+    },
+    /// A round bar whose width is a function of the height.
+    Sor {
+        /// Radius and height. Stored once, however often it is used.
+        points: Arc<[Point]>,
+        /// Its ends are not seen.
+        open: bool,
+    },
     /// Where a polynomial in x, y and z is 0 or less.
     Polynomial {
         /// The word it is written with.
@@ -148,6 +173,9 @@ impl Solid {
             Self::Isosurface { .. } => Word::Isosurface,
             Self::Parametric { .. } => Word::Parametric,
             Self::Torus { .. } => Word::Torus,
+            Self::Lathe { .. } => Word::Lathe,
+            Self::Prism { .. } => Word::Prism,
+            Self::Sor { .. } => Word::Sor,
             Self::Polynomial { form, .. } => *form,
             Self::Triangles { word, .. } => *word,
         }
@@ -156,6 +184,8 @@ impl Solid {
     /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
     /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a polynomial that is a
     /// number.
+    /// without length or width, a disc that is all hole, a ring of no thickness, a prism without height, a
+    /// curve that is a point, a polynomial that is a number.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::Sphere { radius, .. } => *radius == 0.0,
@@ -174,6 +204,11 @@ impl Solid {
                 a[0] == b[0] || a[1] == b[1] || container.is_sizeless()
             }
             Self::Torus { minor, .. } => *minor == 0.0,
+            Self::Lathe { points, .. } => points.iter().all(|point| *point == points[0]),
+            Self::Prism { heights: [low, high], points, .. } => {
+                low == high || points.iter().all(|point| *point == points[0])
+            }
+            Self::Sor { .. } => false,
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
             }
@@ -225,6 +260,20 @@ impl fmt::Display for Solid {
                 )
             }
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
+            Self::Lathe { spline, points } => {
+                write!(f, " {}", spline.word().name())?;
+                write_points(f, points)
+            }
+            Self::Prism { spline, conic, heights: [low, high], points, open: is_open } => {
+                let sweep = if *conic { " conic_sweep" } else { "" };
+                write!(f, " {}{sweep} {low} {high}", spline.word().name())?;
+                write_points(f, points)?;
+                write!(f, "{}", open(*is_open))
+            }
+            Self::Sor { points, open: is_open } => {
+                write_points(f, points)?;
+                write!(f, "{}", open(*is_open))
+            }
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;
                 terms.iter().try_for_each(|term| write!(f, " {term}"))
@@ -239,4 +288,8 @@ impl fmt::Display for Solid {
             }
         }
     }
+}
+
+fn write_points(f: &mut fmt::Formatter, points: &[Point]) -> fmt::Result {
+    points.iter().try_for_each(|[a, b]| write!(f, " <{a}, {b}>"))
 }

@@ -17,6 +17,10 @@ use super::ovus::Ovus;
 use super::parametric::Parametric;
 use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
+use super::lathe::Lathe;
+use super::mesh::Mesh;
+use super::prism::Prism;
+use super::sor::Sor;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -220,6 +224,7 @@ bodies! {
     Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
+    Lathe "lathe"
     Mesh "mesh"
     Disc "disc"
     Ovus "ovus"
@@ -227,6 +232,8 @@ bodies! {
     Superellipsoid "superellipsoid"
     Isosurface "isosurface"
     Parametric "parametric"
+    Prism "prism"
+    Sor "sor"
     Torus "torus"
 }
 

@@ -102,6 +102,11 @@ fn round(ray: &LocalRay) -> Option<(Met, Met)> {
 
 /// Where the line is between the ends.
 pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
+    between(ray, [-1.0, 1.0])
+}
+
+/// Where the line is between two heights, of a body that goes no farther than √2.
+pub(super) fn between(ray: &LocalRay, [low, high]: [f64; 2]) -> Option<(Met, Met)> {
     let (place, speed) = (ray.nearest.z, ray.direction.z);
     let met = |end: f64, leaving| {
         let t = (end - place) / speed;
@@ -112,14 +117,14 @@ pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
             return Met { t: t * f64::INFINITY, error: 0.0, leaving, part: CAP };
         }
         let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
-        let part = if end > 0.0 { CAP } else { BASE };
+        let part = if end == high { CAP } else { BASE };
         Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
     };
     if speed == 0.0 {
         let endless = |t, leaving| Met { t, error: 0.0, leaving, part: CAP };
-        return (place.abs() < 1.0)
+        return (low < place && place < high)
             .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
     }
-    let near = if speed > 0.0 { -1.0 } else { 1.0 };
-    Some((met(near, false), met(-near, true)))
+    let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };
+    Some((met(near, false), met(far, true)))
 }

@@ -47,7 +47,7 @@ vocabulary! {
         HeightField "height_field" statement later "a landscape from a picture or a function";
         Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: where a function of space is less than a number";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
-        Lathe "lathe" statement later "a curve turned about the y axis";
+        Lathe "lathe" statement built "`lathe { SPLINE count, points }`: a curve turned about the y axis";
         Mesh "mesh" statement built "many triangles as one object";
         Mesh2 "mesh2" statement built "many triangles as lists of vertices and faces";
         Ovus "ovus" statement built "`ovus { bottom radius, top radius }`: an egg of two balls along the y axis";
@@ -56,11 +56,11 @@ vocabulary! {
         Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
         Polygon "polygon" statement later "a flat figure of several corners";
         Polynomial "polynomial" statement built "`polynomial { order, xyz(i, j, k): number … }`: a polynomial surface by its terms";
-        Prism "prism" statement later "a flat outline drawn up along y";
+        Prism "prism" statement built "`prism { SPLINE SWEEP low, high, count, points }`: a flat outline drawn up along y";
         Quadric "quadric" statement built "`quadric { <A, B, C>, <D, E, F>, <G, H, I>, J }`: a polynomial surface of degree 2";
         Quartic "quartic" statement built "`quartic { <35 numbers> }`: a polynomial surface of degree 4";
         SmoothTriangle "smooth_triangle" statement built "a triangle with a normal at each corner";
-        Sor "sor" statement later "a solid of revolution";
+        Sor "sor" statement built "`sor { count, points }`: a round bar as wide as the points say";
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement built "`sphere_sweep { linear_spline count, <centre>, radius, … }`: a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
@@ -72,9 +72,9 @@ vocabulary! {
         Accuracy "accuracy" statement built "how exactly a surface or a normal is found";
         AllIntersections "all_intersections" statement inert "an isosurface counts all its crossings, as it does here anyway";
         BSpline "b_spline" statement built "a spline near its points";
-        BezierSpline "bezier_spline" statement later "a spline of Bézier segments";
+        BezierSpline "bezier_spline" statement built "a spline of Bézier segments";
         Component "component" statement built "the old word for a part of a blob";
-        ConicSweep "conic_sweep" statement later "a prism that narrows to a point";
+        ConicSweep "conic_sweep" statement built "a prism that narrows to a point";
         ContainedBy "contained_by" statement built "the sphere or box that holds a function's surface";
         Cube "cube" statement later "the third power, in a julia_fractal";
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
@@ -85,7 +85,7 @@ vocabulary! {
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
         InsideVector "inside_vector" statement built "gives a mesh an inside";
         LinearSpline "linear_spline" statement built "a spline of straight lines";
-        LinearSweep "linear_sweep" statement later "a prism with parallel sides";
+        LinearSweep "linear_sweep" statement built "a prism with parallel sides";
         MajorRadius "major_radius" statement later "measures a torus-shaped pattern or warp";
         MaxGradient "max_gradient" statement inert "the steepest slope of an isosurface's function; it is known here";
         MaxIteration "max_iteration" statement later "the most turns of a fractal's formula";

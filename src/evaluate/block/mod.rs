@@ -16,6 +16,7 @@ mod light;
 mod mesh;
 mod modifier;
 mod object;
+mod outline;
 mod part;
 mod pattern;
 mod pieces;

@@ -1,0 +1,201 @@
+//! Solids made of a curve in a plane: `prism`, `lathe`, `sor`.
+//!
+//! **Invariant:** there are as many points as the curve needs; the curves of a prism are closed, the heights
+//! of a `sor` rise.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::Solid;
+use crate::scene::outline::{Point, Spline, sameness};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome};
+use super::part::Given;
+
+/// Points, and where each is written.
+type Points = Vec<Given<Point>>;
+
+fn values(points: &Points) -> Vec<Point> {
+    points.iter().map(|point| point.value).collect()
+}
+
+impl Evaluator<'_> {
+    /// `lathe { SPLINE count, <radius, height> … }`.
+    pub(super) fn lathe(&mut self, token: &Token) -> Outcome<Solid> {
+        let (spline, _) = self.spline_and_sweep(false);
+        let points = self.points(token, Word::Lathe, spline)?;
+        let last = &points[points.len() - 1];
+        let solid = Solid::Lathe { spline, points: values(&points).into() };
+        if solid.is_sizeless() {
+            let message = "a lathe whose points are all in one place is nothing";
+            let diagnostic =
+                Diagnostic::new(self.sizeless(), message).at(last.span, "expected another place");
+            self.nothing(token, &last.here, diagnostic)?;
+        }
+        Ok(solid)
+    }
+
+    /// `prism { SPLINE SWEEP low, high, count, <x, z> … open }`.
+    pub(super) fn prism(&mut self, token: &Token) -> Outcome<Solid> {
+        let (spline, conic) = self.spline_and_sweep(true);
+        let low = self.number_after(token, "a number for the height it begins at");
+        let high = self.number_after(token, "a number for the height it ends at");
+        let (low, high) = (low?, high?);
+        if low.value == high.value {
+            let message = "a prism that ends at the height it begins at is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(high.span, "expected another height")
+                .also(low.span, "it begins here");
+            self.nothing(token, &high.here, diagnostic)?;
+        }
+        let points = self.points(token, Word::Prism, spline)?;
+        if let Err(never_ends) = spline.contours(&values(&points)) {
+            let (first, last) = (&points[never_ends], &points[points.len() - 1]);
+            let [x, z] = first.value;
+            let (_, behind) = spline.controls();
+            let then = if behind > 0 { ", then the point that tells its slope there" } else { "" };
+            let diagnostic =
+                Diagnostic::new(Code::MissingPart, "a curve of this prism is not closed")
+                    .at(last.span, format!("expected <{x}, {z}> again before the points end"))
+                    .also(first.span, "the curve begins here")
+                    .help(format!("a curve ends with the point it began with{then}"));
+            return Err(self.report(&last.here, diagnostic));
+        }
+        if spline == Spline::Bezier {
+            self.pieces_meet(&points)?;
+        }
+        let open = self.take_word(Word::Open).is_some();
+        let points: Vec<Point> = values(&points);
+        let solid = Solid::Prism {
+            spline,
+            conic,
+            heights: [low.value, high.value],
+            points: points.into(),
+            open,
+        };
+        Ok(solid)
+    }
+
+    /// The pieces of a closed curve meet end to end.
+    fn pieces_meet(&mut self, points: &Points) -> Outcome<()> {
+        let all = values(points);
+        let same = sameness(&all);
+        let contours = Spline::Bezier.contours(&all).unwrap_or_default();
+        for joint in contours.iter().flat_map(|run| (run.start + 4..run.end).step_by(4)) {
+            if !same(all[joint - 1], all[joint]) {
+                let message = "two pieces of this prism's curve do not meet";
+                let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                    .at(points[joint].span, "a piece begins here")
+                    .also(points[joint - 1].span, "the one before ends here")
+                    .help(
+                        "of a closed curve of Bézier pieces, each begins where the one before ends",
+                    );
+                return Err(self.report(&points[joint].here, diagnostic));
+            }
+        }
+        Ok(())
+    }
+
+    /// `sor { count, <radius, height> … open }`.
+    pub(super) fn sor(&mut self, token: &Token) -> Outcome<Solid> {
+        // Of its points, too, the first and the last tell slopes.
+        let points = self.points(token, Word::Sor, Spline::Cubic)?;
+        for pair in points[1..points.len() - 1].windows(2) {
+            let [below, above] = pair else { continue };
+            if above.value[1] <= below.value[1] {
+                let message = "the heights of a sor must rise from point to point";
+                let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                    .at(above.span, format!("expected a height above {}", below.value[1]))
+                    .also(below.span, "the point before it")
+                    .help("a lathe may go up and down");
+                return Err(self.report(&above.here, diagnostic));
+            }
+        }
+        for three in points.windows(3) {
+            let [before, here, behind] = three else { continue };
+            if before.value[1] == behind.value[1] {
+                let message = "the points to both sides of this one have the same height";
+                let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                    .at(here.span, "its slope cannot be told")
+                    .also(before.span, "the point before it")
+                    .also(behind.span, "the point behind it");
+                return Err(self.report(&here.here, diagnostic));
+            }
+        }
+        let negative = points.iter().find(|point| point.value[0] < 0.0);
+        if let Some(point) = negative {
+            let message = "a radius of this sor is negative";
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(point.span, "expected a radius of 0 or more");
+            return Err(self.report(&point.here, diagnostic));
+        }
+        let open = self.take_word(Word::Open).is_some();
+        let points: Vec<Point> = values(&points);
+        Ok(Solid::Sor { points: points.into(), open })
+    }
+
+    /// The words that may stand before all numbers, in any order; of several the last counts.
+    fn spline_and_sweep(&mut self, sweeps: bool) -> (Spline, bool) {
+        let (mut spline, mut conic) = (Spline::Linear, false);
+        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() {
+            match (*word, Spline::of(*word)) {
+                (_, Some(named)) => spline = named,
+                (Word::LinearSweep, None) if sweeps => conic = false,
+                (Word::ConicSweep, None) if sweeps => conic = true,
+                _ => break,
+            }
+            self.next();
+        }
+        (spline, conic)
+    }
+
+    /// How many points there are, and the points.
+    fn points(&mut self, token: &Token, word: Word, spline: Spline) -> Outcome<Points> {
+        let count = self.number_after(token, "a number for how many points follow")?;
+        let least = match spline {
+            // Lines around something.
+            Spline::Linear if word == Word::Prism => 3,
+            Spline::Linear => 2,
+            Spline::Quadratic if word == Word::Prism => 5,
+            Spline::Quadratic => 3,
+            Spline::Cubic if word == Word::Prism => 6,
+            Spline::Cubic | Spline::Bezier => 4,
+        };
+        let wanted = count.value as u32 as usize;
+        let name = if word == Word::Sor { "" } else { spline.word().name() };
+        let needs = match () {
+            () if spline == Spline::Bezier && !wanted.is_multiple_of(4) => {
+                "4 points for each piece"
+            }
+            () if wanted < least && word == Word::Sor => "at least 4 points",
+            () if wanted < least => &format!("at least {least} points"),
+            () => "",
+        };
+        if !needs.is_empty() {
+            let of = if name.is_empty() { String::new() } else { format!(" of `{name}`") };
+            let message = format!("a {}{of} needs {needs}", word.name());
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(count.span, format!("this is {}", count.value));
+            return Err(self.report(&count.here, diagnostic));
+        }
+        let mut points: Points = Vec::new();
+        while points.len() < wanted {
+            if !self.has_memory(size_of_val(&points[..]) as u64) {
+                return Err(self.too_much_memory(&token.here, token.span));
+            }
+            let given = self.given(token, &format!("{wanted} points"))?;
+            let point = match &given.value {
+                Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
+                    [numbers.as_slice()[0], numbers.as_slice()[1]]
+                }
+                other => {
+                    let wanted = "a point of two numbers";
+                    return Err(self.wrong_type(&given.here, given.span, wanted, other));
+                }
+            };
+            points.push(given.with(point));
+        }
+        Ok(points)
+    }
+}

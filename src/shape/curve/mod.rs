@@ -1,0 +1,304 @@
+//! Curves in a plane, made of polynomial pieces that meet end to end.
+//!
+//! **In:** pieces by their Bézier points. **Out:** runs of pieces that are monotone along both axes, closed
+//! or between two ends. **Invariant:** neighbours share their joint to the last bit.
+
+mod walk;
+
+pub(super) use walk::{Change, Path, Side, walk};
+
+use smallvec::SmallVec;
+
+use super::U;
+
+/// A place in the plane.
+pub type Point = [f64; 2];
+
+/// A polynomial curve of degree 1 to 3 for u from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// As many more than the degree as one; the others repeat the last.
+    points: [Point; 4],
+    degree: usize,
+    /// Of what closes a curve, nothing is seen.
+    pub seen: bool,
+}
+
+fn mix(a: Point, b: Point, u: f64) -> Point {
+    [0, 1].map(|axis| (1.0 - u) * a[axis] + u * b[axis])
+}
+
+impl Piece {
+    pub fn line(from: Point, to: Point) -> Self {
+        Self { points: [from, to, to, to], degree: 1, seen: true }
+    }
+
+    pub fn unseen(self) -> Self {
+        Self { seen: false, ..self }
+    }
+
+    /// By two to four Bézier points; `None` of any other number.
+    pub fn bezier(points: &[Point]) -> Option<Self> {
+        let last = *points.last()?;
+        let degree = points.len().checked_sub(1).filter(|degree| (1..=3).contains(degree))?;
+        let mut all = [last; 4];
+        all[..=degree].copy_from_slice(points);
+        Some(Self { points: all, degree, seen: true })
+    }
+
+    pub fn points(&self) -> &[Point] {
+        &self.points[..=self.degree]
+    }
+
+    pub fn first(&self) -> Point {
+        self.points[0]
+    }
+
+    pub fn last(&self) -> Point {
+        self.points[self.degree]
+    }
+
+    pub fn is_straight(&self) -> bool {
+        self.degree == 1
+    }
+
+    /// It is only a point.
+    fn is_nothing(&self) -> bool {
+        self.points.iter().all(|point| *point == self.points[0])
+    }
+
+    /// The place at u, and how fast it moves there; at 0 and 1 the very ends.
+    pub fn at(&self, u: f64) -> (Point, Point) {
+        let mut points = self.points;
+        for left in (2..=self.degree).rev() {
+            for i in 0..left {
+                points[i] = mix(points[i], points[i + 1], u);
+            }
+        }
+        let speed = [0, 1].map(|axis| self.degree as f64 * (points[1][axis] - points[0][axis]));
+        (mix(points[0], points[1], u), speed)
+    }
+
+    /// The coefficients of 1, u, u² and u³ along an axis.
+    pub fn powers(&self, axis: usize) -> [f64; 4] {
+        let [a, b, c, d] = self.points.map(|point| point[axis]);
+        match self.degree {
+            1 => [a, b - a, 0.0, 0.0],
+            2 => [a, 2.0 * (b - a), (c - b) - (b - a), 0.0],
+            _ => [a, 3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b)],
+        }
+    }
+
+    /// The two parts before and after u.
+    fn split(&self, u: f64) -> [Self; 2] {
+        let (mut before, mut after) = (*self, *self);
+        let mut points = self.points;
+        let degree = self.degree;
+        for step in 0..degree {
+            before.points[step] = points[0];
+            after.points[degree - step] = points[degree - step];
+            for i in 0..degree - step {
+                points[i] = mix(points[i], points[i + 1], u);
+            }
+        }
+        before.points[degree..].fill(points[0]);
+        after.points[0] = points[0];
+        after.points[degree..].fill(self.last());
+        [before, after]
+    }
+
+    /// Where `a`·x + `b`·y turns within it.
+    pub fn turns(&self, [a, b]: Point) -> SmallVec<[f64; 8]> {
+        let mut found = SmallVec::new();
+        if self.is_straight() {
+            return found;
+        }
+        let (x, y) = (self.powers(0), self.powers(1));
+        let [c, h, q] = [1, 2, 3].map(|k| k as f64 * (a * x[k] + b * y[k]));
+        // q·u² + h·u + c, by the root that does not cancel.
+        let half = -0.5 * (h + (h * h - 4.0 * q * c).max(0.0).sqrt().copysign(h));
+        let roots = if h * h < 4.0 * q * c { [f64::NAN; 2] } else { [half / q, c / half] };
+        found.extend(roots.into_iter().filter(|u| *u > 0.0 && *u < 1.0));
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    /// Parts of it that turn along no axis.
+    fn monotone(self) -> SmallVec<[Self; 5]> {
+        let mut cuts = self.turns([1.0, 0.0]);
+        cuts.extend(self.turns([0.0, 1.0]));
+        cuts.sort_by(f64::total_cmp);
+        let (mut parts, mut rest, mut done) = (SmallVec::new(), self, 0.0);
+        for cut in cuts {
+            let [before, after] = rest.split((cut - done) / (1.0 - done));
+            (rest, done) = (after, cut);
+            parts.push(before);
+        }
+        parts.push(rest);
+        parts.retain(|part: &mut Self| !part.is_nothing());
+        parts
+    }
+
+    /// Its parts to the right of x = 0, and those to the left mirrored there; nothing of what lies on it.
+    pub fn off_axis(self) -> SmallVec<[Self; 5]> {
+        let mut parts: SmallVec<[Self; 5]> = SmallVec::new();
+        for part in self.monotone() {
+            let (first, last) = (part.first()[0], part.last()[0]);
+            if first * last < 0.0 {
+                let [mut before, mut after] = part.split(part.meets(0, 0.0));
+                before.points[before.degree..].iter_mut().for_each(|point| point[0] = 0.0);
+                after.points[0][0] = 0.0;
+                parts.extend([before, after]);
+            } else if part.points.iter().any(|[x, _]| *x != 0.0) {
+                parts.push(part);
+            }
+        }
+        for part in &mut parts {
+            if part.first()[0] + part.last()[0] < 0.0 {
+                part.points.iter_mut().for_each(|point| point[0] = -point[0]);
+            }
+        }
+        parts
+    }
+
+    /// The lowest and the highest coordinates of its Bézier points, which hold it between them.
+    pub fn hull(&self) -> [Point; 2] {
+        let least = |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+        let most =
+            |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        [[least(0), least(1)], [most(0), most(1)]]
+    }
+
+    /// The greatest of `a`·x + `b`·y.
+    pub fn greatest(&self, [a, b]: Point) -> f64 {
+        let value = |[x, y]: Point| a * x + b * y;
+        let ends = value(self.first()).max(value(self.last()));
+        self.turns([a, b]).into_iter().map(|u| value(self.at(u).0)).fold(ends, f64::max)
+    }
+
+    /// Where it comes nearest to a place that is next to it, and the unit normal there, to the left of the way
+    /// that u goes.
+    pub fn nearest(&self, place: Point) -> (Point, Point) {
+        let off = |u: f64| {
+            let (at, speed) = self.at(u);
+            let gap = [place[0] - at[0], place[1] - at[1]];
+            (gap[0] * gap[0] + gap[1] * gap[1], gap[0] * speed[0] + gap[1] * speed[1], speed)
+        };
+        let starts = (0..=8).map(|i| f64::from(i) / 8.0);
+        let mut u = starts.min_by(|a, b| off(*a).0.total_cmp(&off(*b).0)).unwrap_or(0.0);
+        for _ in 0..6 {
+            let (_, along, [x, y]) = off(u);
+            let next = u + along / (x * x + y * y);
+            u = if next.is_finite() { next.clamp(0.0, 1.0) } else { u };
+        }
+        let (at, speed) = self.at(u);
+        (at, self.normal(speed))
+    }
+
+    /// The unit normal where it moves so, to the left.
+    pub fn normal(&self, [x, y]: Point) -> Point {
+        let length = (x * x + y * y).sqrt();
+        if length > 0.0 {
+            return [-y / length, x / length];
+        }
+        // A cusp: it faces as the piece does as a whole.
+        let ([a, b], [c, d]) = (self.first(), self.last());
+        let length = ((c - a) * (c - a) + (d - b) * (d - b)).sqrt().max(f64::MIN_POSITIVE);
+        [(b - d) / length, (c - a) / length]
+    }
+
+    /// A distance that it keeps from a place, if not always the greatest.
+    fn clearance(&self, place: Point, depth: u32) -> f64 {
+        let [low, high] = self.hull();
+        let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
+        let away = (gap(0) * gap(0) + gap(1) * gap(1)).sqrt();
+        let size = (high[0] - low[0]).max(high[1] - low[1]);
+        if depth == 0 || away > size {
+            return away;
+        }
+        let [before, after] = self.split(0.5);
+        before.clearance(place, depth - 1).min(after.clearance(place, depth - 1))
+    }
+
+    /// Where a coordinate has a value that lies between those of its ends.
+    pub fn meets(&self, axis: usize, value: f64) -> f64 {
+        let rises = self.last()[axis] > self.first()[axis];
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut u = 0.5;
+        for _ in 0..64 {
+            let (at, speed) = self.at(u);
+            if (at[axis] < value) == rises {
+                low = u;
+            } else {
+                high = u;
+            }
+            let newton = u + (value - at[axis]) / speed[axis];
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - u).abs() <= U {
+                break;
+            }
+            u = next;
+        }
+        u
+    }
+}
+
+/// Pieces in a row, by the numbers of the first and of the one after the last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Run {
+    pub from: usize,
+    pub to: usize,
+    /// Its end is its start.
+    pub closed: bool,
+}
+
+/// Runs of monotone pieces.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Outline {
+    pub pieces: Vec<Piece>,
+    pub runs: Vec<Run>,
+}
+
+impl Outline {
+    /// Adds pieces that meet end to end.
+    pub fn add(&mut self, pieces: impl IntoIterator<Item = Piece>) {
+        let from = self.pieces.len();
+        self.pieces.extend(pieces.into_iter().flat_map(Piece::monotone));
+        let run = &self.pieces[from..];
+        if let (Some(first), Some(last)) = (run.first(), run.last()) {
+            let closed = first.first() == last.last();
+            self.runs.push(Run { from, to: self.pieces.len(), closed });
+        }
+    }
+
+    /// The greatest of `a`·x + `b`·y of what is seen; −∞ where nothing is.
+    pub fn greatest(&self, along: Point) -> f64 {
+        let seen = self.pieces.iter().filter(|piece| piece.seen);
+        seen.map(|piece| piece.greatest(along)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// How far from the origin it goes at most.
+    pub fn reach(&self) -> f64 {
+        let sizes = self.pieces.iter().flat_map(|piece| piece.points()).map(|[x, y]| x * x + y * y);
+        sizes.fold(0.0, f64::max).sqrt() * (1.0 + 4.0 * U)
+    }
+
+    /// Whether the way from a place along the x axis meets it an odd number of times.
+    pub fn contains(&self, [x, y]: Point) -> bool {
+        let crosses = |piece: &&Piece| {
+            let above = |[_, end]: Point| end > y;
+            if above(piece.first()) == above(piece.last()) {
+                return false;
+            }
+            let [low, high] = piece.hull();
+            low[0] > x || (high[0] > x && piece.at(piece.meets(1, y)).0[0] > x)
+        };
+        self.pieces.iter().filter(crosses).count() % 2 == 1
+    }
+
+    /// A distance that it keeps from a place, if not always the greatest.
+    pub fn clearance(&self, place: Point) -> f64 {
+        let all = self.pieces.iter().map(|piece| piece.clearance(place, 40));
+        all.fold(f64::INFINITY, f64::min)
+    }
+}

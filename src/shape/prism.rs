@@ -1,0 +1,344 @@
+//! Prism: all (x, y, z) with (x, y) inside of an outline, or (x/z, y/z) where it narrows to the origin, and
+//! z between two heights, in its own space. What the outline goes around an even number of times is outside.
+//!
+//! A wall is made of lines, one through each place of the outline; on which side of such a line the ray passes
+//! is a polynomial of the outline's own degree, so the ray meets the walls where the outline changes sides.
+
+use smallvec::SmallVec;
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
+use super::cylinder::{BASE, CAP, between};
+use crate::math::Vector;
+use crate::math::roots::bracket::Sample;
+
+/// The part of the first piece's outside; one more is that side seen from within, and so on.
+const WALLS: u32 = 3;
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prism {
+    /// Closed runs, no farther than 1 from the origin.
+    pub outline: Outline,
+    /// It narrows to the origin, and widens again beyond.
+    pub conic: bool,
+    /// From low to high, within −1 … 1.
+    pub heights: [f64; 2],
+    /// Its ends are not seen, though it is as solid as ever.
+    pub open: bool,
+}
+
+/// A crossing with a wall.
+#[derive(Clone, Copy)]
+struct Wall {
+    s: f64,
+    error: f64,
+    piece: usize,
+    point: Point,
+    /// The outline's speed there.
+    speed: Point,
+}
+
+impl Wall {
+    /// None that is met: one that ends a span at ±∞ or at the tip.
+    fn beyond(s: f64) -> Self {
+        Self { s, error: 0.0, piece: 0, point: [0.0; 2], speed: [0.0; 2] }
+    }
+}
+
+/// A line through space as the walls see it.
+struct Ruled<'a> {
+    ray: &'a LocalRay,
+    conic: bool,
+}
+
+impl Ruled<'_> {
+    /// The way of the wall's line through a place of the outline.
+    fn way(&self, [x, y]: Point) -> Vector {
+        if self.conic { Vector::new(x, y, 1.0) } else { Vector::Z }
+    }
+
+    /// The way from the ray's nearest point to the wall's line.
+    fn gap(&self, [x, y]: Point) -> Vector {
+        let n = self.ray.nearest;
+        if self.conic { -n } else { Vector::new(x - n.x, y - n.y, 0.0) }
+    }
+
+    /// With g the way of the wall's line and r the gap to it, the volume r·(d × g) has the sign of the side on
+    /// which the ray passes. **Error:** no line within the ray's blur meets the wall's line where the two are
+    /// farther apart than that: |r·(d × g)| > B·|d × g|, with B the blur where they are nearest, of which
+    /// |r × g|/|d × g| is the distance; a little more, as they are no parallels, as long as the ray is turned
+    /// by less than half of the angle between the two.
+    fn value(&self, point: Point) -> (f64, f64) {
+        let LocalRay { direction, blur, turn, .. } = *self.ray;
+        let (way, gap) = (self.way(point), self.gap(point));
+        let across = direction.cross(way);
+        let (sine, size) = (across.length(), gap.length() + 1.0);
+        let rounding = if self.conic { gap.length() * 2.0 } else { sine * size };
+        let error = 1.2 * (blur * sine + turn * gap.cross(way).length()) + 16.0 * U * rounding;
+        let is_told = turn * way.length() <= 0.5 * sine;
+        (gap.dot(across), if is_told { error } else { f64::INFINITY })
+    }
+
+    /// Where on the ray it is nearest to a wall's line.
+    fn place(&self, point: Point) -> f64 {
+        let way = self.way(point);
+        let across = self.ray.direction.cross(way);
+        self.gap(point).cross(way).dot(across) / across.length_squared()
+    }
+
+    /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
+    /// wall's line for no more than itself.
+    fn wall(&self, change: &Change) -> Wall {
+        let (point, speed) = change.path.at(change.v);
+        let s = self.place(point);
+        let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
+        let way = self.way(point);
+        let sine = self.ray.direction.cross(way).length() / way.length();
+        let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+        let error = 1.25 * reach + 1.5 * off / sine;
+        Wall { s, error, piece: change.path.piece(change.v), point, speed }
+    }
+}
+
+impl Side for Ruled<'_> {
+    fn sample(&self, piece: &Piece, u: f64) -> Sample {
+        let (point, speed) = piece.at(u);
+        let (value, error) = self.value(point);
+        let [a, b] = self.slope();
+        Sample { value, slope: a * speed[0] + b * speed[1], error }
+    }
+
+    fn of_all(&self, piece: &Piece) -> Option<bool> {
+        let told = |outside: bool| {
+            piece.points().iter().all(|point| {
+                let (value, error) = self.value(*point);
+                if outside { value > error } else { value < -error }
+            })
+        };
+        [true, false].into_iter().find(|outside| told(*outside))
+    }
+
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        piece.turns(self.slope())
+    }
+}
+
+impl Ruled<'_> {
+    /// How the value changes along the two axes.
+    fn slope(&self) -> Point {
+        let LocalRay { nearest, direction, .. } = *self.ray;
+        if self.conic {
+            let normal = direction.cross(nearest);
+            [normal.x, normal.y]
+        } else {
+            [direction.y, -direction.x]
+        }
+    }
+}
+
+/// A ray along the walls of a prism, as good as: the places of the outline to its left and to its right.
+struct Upright {
+    place: Point,
+    error: f64,
+}
+
+impl Side for Upright {
+    fn sample(&self, piece: &Piece, u: f64) -> Sample {
+        let (point, speed) = piece.at(u);
+        Sample { value: point[1] - self.place[1], slope: speed[1], error: self.error }
+    }
+
+    fn of_all(&self, piece: &Piece) -> Option<bool> {
+        let [low, high] = piece.hull();
+        match () {
+            () if low[1] - self.place[1] > self.error => Some(true),
+            () if self.place[1] - high[1] > self.error => Some(false),
+            () => None,
+        }
+    }
+
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        piece.turns([0.0, 1.0])
+    }
+}
+
+impl Prism {
+    /// How many sides of its outline there are is what its walls are counted by.
+    fn changes(&self, side: &impl Side, mut found: impl FnMut(&Change)) {
+        for run in &self.outline.runs {
+            walk(Path::whole(&self.outline, run, None), side, |change| found(&change));
+        }
+    }
+
+    /// Parts of the line between walls, in order.
+    fn spans(&self, ray: &LocalRay) -> Spans {
+        let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
+        if !self.conic && tilt <= 2.0 * ray.turn {
+            return self.upright(ray, tilt);
+        }
+        let apex_off = ray.blur_at(2.0) + 32.0 * U;
+        if self.conic && ray.nearest.length() <= 16.0 * apex_off {
+            return self.through_apex(ray, apex_off);
+        }
+        let ruled = Ruled { ray, conic: self.conic };
+        let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
+        self.changes(&ruled, |change| walls.push(ruled.wall(change)));
+        walls.sort_by(|a, b| a.s.total_cmp(&b.s));
+        let mut spans = Spans::new();
+        if !self.conic {
+            self.pair(ray, &walls, &mut spans);
+            return spans;
+        }
+        // The body is in two parts, one to each side of the origin's plane; in it nothing is.
+        let speed = ray.direction.z;
+        let (above, below): (SmallVec<[Wall; 6]>, SmallVec<[Wall; 6]>) =
+            walls.into_iter().partition(|wall| ray.at(wall.s).dot(ruled.way(wall.point)) > 0.0);
+        let mut parts = [(above, speed >= 0.0), (below, speed < 0.0)];
+        if speed >= 0.0 {
+            parts.reverse();
+        }
+        for (mut walls, begins_outside) in parts {
+            if walls.len() % 2 == 1 {
+                let far = if begins_outside { f64::INFINITY } else { f64::NEG_INFINITY };
+                let at = if begins_outside { walls.len() } else { 0 };
+                walls.insert(at, Wall::beyond(far));
+            }
+            self.pair(ray, &walls, &mut spans);
+        }
+        spans
+    }
+
+    /// Walls are entered and left in turn.
+    fn pair(&self, ray: &LocalRay, walls: &[Wall], spans: &mut Spans) {
+        for pair in walls.chunks_exact(2) {
+            spans.push((self.met(ray, &pair[0], false), self.met(ray, &pair[1], true)));
+        }
+    }
+
+    fn met(&self, ray: &LocalRay, wall: &Wall, leaving: bool) -> Met {
+        let Wall { s, error, piece, point, speed } = *wall;
+        let normal = self.normal(point, self.outline.pieces[piece].normal(speed));
+        let outward = normal.dot(ray.direction) > 0.0;
+        let part = WALLS + 2 * piece as u32 + u32::from(outward != leaving);
+        Met { t: s, error, leaving, part }
+    }
+
+    /// The normal of a wall, by that of its outline.
+    fn normal(&self, [x, y]: Point, [a, b]: Point) -> Vector {
+        Vector::new(a, b, if self.conic { -(a * x + b * y) } else { 0.0 })
+    }
+
+    /// Of a line that is as good as upright, which walls are at its left and which at its right.
+    fn upright(&self, ray: &LocalRay, tilt: f64) -> Spans {
+        let place = [ray.nearest.x, ray.nearest.y];
+        let side = Upright { place, error: ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U };
+        let mut left = 0;
+        self.changes(&side, |change| left += usize::from(change.point()[0] < place[0]));
+        let mut spans = Spans::new();
+        if left % 2 == 1 {
+            self.pair(
+                ray,
+                &[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)],
+                &mut spans,
+            );
+        }
+        spans
+    }
+
+    /// Of a line through the origin, as good as: it comes from inside and goes on inside, or never is.
+    ///
+    /// **Error:** at the height z it is `off`/z from its place in the outline, which is less than that is
+    /// clear of the outline.
+    fn through_apex(&self, ray: &LocalRay, off: f64) -> Spans {
+        let (n, d) = (ray.nearest, ray.direction);
+        let mut spans = Spans::new();
+        let place = [d.x / d.z, d.y / d.z];
+        // No outline goes farther than 1.
+        let near = place[0].abs().max(place[1].abs()) <= 2.0;
+        if !(near && self.outline.contains(place)) {
+            return spans;
+        }
+        let height = 3.0 * (n.length() + off) / self.outline.clearance(place);
+        let apex = Wall { error: height / d.z.abs(), ..Wall::beyond(-n.z / d.z) };
+        if apex.error.is_finite() {
+            self.pair(ray, &[Wall::beyond(f64::NEG_INFINITY), apex], &mut spans);
+            self.pair(ray, &[apex, Wall::beyond(f64::INFINITY)], &mut spans);
+        }
+        spans
+    }
+}
+
+type Spans = SmallVec<[(Met, Met); 3]>;
+
+impl Local for Prism {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some((first, last)) = between(ray, self.heights) else { return };
+        let seen = |met: Met| match met.part {
+            CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
+            _ => met,
+        };
+        for (enter, leave) in self.spans(ray) {
+            let (enter, leave) = (enter.later(first), leave.earlier(last));
+            // What rounding cannot tell from a miss is missed.
+            if enter.t + enter.error < leave.t - leave.error {
+                found.extend([seen(enter), seen(leave)]);
+            }
+        }
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        let [low, high] = self.heights;
+        match part {
+            CAP => Height { value: point.z - high, gradient: Vector::Z, error: U },
+            BASE => Height { value: low - point.z, gradient: -Vector::Z, error: U },
+            _ => {
+                let number = part.saturating_sub(WALLS);
+                let piece = &self.outline.pieces[number as usize / 2];
+                let side = if number % 2 == 1 { -1.0 } else { 1.0 };
+                let scale = if self.conic { point.z } else { 1.0 };
+                let place = [point.x / scale, point.y / scale];
+                let (at, normal) = piece.nearest(place);
+                let off = normal[0] * (place[0] - at[0]) + normal[1] * (place[1] - at[1]);
+                Height {
+                    value: side * scale * off,
+                    gradient: self.normal(at, normal) * side,
+                    error: 16.0 * U,
+                }
+            }
+        }
+    }
+
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let greatest = |along: Vector| {
+            let at = |height: f64| {
+                let scale = if self.conic { height } else { 1.0 };
+                self.outline.greatest([scale * along.x, scale * along.y]) + height * along.z
+            };
+            at(self.heights[0]).max(at(self.heights[1]))
+        };
+        (-greatest(-along), greatest(along))
+    }
+
+    fn reach(&self) -> f64 {
+        let height = self.heights[0].abs().max(self.heights[1].abs());
+        let width = self.outline.reach() * if self.conic { height } else { 1.0 };
+        (width * width + height * height).sqrt() * (1.0 + 4.0 * U)
+    }
+
+    fn numbers(&self) -> String {
+        let [low, high] = self.heights;
+        let conic = if self.conic { " conic" } else { "" };
+        let open = if self.open { " open" } else { "" };
+        format!(" of {} from {low} to {high}{conic}{open}", self.outline.pieces.len())
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        let scale = if self.conic { point.z } else { 1.0 };
+        let [low, high] = self.heights;
+        low < point.z
+            && point.z < high
+            && scale != 0.0
+            && self.outline.contains([point.x / scale, point.y / scale])
+    }
+}

@@ -1,0 +1,239 @@
+//! Sor, a solid of revolution: ρ² ≤ F(z) for z between two heights, in its own space, with ρ the distance from
+//! the z axis and F a cubic between each two neighbouring heights.
+//!
+//! **Source:** manual, section 3.4.5.1.15 ("Surface of Revolution").
+
+use smallvec::SmallVec;
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::cylinder::{BASE, CAP, SIDE, between};
+use crate::math::Vector;
+use crate::math::roots::bracket::{Root, Sample, root};
+
+/// The line is followed so far to each side; the body ends at √2.
+const FAR: f64 = 2.0;
+
+/// F between two heights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    pub low: f64,
+    pub high: f64,
+    /// Its Bézier points.
+    pub squares: [f64; 4],
+}
+
+/// F at one place.
+struct Square {
+    value: f64,
+    slope: f64,
+    /// How far rounding may have moved the value.
+    error: f64,
+}
+
+impl Segment {
+    fn at(&self, z: f64) -> Square {
+        let size = self.high - self.low;
+        let t = ((z - self.low) / size).clamp(0.0, 1.0);
+        let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        let [a, b, c, d] = self.squares;
+        let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
+        let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
+        let error = 12.0 * U * self.squares.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        Square { value: mix(abc, bcd), slope: 3.0 * (bcd - abc) / size, error }
+    }
+
+    /// A bound of |F″|.
+    fn bend(&self) -> f64 {
+        let [a, b, c, d] = self.squares;
+        let size = self.high - self.low;
+        6.0 * ((c - b) - (b - a)).abs().max(((d - c) - (c - b)).abs()) / (size * size)
+    }
+
+    /// A bound of F over one of so many equal parts.
+    fn greatest(&self, part: usize, parts: usize) -> f64 {
+        let end = |i: usize| self.low + (self.high - self.low) * (i as f64 / parts as f64);
+        let (low, high) = (self.at(end(part)), self.at(end(part + 1)));
+        let step = (self.high - self.low) / parts as f64;
+        low.value.max(high.value) + self.bend() * step * step / 8.0
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sor {
+    /// Rising, end to end.
+    segments: Vec<Segment>,
+    /// Its ends are not seen, though it is as solid as ever.
+    open: bool,
+    /// A bound of |F″|.
+    bend: f64,
+}
+
+impl Sor {
+    /// Of segments that rise end to end within −1 … 1, F at most 1; `None` of none.
+    pub fn new(segments: Vec<Segment>, open: bool) -> Option<Self> {
+        let bend = segments.iter().map(Segment::bend).fold(0.0, f64::max);
+        (!segments.is_empty()).then_some(Self { segments, open, bend })
+    }
+
+    fn heights(&self) -> [f64; 2] {
+        [self.segments[0].low, self.segments[self.segments.len() - 1].high]
+    }
+
+    /// F at a height; beyond the ends what it is there.
+    fn square(&self, z: f64) -> Square {
+        let number = self.segments.partition_point(|segment| segment.high < z);
+        self.segments[number.min(self.segments.len() - 1)].at(z)
+    }
+
+    /// ρ² − F along the line. **Error:** with B how far the point may be off, B·(2ρ + |F′|) and what that changes
+    /// by within B.
+    fn sample(&self, ray: &LocalRay, s: f64) -> Sample {
+        let (point, d) = (ray.at(s), ray.direction);
+        let off = ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+        let Square { value, slope, error } = self.square(point.z);
+        let square = point.x * point.x + point.y * point.y;
+        let steepness = 2.0 * square.sqrt() + slope.abs();
+        let [low, high] = self.heights();
+        let inside = low < point.z && point.z < high;
+        Sample {
+            value: square - value,
+            slope: 2.0 * (point.x * d.x + point.y * d.y) - if inside { slope * d.z } else { 0.0 },
+            error: error + 4.0 * U * square + off * (steepness + off * (1.0 + self.bend)),
+        }
+    }
+
+    /// Where ρ² − F may turn along the line, and where a segment ends, in order.
+    fn turns(&self, ray: &LocalRay) -> SmallVec<[f64; 16]> {
+        let (n, d) = (ray.nearest, ray.direction);
+        let across = d.x * d.x + d.y * d.y;
+        let along = n.x * d.x + n.y * d.y;
+        let mut turns: SmallVec<[f64; 16]> = SmallVec::new();
+        turns.push(-along / across);
+        for Segment { low, high, squares: [a, b, c, e] } in &self.segments {
+            let size = high - low;
+            let start = low - n.z;
+            let place = |t: f64| (start + t * size) / d.z;
+            turns.extend([place(0.0), place(1.0)]);
+            // Half of the slope of ρ² − F by t, times dz².
+            let bend = d.z * d.z;
+            let constant = (across * start + along * d.z) * size - 1.5 * (b - a) * bend;
+            let linear = across * size * size - 3.0 * ((c - b) - (b - a)) * bend;
+            let quadratic = -1.5 * ((e - a) - 3.0 * (c - b)) * bend;
+            let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+            let half = -0.5 * (linear + root.copysign(linear));
+            let inside = [half / quadratic, constant / half];
+            turns.extend(inside.into_iter().filter(|t| *t > 0.0 && *t < 1.0).map(place));
+        }
+        turns.retain(|s| s.abs() < FAR);
+        turns.push(FAR);
+        turns.sort_by(f64::total_cmp);
+        turns
+    }
+
+    /// Where the line is in the round, its ends not counted.
+    fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
+        let mut found: SmallVec<[Met; 6]> = SmallVec::new();
+        let mut before: Option<(f64, bool)> = None;
+        let met = |t, error, leaving| Met { t, error, leaving, part: SIDE };
+        let mut advance = |s: f64| {
+            let sample = self.sample(ray, s);
+            if !(sample.is_inside() || sample.is_outside()) {
+                return;
+            }
+            let outside = sample.is_outside();
+            match before.replace((s, outside)) {
+                None if !outside => found.push(met(f64::NEG_INFINITY, 0.0, false)),
+                Some((from, was)) if was != outside => {
+                    let (far, deep) = if outside { (s, from) } else { (from, s) };
+                    let Root { t, error } = root(|s| self.sample(ray, s), far, deep, f64::NAN);
+                    found.push(met(t, error, outside));
+                }
+                _ => {}
+            }
+        };
+        let mut last = -FAR;
+        advance(last);
+        for turn in self.turns(ray) {
+            // Also between them, for where they tell nothing.
+            advance(0.5 * (last + turn));
+            advance(turn);
+            last = turn;
+        }
+        if found.len() % 2 == 1 {
+            found.push(met(f64::INFINITY, 0.0, true));
+        }
+        found
+    }
+}
+
+impl Local for Sor {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some((first, last)) = between(ray, self.heights()) else { return };
+        let seen = |met: Met| match met.part {
+            CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
+            _ => met,
+        };
+        for pair in self.round(ray).chunks_exact(2) {
+            let (enter, leave) = (pair[0].later(first), pair[1].earlier(last));
+            // What rounding cannot tell from a miss is missed.
+            if enter.t + enter.error < leave.t - leave.error {
+                found.extend([seen(enter), seen(leave)]);
+            }
+        }
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        let [low, high] = self.heights();
+        match part {
+            CAP => Height { value: point.z - high, gradient: Vector::Z, error: U },
+            BASE => Height { value: low - point.z, gradient: -Vector::Z, error: U },
+            _ => {
+                let Square { value, slope, error } = self.square(point.z);
+                let square = point.x * point.x + point.y * point.y;
+                let gradient = Vector::new(2.0 * point.x, 2.0 * point.y, -slope);
+                let error = error + 4.0 * U * square;
+                if gradient == Vector::ZERO {
+                    // At a tip it faces any way.
+                    return Height { value: 0.0, gradient: Vector::Z, error: error.sqrt() };
+                }
+                Height { value: square - value, gradient, error }
+            }
+        }
+    }
+
+    /// Of rings that hold it, a few for each segment.
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        const RINGS: usize = 32;
+        let across = Vector::new(along.x, along.y, 0.0).length();
+        let greatest = |z: f64| {
+            let ring = |segment: &Segment, part: usize| {
+                let size = segment.high - segment.low;
+                let end = |i: usize| z * (segment.low + size * (i as f64 / RINGS as f64));
+                let square = segment.greatest(part, RINGS).max(0.0);
+                across * square.sqrt() + end(part).max(end(part + 1))
+            };
+            let all = self.segments.iter().flat_map(|s| (0..RINGS).map(move |i| ring(s, i)));
+            all.fold(f64::NEG_INFINITY, f64::max)
+        };
+        (-greatest(-along.z), greatest(along.z))
+    }
+
+    fn reach(&self) -> f64 {
+        let squares = self.segments.iter().map(|segment| {
+            let height = segment.low.abs().max(segment.high.abs());
+            segment.squares.iter().fold(0.0, |most: f64, b| most.max(*b)) + height * height
+        });
+        squares.fold(0.0, f64::max).sqrt() * (1.0 + 4.0 * U)
+    }
+
+    fn numbers(&self) -> String {
+        format!(" of {}{}", self.segments.len(), if self.open { " open" } else { "" })
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        let [low, high] = self.heights();
+        let square = point.x * point.x + point.y * point.y;
+        low < point.z && point.z < high && square < self.square(point.z).value
+    }
+}
