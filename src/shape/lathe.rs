@@ -229,18 +229,18 @@ impl Side for Arm<'_> {
     }
 }
 
-/// A crossing, and the outline's speed there.
+/// A crossing.
 struct Wall {
     s: f64,
     error: f64,
     piece: usize,
-    speed: Point,
+    /// The line goes the way of the piece's normal.
+    along: bool,
 }
 
 impl Wall {
-    fn new(change: &Change, (s, error): (f64, f64)) -> Self {
-        let (_, speed) = change.path.at(change.v);
-        Self { s, error, piece: change.path.piece(change.v), speed }
+    fn new(change: &Change, along: bool, (s, error): (f64, f64)) -> Self {
+        Self { s, error, piece: change.path.piece(change.v), along }
     }
 }
 
@@ -282,20 +282,24 @@ impl Lathe {
         if line.speed.abs() >= STEEP {
             for run in &self.outline.runs {
                 let path = Path::whole(&self.outline, run, Some(true));
-                walk(path, &Steep(&line), |change| {
+                walk(path, &Steep(&line), ray.tolerance, |change| {
                     let height = |point: Point| (point[1] - line.start) / line.speed;
                     let s = height(change.point());
                     let reach = change.places().map(|p| (height(p) - s).abs()).fold(0.0, f64::max);
                     let error = 1.25 * reach + 1.5 * line.off / line.speed.abs();
-                    walls.push(Wall::new(&change, (s, error)));
+                    // The positive side is to the left of a line that goes up.
+                    let along = change.rising != (line.speed > 0.0);
+                    walls.push(Wall::new(&change, along, (s, error)));
                 });
             }
         } else {
             for arm in Arm::both(&line) {
                 for run in &self.outline.runs {
                     for path in arm.paths(&self.outline, run) {
-                        walk(path, &arm, |change| {
-                            walls.push(Wall::new(&change, arm.wall(&change)))
+                        walk(path, &arm, ray.tolerance, |change| {
+                            // What is above is to the left of a line that goes away from the axis.
+                            let along = change.rising != (arm.way > 0.0);
+                            walls.push(Wall::new(&change, along, arm.wall(&change)));
                         });
                     }
                 }
@@ -336,12 +340,8 @@ impl Local for Lathe {
         for (number, wall) in self.walls(ray).into_iter().enumerate() {
             let leaving = number % 2 == 1;
             let piece = &self.outline.pieces[wall.piece];
-            let [a, b] = piece.normal(wall.speed);
-            let point = ray.at(wall.s);
-            let outward = Vector::new(point.x, point.y, 0.0).normalize_or(Vector::ZERO) * a;
-            let faces = (outward + Vector::Z * b).dot(ray.direction) > 0.0;
             let part = match piece.seen {
-                true => 2 * wall.piece as u32 + u32::from(faces != leaving),
+                true => 2 * wall.piece as u32 + u32::from(wall.along != leaving),
                 false => Met::UNSEEN,
             };
             found.push(Met { t: wall.s, error: wall.error, leaving, part });
@@ -368,6 +368,10 @@ impl Local for Lathe {
         (-greatest(-along.z), greatest(along.z))
     }
 
+    fn is_iterated(&self) -> bool {
+        true
+    }
+
     fn reach(&self) -> f64 {
         self.outline.reach()
     }
@@ -379,5 +383,12 @@ impl Local for Lathe {
     fn contains(&self, point: Vector) -> bool {
         let across = Vector::new(point.x, point.y, 0.0).length();
         self.outline.contains([across, point.z])
+    }
+}
+
+#[cfg(test)]
+impl Lathe {
+    pub(super) fn outline(&self) -> &Outline {
+        &self.outline
     }
 }

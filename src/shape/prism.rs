@@ -34,15 +34,21 @@ struct Wall {
     s: f64,
     error: f64,
     piece: usize,
-    point: Point,
-    /// The outline's speed there.
-    speed: Point,
+    /// It is met where z is positive, if it narrows.
+    above: bool,
+    /// The line goes the way of the wall's normal.
+    along: bool,
 }
 
 impl Wall {
     /// None that is met: one that ends a span at ±∞ or at the tip.
     fn beyond(s: f64) -> Self {
-        Self { s, error: 0.0, piece: 0, point: [0.0; 2], speed: [0.0; 2] }
+        Self { s, error: 0.0, piece: 0, above: true, along: true }
+    }
+
+    fn met(&self, leaving: bool) -> Met {
+        let part = WALLS + 2 * self.piece as u32 + u32::from(self.along != leaving);
+        Met { t: self.s, error: self.error, leaving, part }
     }
 }
 
@@ -87,17 +93,32 @@ impl Ruled<'_> {
         self.gap(point).cross(way).dot(across) / across.length_squared()
     }
 
+    /// The wall's line is certainly not met before the body ends, at √2; for all that is known of a ray so
+    /// nearly along it, it might be met anywhere else beyond.
+    fn is_beyond(&self, point: Point) -> bool {
+        let (way, gap) = (self.way(point), self.gap(point));
+        let near = 2.0 * self.ray.direction.cross(way).length();
+        gap.cross(way).length() > near + (2.0 * self.ray.blur_at(2.0) + 32.0 * U) * way.length()
+    }
+
     /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
     /// wall's line for no more than itself.
     fn wall(&self, change: &Change) -> Wall {
-        let (point, speed) = change.path.at(change.v);
+        let point = change.point();
         let s = self.place(point);
+        let above = !self.conic || self.ray.at(s).dot(self.way(point)) > 0.0;
         let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
         let way = self.way(point);
         let sine = self.ray.direction.cross(way).length() / way.length();
-        let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
-        let error = 1.25 * reach + 1.5 * off / sine;
-        Wall { s, error, piece: change.path.piece(change.v), point, speed }
+        let (s, error) = if change.places().all(|point| self.is_beyond(point)) {
+            (s * f64::INFINITY, 0.0)
+        } else {
+            let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+            (s, 1.25 * reach + 1.5 * off / sine)
+        };
+        // On the other side of its tip a wall faces the other way.
+        let along = change.rising == above;
+        Wall { s, error, piece: change.path.piece(change.v), above, along }
     }
 }
 
@@ -164,10 +185,11 @@ impl Side for Upright {
 }
 
 impl Prism {
-    /// How many sides of its outline there are is what its walls are counted by.
-    fn changes(&self, side: &impl Side, mut found: impl FnMut(&Change)) {
+    /// Straight walls are met where a step takes one; others are iterated.
+    fn changes(&self, ray: &LocalRay, side: &impl Side, mut found: impl FnMut(&Change)) {
+        let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
         for run in &self.outline.runs {
-            walk(Path::whole(&self.outline, run, None), side, |change| found(&change));
+            walk(Path::whole(&self.outline, run, None), side, tolerance, |change| found(&change));
         }
     }
 
@@ -183,17 +205,17 @@ impl Prism {
         }
         let ruled = Ruled { ray, conic: self.conic };
         let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
-        self.changes(&ruled, |change| walls.push(ruled.wall(change)));
+        self.changes(ray, &ruled, |change| walls.push(ruled.wall(change)));
         walls.sort_by(|a, b| a.s.total_cmp(&b.s));
         let mut spans = Spans::new();
         if !self.conic {
-            self.pair(ray, &walls, &mut spans);
+            pair(&walls, &mut spans);
             return spans;
         }
         // The body is in two parts, one to each side of the origin's plane; in it nothing is.
         let speed = ray.direction.z;
         let (above, below): (SmallVec<[Wall; 6]>, SmallVec<[Wall; 6]>) =
-            walls.into_iter().partition(|wall| ray.at(wall.s).dot(ruled.way(wall.point)) > 0.0);
+            walls.into_iter().partition(|wall| wall.above);
         let mut parts = [(above, speed >= 0.0), (below, speed < 0.0)];
         if speed >= 0.0 {
             parts.reverse();
@@ -204,24 +226,9 @@ impl Prism {
                 let at = if begins_outside { walls.len() } else { 0 };
                 walls.insert(at, Wall::beyond(far));
             }
-            self.pair(ray, &walls, &mut spans);
+            pair(&walls, &mut spans);
         }
         spans
-    }
-
-    /// Walls are entered and left in turn.
-    fn pair(&self, ray: &LocalRay, walls: &[Wall], spans: &mut Spans) {
-        for pair in walls.chunks_exact(2) {
-            spans.push((self.met(ray, &pair[0], false), self.met(ray, &pair[1], true)));
-        }
-    }
-
-    fn met(&self, ray: &LocalRay, wall: &Wall, leaving: bool) -> Met {
-        let Wall { s, error, piece, point, speed } = *wall;
-        let normal = self.normal(point, self.outline.pieces[piece].normal(speed));
-        let outward = normal.dot(ray.direction) > 0.0;
-        let part = WALLS + 2 * piece as u32 + u32::from(outward != leaving);
-        Met { t: s, error, leaving, part }
     }
 
     /// The normal of a wall, by that of its outline.
@@ -233,15 +240,17 @@ impl Prism {
     fn upright(&self, ray: &LocalRay, tilt: f64) -> Spans {
         let place = [ray.nearest.x, ray.nearest.y];
         let side = Upright { place, error: ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U };
-        let mut left = 0;
-        self.changes(&side, |change| left += usize::from(change.point()[0] < place[0]));
+        let (mut left, mut is_told) = (0, true);
+        self.changes(ray, &side, |change| {
+            let is_left = |point: Point| point[0] < place[0];
+            let is_near = |point: Point| (point[0] - place[0]).abs() <= side.error;
+            let point = change.point();
+            left += usize::from(is_left(point));
+            is_told &= change.places().all(|p| !is_near(p) && is_left(p) == is_left(point));
+        });
         let mut spans = Spans::new();
-        if left % 2 == 1 {
-            self.pair(
-                ray,
-                &[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)],
-                &mut spans,
-            );
+        if is_told && left % 2 == 1 {
+            pair(&[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)], &mut spans);
         }
         spans
     }
@@ -262,14 +271,22 @@ impl Prism {
         let height = 3.0 * (n.length() + off) / self.outline.clearance(place);
         let apex = Wall { error: height / d.z.abs(), ..Wall::beyond(-n.z / d.z) };
         if apex.error.is_finite() {
-            self.pair(ray, &[Wall::beyond(f64::NEG_INFINITY), apex], &mut spans);
-            self.pair(ray, &[apex, Wall::beyond(f64::INFINITY)], &mut spans);
+            pair(&[Wall::beyond(f64::NEG_INFINITY), apex], &mut spans);
+            pair(&[apex, Wall::beyond(f64::INFINITY)], &mut spans);
         }
         spans
     }
 }
 
+/// Parts of a line.
 type Spans = SmallVec<[(Met, Met); 3]>;
+
+/// Walls are entered and left in turn.
+fn pair(walls: &[Wall], spans: &mut Spans) {
+    for pair in walls.chunks_exact(2) {
+        spans.push((pair[0].met(false), pair[1].met(true)));
+    }
+}
 
 impl Local for Prism {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
@@ -297,6 +314,11 @@ impl Local for Prism {
                 let piece = &self.outline.pieces[number as usize / 2];
                 let side = if number % 2 == 1 { -1.0 } else { 1.0 };
                 let scale = if self.conic { point.z } else { 1.0 };
+                if scale == 0.0 {
+                    // The tip faces any way.
+                    let error = point.length() + U;
+                    return Height { value: 0.0, gradient: Vector::Z, error };
+                }
                 let place = [point.x / scale, point.y / scale];
                 let (at, normal) = piece.nearest(place);
                 let off = normal[0] * (place[0] - at[0]) + normal[1] * (place[1] - at[1]);
@@ -318,6 +340,10 @@ impl Local for Prism {
             at(self.heights[0]).max(at(self.heights[1]))
         };
         (-greatest(-along), greatest(along))
+    }
+
+    fn is_iterated(&self) -> bool {
+        self.outline.pieces.iter().any(|piece| !piece.is_straight())
     }
 
     fn reach(&self) -> f64 {

@@ -143,10 +143,12 @@ impl Sor {
             }
             let outside = sample.is_outside();
             match before.replace((s, outside)) {
-                None if !outside => found.push(met(f64::NEG_INFINITY, 0.0, false)),
+                // What is not told before may all be outside.
+                None if !outside => found.push(met(-FAR, s + FAR, false)),
                 Some((from, was)) if was != outside => {
                     let (far, deep) = if outside { (s, from) } else { (from, s) };
-                    let Root { t, error } = root(|s| self.sample(ray, s), far, deep, f64::NAN);
+                    let Root { t, error } =
+                        root(|s| self.sample(ray, s), (far, deep), f64::NAN, ray.tolerance);
                     found.push(met(t, error, outside));
                 }
                 _ => {}
@@ -160,8 +162,8 @@ impl Sor {
             advance(turn);
             last = turn;
         }
-        if found.len() % 2 == 1 {
-            found.push(met(f64::INFINITY, 0.0, true));
+        if let Some((last, false)) = before {
+            found.push(met(FAR, FAR - last, true));
         }
         found
     }
@@ -175,7 +177,14 @@ impl Local for Sor {
             _ => met,
         };
         for pair in self.round(ray).chunks_exact(2) {
-            let (enter, leave) = (pair[0].later(first), pair[1].earlier(last));
+            let (mut enter, mut leave) = (pair[0].later(first), pair[1].earlier(last));
+            // At a rim, an end may be passed where the round is not told.
+            for (met, way) in [(&mut enter, 1.0), (&mut leave, -1.0)] {
+                let is_told = |met: &Met| self.sample(ray, met.t + way * met.error).is_inside();
+                while met.part != SIDE && met.error < FAR && !is_told(met) {
+                    met.error = 2.0 * met.error + f64::MIN_POSITIVE;
+                }
+            }
             // What rounding cannot tell from a miss is missed.
             if enter.t + enter.error < leave.t - leave.error {
                 found.extend([seen(enter), seen(leave)]);
@@ -219,6 +228,10 @@ impl Local for Sor {
         (-greatest(-along.z), greatest(along.z))
     }
 
+    fn is_iterated(&self) -> bool {
+        true
+    }
+
     fn reach(&self) -> f64 {
         let squares = self.segments.iter().map(|segment| {
             let height = segment.low.abs().max(segment.high.abs());
@@ -235,5 +248,16 @@ impl Local for Sor {
         let [low, high] = self.heights();
         let square = point.x * point.x + point.y * point.y;
         low < point.z && point.z < high && square < self.square(point.z).value
+    }
+}
+
+#[cfg(test)]
+impl Sor {
+    pub(super) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    pub(super) fn radius(&self, z: f64) -> f64 {
+        self.square(z).value.max(0.0).sqrt()
     }
 }

@@ -14,6 +14,7 @@ mod leave;
 mod mesh;
 mod ovus;
 mod parametric;
+mod outline;
 mod placed;
 mod superellipsoid;
 mod sweep;

@@ -184,13 +184,20 @@ impl Piece {
             let gap = [place[0] - at[0], place[1] - at[1]];
             (gap[0] * gap[0] + gap[1] * gap[1], gap[0] * speed[0] + gap[1] * speed[1], speed)
         };
-        let starts = (0..=8).map(|i| f64::from(i) / 8.0);
-        let mut u = starts.min_by(|a, b| off(*a).0.total_cmp(&off(*b).0)).unwrap_or(0.0);
-        for _ in 0..6 {
-            let (_, along, [x, y]) = off(u);
-            let next = u + along / (x * x + y * y);
-            u = if next.is_finite() { next.clamp(0.0, 1.0) } else { u };
-        }
+        let ends = [self.first(), self.last()];
+        // As far along as the place, by either axis; then across.
+        let from = |axis: usize| {
+            let [a, b] = ends.map(|end| end[axis]);
+            let mut u = self.meets(axis, place[axis].clamp(a.min(b), a.max(b)));
+            for _ in 0..4 {
+                let (_, along, [x, y]) = off(u);
+                let next = u + along / (x * x + y * y);
+                u = if next.is_finite() { next.clamp(0.0, 1.0) } else { u };
+            }
+            u
+        };
+        let starts = [0.0, from(0), from(1), 1.0];
+        let u = starts.into_iter().min_by(|a, b| off(*a).0.total_cmp(&off(*b).0)).unwrap_or(0.0);
         let (at, speed) = self.at(u);
         (at, self.normal(speed))
     }

@@ -92,6 +92,8 @@ pub struct Change<'a> {
     /// Between these, certainly.
     pub low: f64,
     pub high: f64,
+    /// From the negative side to the positive.
+    pub rising: bool,
 }
 
 impl Change<'_> {
@@ -120,8 +122,13 @@ struct Certain {
     outside: bool,
 }
 
-/// All changes of sides along a path, in its order.
-pub fn walk<'a>(path: Path<'a>, side: &impl Side, mut found: impl FnMut(Change<'a>)) {
+/// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
+pub fn walk<'a>(
+    path: Path<'a>,
+    side: &impl Side,
+    tolerance: f64,
+    mut found: impl FnMut(Change<'a>),
+) {
     let sample = |v: f64| {
         let (piece, u) = path.locate(v);
         side.sample(&path.pieces[piece], u)
@@ -129,8 +136,13 @@ pub fn walk<'a>(path: Path<'a>, side: &impl Side, mut found: impl FnMut(Change<'
     let change = |before: Certain, after: Certain| {
         let (outside, inside) =
             if before.outside { (before.v, after.v) } else { (after.v, before.v) };
-        let Root { t: v, error } = root(sample, outside, inside, f64::NAN);
-        Change { path, v, low: (v - error).max(before.v), high: (v + error).min(after.v) }
+        // Lengths along the piece in the middle, as parts of it.
+        let [low, high] = path.pieces[path.locate(0.5 * (outside + inside)).0].hull();
+        let size = (high[0] - low[0]).max(high[1] - low[1]);
+        let tolerance = if tolerance > 0.0 { (tolerance / size).min(0.25) } else { 0.0 };
+        let Root { t: v, error } = root(sample, (outside, inside), f64::NAN, tolerance);
+        let (low, high) = ((v - error).max(before.v), (v + error).min(after.v));
+        Change { path, v, low, high, rising: after.outside }
     };
     let (mut first, mut last): (Option<Certain>, Option<Certain>) = (None, None);
     let mut advance = |here: Certain| {

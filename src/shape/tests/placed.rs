@@ -52,7 +52,7 @@ pub(super) fn ray_at_placed(random: &mut Random, placed: &Placed) -> Ray {
 }
 
 /// The local point at t + `more`, exactly.
-fn local_at(placed: &Placed, ray: &Ray, t: f64, more: f64) -> Triple {
+pub(super) fn local_at(placed: &Placed, ray: &Ray, t: f64, more: f64) -> Triple {
     let Placement { centre, local_from_world, .. } = placed.placement;
     let along = Double::of(t) + Double::of(more);
     let (origin, direction) = (exact::triple(ray.origin), exact::triple(ray.direction));
@@ -61,7 +61,7 @@ fn local_at(placed: &Placed, ray: &Ray, t: f64, more: f64) -> Triple {
 }
 
 /// How far rounding may move the ray in local space.
-fn blur(placed: &Placed, ray: &Ray) -> f64 {
+pub(super) fn blur(placed: &Placed, ray: &Ray) -> f64 {
     let start = placed.placement.local_point(ray.origin);
     64.0 * EPS
         * (placed.placement.local_from_world.abs() * (ray.origin - placed.placement.centre).abs())
@@ -199,7 +199,7 @@ fn square(x: Double) -> Double {
     x * x
 }
 
-fn greater(a: Double, b: Double) -> Double {
+pub(super) fn greater(a: Double, b: Double) -> Double {
     if (a - b).0 < 0.0 { b } else { a }
 }
 
