@@ -6,7 +6,7 @@ use super::placed::{
 };
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::body::Local;
+use crate::shape::body::{Local, Met};
 use crate::shape::curve::{Outline, Piece, Point};
 use crate::shape::exact::Triple;
 use crate::shape::sor::Segment;
@@ -38,7 +38,7 @@ fn planar(outline: &Outline, [x, y]: [Double; 2]) -> Double {
             continue;
         }
         let mut u = Double::of(piece.meets(1, y.0));
-        for _ in 0..6 {
+        for _ in 0..24 {
             let (at, speed) = coordinate(piece, 1, u);
             let step = (y - at) / speed;
             if step.0.abs() < 1e-6 {
@@ -171,6 +171,29 @@ fn ray_through(
     Some((ray, far <= 3.0))
 }
 
+/// Where it is crossed, only one wall is there, or two at their joint: not those of an outline that touches
+/// itself.
+fn is_clear(placed: &Placed, ray: &Ray) -> bool {
+    let clear = |outline: &Outline, place: Point| {
+        let near = |i: &usize| {
+            let ([a, b], _) = outline.pieces[*i].nearest(place);
+            (a - place[0]).abs().max((b - place[1]).abs()) < 1e-9
+        };
+        (0..outline.pieces.len()).filter(near).count() <= 1
+    };
+    placed.crossings(ray).iter().all(|met| {
+        let [x, y, z] = local_at(placed, ray, met.t, 0.0).map(|c| c.0);
+        match &*placed.body {
+            Body::Prism(Prism { outline, conic, .. }) => {
+                let scale = if *conic { z } else { 1.0 };
+                clear(outline, [x / scale, y / scale])
+            }
+            Body::Lathe(lathe) => clear(lathe.outline(), [(x * x + y * y).sqrt(), z]),
+            _ => true,
+        }
+    })
+}
+
 /// On a part of its way, rounding does not tell on which side of the surface it is.
 fn goes_along(placed: &Placed, ray: &Ray, inside: Inside) -> bool {
     let near = placed.placement.local_point(ray.origin);
@@ -181,30 +204,37 @@ fn goes_along(placed: &Placed, ray: &Ray, inside: Inside) -> bool {
         let t = middle + f64::from(*i) / 50.0 / step.length();
         inside(&placed.body, local_at(placed, ray, t, 0.0)).0.abs() <= off
     };
-    (-75..=75).filter(is_near).count() >= 2
+    // A crossing that is told is far off the surface soon after, and was so before.
+    let untold = |met: &Met| {
+        let height = |more: f64| inside(&placed.body, local_at(placed, ray, met.t, more)).0.abs();
+        height(64.0 * met.error) <= off || height(-64.0 * met.error) <= off
+    };
+    (-75..=75).filter(is_near).count() >= 2 || placed.crossings(ray).iter().any(untold)
 }
 
 #[test]
 fn a_prism_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(91);
     let mut crossed = 0;
-    for _ in 0..tries_in(10) {
+    for _ in 0..tries_in(100) {
         let body = Body::Prism(any_prism(&mut random));
         let placed = placed(&mut random, body);
         for _ in 0..3 {
             let ray = ray_at_placed(&mut random, &placed);
             crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, prism);
-            assert_left_into_the_open(&mut random, &placed, &ray, prism);
+            if is_clear(&placed, &ray) {
+                assert_left_into_the_open(&mut random, &placed, &ray, prism);
+            }
         }
     }
-    assert!(crossed > tries_in(10), "{crossed}");
+    assert!(crossed > tries_in(100), "{crossed}");
 }
 
 #[test]
 fn a_prism_is_crossed_where_a_ray_meets_its_edges_goes_along_its_walls_or_through_its_tip() {
     let mut random = Random(92);
     let mut crossed = 0;
-    for _ in 0..tries_in(10) {
+    for _ in 0..tries_in(100) {
         let body = any_prism(&mut random);
         let ([x, y], [a, b]) = along_outline(&mut random, &body.outline);
         let z = [body.heights[0], body.heights[1], random.number(-1.0, 1.0)][random.below(3)];
@@ -227,10 +257,12 @@ fn a_prism_is_crossed_where_a_ray_meets_its_edges_goes_along_its_walls_or_throug
         crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, prism);
         // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
         if near {
-            assert_left_into_the_open(&mut random, &placed, &ray, prism);
+            if is_clear(&placed, &ray) {
+                assert_left_into_the_open(&mut random, &placed, &ray, prism);
+            }
         }
     }
-    assert!(crossed > tries_in(40), "{crossed}");
+    assert!(crossed > tries_in(1000), "{crossed}");
 }
 
 fn any_lathe(random: &mut Random) -> Lathe {
@@ -265,23 +297,25 @@ fn any_lathe(random: &mut Random) -> Lathe {
 fn a_lathe_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(93);
     let mut crossed = 0;
-    for _ in 0..tries_in(10) {
+    for _ in 0..tries_in(100) {
         let body = Body::Lathe(any_lathe(&mut random));
         let placed = placed(&mut random, body);
         for _ in 0..3 {
             let ray = ray_at_placed(&mut random, &placed);
             crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
-            assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            if is_clear(&placed, &ray) {
+                assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            }
         }
     }
-    assert!(crossed > tries_in(10), "{crossed}");
+    assert!(crossed > tries_in(100), "{crossed}");
 }
 
 #[test]
 fn a_lathe_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
     let mut random = Random(94);
     let mut crossed = 0;
-    for _ in 0..tries_in(10) {
+    for _ in 0..tries_in(100) {
         let body = any_lathe(&mut random);
         let ([x, z], [a, b]) = along_outline(&mut random, body.outline());
         let around = random.direction().get().with_z(0.0).normalize_or(Vector::X);
@@ -310,10 +344,12 @@ fn a_lathe_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis()
         crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
         // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
         if near {
-            assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            if is_clear(&placed, &ray) {
+                assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            }
         }
     }
-    assert!(crossed > tries_in(40), "{crossed}");
+    assert!(crossed > tries_in(1000), "{crossed}");
 }
 
 fn any_sor(random: &mut Random) -> Sor {
@@ -339,7 +375,7 @@ fn any_sor(random: &mut Random) -> Sor {
 fn a_sor_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(95);
     let mut crossed = 0;
-    for _ in 0..tries_in(10) {
+    for _ in 0..tries_in(100) {
         let body = Body::Sor(any_sor(&mut random));
         let placed = placed(&mut random, body);
         for _ in 0..4 {
@@ -348,14 +384,14 @@ fn a_sor_is_crossed_where_exact_arithmetic_crosses_it() {
             assert_left_into_the_open(&mut random, &placed, &ray, sor);
         }
     }
-    assert!(crossed > tries_in(10), "{crossed}");
+    assert!(crossed > tries_in(100), "{crossed}");
 }
 
 #[test]
 fn a_sor_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
     let mut random = Random(96);
     let mut crossed = 0;
-    for _ in 0..tries_in(5) {
+    for _ in 0..tries_in(50) {
         let body = any_sor(&mut random);
         let segment = body.segments()[random.below(body.segments().len())];
         let z = [segment.low, segment.high, random.number(-1.0, 1.0)][random.below(3)];
@@ -382,14 +418,14 @@ fn a_sor_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
             assert_left_into_the_open(&mut random, &placed, &ray, sor);
         }
     }
-    assert!(crossed > tries_in(40), "{crossed}");
+    assert!(crossed > tries_in(1000), "{crossed}");
 }
 
 /// Straight walls, a conic one among them, a lathe and a sor are as wide as the points on them.
 #[test]
 fn bodies_of_outlines_reach_as_far_as_their_surface_and_hardly_farther() {
     let mut random = Random(97);
-    for _ in 0..tries_in(100) {
+    for _ in 0..tries_in(1000) {
         let bodies = [
             Body::Prism(any_prism(&mut random)),
             Body::Lathe(any_lathe(&mut random)),
