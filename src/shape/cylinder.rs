@@ -108,11 +108,11 @@ pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
 /// Where the line is between two heights, of a body that goes no farther than √2.
 pub(super) fn between(ray: &LocalRay, [low, high]: [f64; 2]) -> Option<(Met, Met)> {
     let (place, speed) = (ray.nearest.z, ray.direction.z);
+    let flat_off = ray.blur_at(2.0) + 2.0 * U * (1.0 + place.abs());
     let met = |end: f64, leaving| {
         let t = (end - place) / speed;
         // Certainly beyond all of the body, which ends at √2; for all that is known of a line so flat,
         // its crossing might be anywhere else beyond.
-        let flat_off = ray.blur_at(2.0) + 2.0 * U * (1.0 + place.abs());
         if (t.abs() - 2.0) * speed.abs() > flat_off {
             return Met { t: t * f64::INFINITY, error: 0.0, leaving, part: CAP };
         }
@@ -122,7 +122,7 @@ pub(super) fn between(ray: &LocalRay, [low, high]: [f64; 2]) -> Option<(Met, Met
     };
     if speed == 0.0 {
         let endless = |t, leaving| Met { t, error: 0.0, leaving, part: CAP };
-        return (low < place && place < high)
+        return (low < place - flat_off && place + flat_off < high)
             .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
     }
     let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };

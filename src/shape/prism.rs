@@ -93,12 +93,13 @@ impl Ruled<'_> {
         self.gap(point).cross(way).dot(across) / across.length_squared()
     }
 
-    /// The wall's line is certainly not met before the body ends, at √2; for all that is known of a ray so
-    /// nearly along it, it might be met anywhere else beyond.
-    fn is_beyond(&self, point: Point) -> bool {
+    /// −∞ or ∞ if the wall's line is certainly not met before the body ends, at √2; for all that is known of
+    /// a ray so nearly along it, it might be met anywhere else beyond.
+    fn beyond(&self, point: Point) -> Option<f64> {
         let (way, gap) = (self.way(point), self.gap(point));
         let near = 2.0 * self.ray.direction.cross(way).length();
-        gap.cross(way).length() > near + (2.0 * self.ray.blur_at(2.0) + 32.0 * U) * way.length()
+        let off = (2.0 * self.ray.blur_at(2.0) + 32.0 * U) * way.length();
+        (gap.cross(way).length() > near + off).then(|| self.place(point) * f64::INFINITY)
     }
 
     /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
@@ -110,11 +111,13 @@ impl Ruled<'_> {
         let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
         let way = self.way(point);
         let sine = self.ray.direction.cross(way).length() / way.length();
-        let (s, error) = if change.places().all(|point| self.is_beyond(point)) {
-            (s * f64::INFINITY, 0.0)
-        } else {
-            let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
-            (s, 1.25 * reach + 1.5 * off / sine)
+        let end = self.beyond(point);
+        let (s, error) = match end {
+            Some(end) if change.places().all(|point| self.beyond(point) == Some(end)) => (end, 0.0),
+            _ => {
+                let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+                (s, 1.25 * reach + 1.5 * off / sine)
+            }
         };
         // On the other side of its tip a wall faces the other way.
         let along = change.rising == above;
@@ -158,41 +161,7 @@ impl Ruled<'_> {
     }
 }
 
-/// A ray along the walls of a prism, as good as: the places of the outline to its left and to its right.
-struct Upright {
-    place: Point,
-    error: f64,
-}
-
-impl Side for Upright {
-    fn sample(&self, piece: &Piece, u: f64) -> Sample {
-        let (point, speed) = piece.at(u);
-        Sample { value: point[1] - self.place[1], slope: speed[1], error: self.error }
-    }
-
-    fn of_all(&self, piece: &Piece) -> Option<bool> {
-        let [low, high] = piece.hull();
-        match () {
-            () if low[1] - self.place[1] > self.error => Some(true),
-            () if self.place[1] - high[1] > self.error => Some(false),
-            () => None,
-        }
-    }
-
-    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
-        piece.turns([0.0, 1.0])
-    }
-}
-
 impl Prism {
-    /// Straight walls are met where a step takes one; others are iterated.
-    fn changes(&self, ray: &LocalRay, side: &impl Side, mut found: impl FnMut(&Change)) {
-        let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
-        for run in &self.outline.runs {
-            walk(Path::whole(&self.outline, run, None), side, tolerance, |change| found(&change));
-        }
-    }
-
     /// Parts of the line between walls, in order.
     fn spans(&self, ray: &LocalRay) -> Spans {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
@@ -205,7 +174,12 @@ impl Prism {
         }
         let ruled = Ruled { ray, conic: self.conic };
         let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
-        self.changes(ray, &ruled, |change| walls.push(ruled.wall(change)));
+        // Straight walls are met where a step takes one; others are iterated.
+        let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
+        for run in &self.outline.runs {
+            let path = Path::whole(&self.outline, run, None);
+            walk(path, &ruled, tolerance, |change| walls.push(ruled.wall(&change)));
+        }
         walls.sort_by(|a, b| a.s.total_cmp(&b.s));
         let mut spans = Spans::new();
         if !self.conic {
@@ -236,20 +210,11 @@ impl Prism {
         Vector::new(a, b, if self.conic { -(a * x + b * y) } else { 0.0 })
     }
 
-    /// Of a line that is as good as upright, which walls are at its left and which at its right.
+    /// Of a line that is as good as upright.
     fn upright(&self, ray: &LocalRay, tilt: f64) -> Spans {
-        let place = [ray.nearest.x, ray.nearest.y];
-        let side = Upright { place, error: ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U };
-        let (mut left, mut is_told) = (0, true);
-        self.changes(ray, &side, |change| {
-            let is_left = |point: Point| point[0] < place[0];
-            let is_near = |point: Point| (point[0] - place[0]).abs() <= side.error;
-            let point = change.point();
-            left += usize::from(is_left(point));
-            is_told &= change.places().all(|p| !is_near(p) && is_left(p) == is_left(point));
-        });
         let mut spans = Spans::new();
-        if is_told && left % 2 == 1 {
+        let error = ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U;
+        if self.outline.is_inside([ray.nearest.x, ray.nearest.y], error) == Some(true) {
             pair(&[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)], &mut spans);
         }
         spans
@@ -288,6 +253,93 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
     }
 }
 
+fn low(met: &Met) -> f64 {
+    met.t - met.error
+}
+
+fn high(met: &Met) -> f64 {
+    met.t + met.error
+}
+
+/// On the line the other way.
+fn reversed(met: Met) -> Met {
+    Met { t: -met.t, ..met }
+}
+
+/// A crossing that is known to lie after a place.
+fn after(place: f64, met: Met) -> Met {
+    if place <= low(&met) {
+        return met;
+    }
+    let t = 0.5 * (place + high(&met));
+    Met { t, error: (t - place).max(0.0) + 4.0 * U * (t.abs() + met.error), ..met }
+}
+
+fn before(place: f64, met: Met) -> Met {
+    reversed(after(-place, reversed(met)))
+}
+
+/// Where a line that enters the walls at `wall` enters a body that begins at `end`, and whether that is at the
+/// end; `None` if not certainly before `limit`. What comes first, if rounding does not tell, the places after
+/// the end do: there is one that is certainly within the walls, or still outside.
+fn entered(
+    wall: Met,
+    end: Met,
+    limit: f64,
+    is_within: impl Fn(f64) -> Option<bool>,
+) -> Option<(Met, bool)> {
+    if low(&wall) > high(&end) {
+        return Some((wall, false));
+    }
+    let mut end = end;
+    while high(&end) < limit {
+        let place = high(&end);
+        match is_within(place) {
+            Some(true) => return Some((end, true)),
+            Some(false) if place < high(&wall) => return Some((after(place, wall), false)),
+            _ => end.error = 2.0 * end.error + f64::MIN_POSITIVE,
+        }
+    }
+    None
+}
+
+impl Prism {
+    /// Whether a place on the line lies within the walls, if rounding tells.
+    fn is_within(&self, ray: &LocalRay, s: f64) -> Option<bool> {
+        let point = ray.at(s);
+        let off = ray.blur_at(s) + 16.0 * U * (1.0 + s.abs());
+        if !self.conic {
+            return self.outline.is_inside([point.x, point.y], off);
+        }
+        let place = [point.x / point.z, point.y / point.z];
+        let size = 1.0 + place[0].abs() + place[1].abs();
+        let error = off * size / (point.z.abs() - off);
+        (error > 0.0).then(|| self.outline.is_inside(place, error)).flatten()
+    }
+
+    /// What of the line between two walls is between the ends. What rounding cannot tell from a miss is missed.
+    fn cut(&self, ray: &LocalRay, [first, last]: [Met; 2], walls: (Met, Met)) -> Option<[Met; 2]> {
+        let (enter, leave) = walls;
+        let is_within = |s: f64| self.is_within(ray, s);
+        let limit = high(&leave).min(low(&last));
+        let (mut enter_at, by_first) = entered(enter, first, limit, is_within)?;
+        let limit = high(&reversed(enter)).min(low(&reversed(first)));
+        let is_within = |s: f64| self.is_within(ray, -s);
+        let (leave_at, by_last) = entered(reversed(leave), reversed(last), limit, is_within)?;
+        let mut leave_at = reversed(leave_at);
+        // Where an end is passed, it is certainly inside.
+        if by_first && high(&enter_at) < high(&leave_at) {
+            leave_at = after(high(&enter_at), leave_at);
+        }
+        if by_last && low(&enter_at) < low(&leave_at) {
+            enter_at = before(low(&leave_at), enter_at);
+        }
+        let is_told = high(&enter_at) < low(&leave_at);
+        (is_told || (by_first || by_last) && enter_at.t < leave_at.t)
+            .then_some([enter_at, leave_at])
+    }
+}
+
 impl Local for Prism {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((first, last)) = between(ray, self.heights) else { return };
@@ -295,12 +347,17 @@ impl Local for Prism {
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };
-        for (enter, leave) in self.spans(ray) {
-            let (enter, leave) = (enter.later(first), leave.earlier(last));
-            // What rounding cannot tell from a miss is missed.
-            if enter.t + enter.error < leave.t - leave.error {
-                found.extend([seen(enter), seen(leave)]);
+        let mut before: Option<f64> = None;
+        for walls in self.spans(ray) {
+            let Some([enter, leave]) = self.cut(ray, [first, last], walls) else { continue };
+            // What is not told from a part before is one with it.
+            if before.is_some_and(|end| enter.t <= end) {
+                found.pop();
+            } else {
+                found.push(seen(enter));
             }
+            found.push(seen(leave));
+            before = Some(leave.t);
         }
     }
 

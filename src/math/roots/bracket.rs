@@ -79,11 +79,18 @@ pub fn root(
         here = sample(t);
     }
     // How far one must go from the root until the sign is certain.
-    let least = (2.0 * here.error / here.slope.abs()).max(4.0 * U * t.abs()).max(tolerance);
+    let finest = (4.0 * U * t.abs()).max(tolerance).max(f64::MIN_POSITIVE);
+    let least = (2.0 * here.error / here.slope.abs()).max(finest);
     let reach = |end: f64, is_certain: fn(&Sample) -> bool| {
         let (far, way) = ((end - t).abs(), (end - t).signum());
-        let mut step = least;
-        // Also at the end where the slope was 0 or no number.
+        let mut step = least.min(far);
+        if step == far {
+            // The slope says nothing: it was 0, or another on this side. Inward, then.
+            while 0.5 * step > finest && is_certain(&sample(t + way * (0.5 * step))) {
+                step *= 0.5;
+            }
+            return step;
+        }
         while step < far {
             if is_certain(&sample(t + way * step)) {
                 return step;

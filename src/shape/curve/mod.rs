@@ -214,6 +214,20 @@ impl Piece {
         [(b - d) / length, (c - a) / length]
     }
 
+    /// Whether it keeps a distance from a place: seldom not told where it does, by little.
+    fn is_clear(&self, place: Point, distance: f64) -> bool {
+        let [low, high] = self.hull();
+        let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
+        if gap(0) * gap(0) + gap(1) * gap(1) > distance * distance {
+            return true;
+        }
+        let size = (high[0] - low[0]).max(high[1] - low[1]);
+        if size <= distance || distance.is_nan() {
+            return false;
+        }
+        self.split(0.5).iter().all(|part| part.is_clear(place, distance))
+    }
+
     /// A distance that it keeps from a place, if not always the greatest.
     fn clearance(&self, place: Point, depth: u32) -> f64 {
         let [low, high] = self.hull();
@@ -301,6 +315,12 @@ impl Outline {
             low[0] > x || (high[0] > x && piece.at(piece.meets(1, y)).0[0] > x)
         };
         self.pieces.iter().filter(crosses).count() % 2 == 1
+    }
+
+    /// Whether a place is inside, if rounding tells that may have moved it by `error`.
+    pub fn is_inside(&self, place: Point, error: f64) -> Option<bool> {
+        let is_told = self.pieces.iter().all(|piece| piece.is_clear(place, error));
+        is_told.then(|| self.contains(place))
     }
 
     /// A distance that it keeps from a place, if not always the greatest.

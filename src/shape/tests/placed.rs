@@ -91,9 +91,21 @@ pub(super) fn assert_crossed_where_it_is(
         let (outer, inner) = if leaving { (after, before) } else { (before, after) };
         assert!(outer >= 0.0 && inner <= 0.0, "{before:e} {after:e}: {met:?} {placed:?} {ray:?}");
     }
-    if placed.body.is_sheet() {
-        return all.len();
+    if !placed.body.is_sheet() {
+        assert_inside_where_it_says(random, placed, ray, inside);
     }
+    all.len()
+}
+
+/// Wherever one looks along the line, the crossings before say whether it is inside.
+pub(super) fn assert_inside_where_it_says(
+    random: &mut Random,
+    placed: &Placed,
+    ray: &Ray,
+    inside: Inside,
+) {
+    let all = placed.crossings(ray);
+    let height = |t, more| inside(&placed.body, local_at(placed, ray, t, more));
     // What has no end may hold the line's begin.
     let from_inside = match all.first() {
         Some(first) => placed.body.reach().is_infinite() && first.leaving,
@@ -116,7 +128,6 @@ pub(super) fn assert_crossed_where_it_is(
             assert_eq!(height < 0.0, is_inside, "{height:e} at {t:e}: {all:?} {placed:?} {ray:?}");
         }
     }
-    all.len()
 }
 
 /// The surface's point is on it within its bound; the ray that goes on from there, aslant or nearly along

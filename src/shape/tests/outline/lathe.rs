@@ -1,0 +1,102 @@
+//! Lathes against twice the digits.
+
+use super::super::placed::{
+    assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, placed,
+    ray_at_placed,
+};
+use super::*;
+
+fn lathe(body: &Body, [x, y, z]: Triple) -> Double {
+    let Body::Lathe(lathe) = body else { panic!("{body:?}") };
+    planar(lathe.outline(), [(x * x + y * y).sqrt(), z])
+}
+
+pub(super) fn any_lathe(random: &mut Random) -> Lathe {
+    loop {
+        let count = 2 + random.below(5);
+        let least = [0.0, random.number(0.0, 0.5)][random.below(2)];
+        let mut points: Vec<Point> = (0..count)
+            .map(|_| [number(random, least, 0.7).max(least), 0.7 * number(random, -1.0, 1.0)])
+            .collect();
+        match random.below(3) {
+            0 => {}
+            1 => points[0][0] = 0.0,
+            _ => (points[0][0], points[count - 1][0]) = (0.0, 0.0),
+        }
+        // A line there and back encloses nothing.
+        if points.windows(3).any(|p| p[0] == p[2] || p[0] == p[1] || p[1] == p[2]) {
+            continue;
+        }
+        let degree = 1 + random.below(3);
+        let mut pieces = loop_of(random, &points, degree);
+        // A line there and back encloses nothing.
+        if random.below(3) > 0 || (degree == 1 && in_a_line(&points)) {
+            pieces.pop();
+        }
+        if let Some(lathe) = Lathe::new([pieces]) {
+            return lathe;
+        }
+    }
+}
+
+#[test]
+fn a_lathe_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(93);
+    let mut crossed = 0;
+    for _ in 0..tries_in(100) {
+        let body = Body::Lathe(any_lathe(&mut random));
+        let placed = placed(&mut random, body);
+        for _ in 0..3 {
+            let ray = ray_at_placed(&mut random, &placed);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
+            if is_clear(&placed, &ray, false) {
+                assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            }
+        }
+    }
+    assert!(crossed > tries_in(100), "{crossed}");
+}
+
+#[test]
+fn a_lathe_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
+    let mut random = Random(94);
+    let mut crossed = 0;
+    for _ in 0..tries_in(100) {
+        let body = any_lathe(&mut random);
+        let ([x, z], [a, b]) = along_outline(&mut random, body.outline());
+        let around = random.direction().get().with_z(0.0).normalize_or(Vector::X);
+        let place = around * x + Vector::Z * z;
+        let aside = around.cross(Vector::Z);
+        let off = random.direction().get() * [0.0, random.size(-17.0, 0.0)][random.below(2)];
+        let tangent = around * a + Vector::Z * b;
+        let slant = [0.0, 1.0, -random.size(-17.0, 1.0), random.size(-17.0, 1.0)][random.below(4)];
+        let (through, way) = match random.below(6) {
+            // In the tangent plane.
+            0 => (place, tangent + aside * slant),
+            1 => (place, aside + tangent * slant),
+            // Level, upright, or nearly so.
+            2 => (place, random.direction().get().with_z(0.0) + off),
+            3 => (place, Vector::Z + off),
+            // Through the axis.
+            4 => (Vector::Z * z + off, random.direction().get()),
+            _ => (place, random.direction().get()),
+        };
+        let placed = placed(&mut random, Body::Lathe(body));
+        let Some((ray, near)) = ray_through(&mut random, &placed, through, way) else { continue };
+        if goes_along(&placed, &ray, lathe) {
+            assert_eq!(placed.crossings(&ray).len() % 2, 0);
+            continue;
+        }
+        // Where walls touch, what is between them may be too little to be told.
+        if !is_clear(&placed, &ray, true) {
+            assert_inside_where_it_says(&mut random, &placed, &ray, lathe);
+            continue;
+        }
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
+        // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
+        if near && is_clear(&placed, &ray, false) {
+            assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+        }
+    }
+    assert!(crossed > tries_in(1000), "{crossed}");
+}
