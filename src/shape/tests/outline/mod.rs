@@ -177,7 +177,9 @@ fn is_clear(placed: &Placed, ray: &Ray, joints: bool) -> bool {
         }
     };
     placed.crossings(ray).iter().all(|met| {
-        let off = 4.0 * met.error * speed;
+        // The world's point is rounded, too.
+        let rounded = placed.placement.local_from_world.abs() * ray.at(met.t).abs() * (8.0 * EPS);
+        let off = 4.0 * met.error * speed + blur(placed, ray) + rounded.length();
         let [x, y, z] = local_at(placed, ray, met.t, 0.0).map(|c| c.0);
         match &*placed.body {
             Body::Prism(Prism { outline, conic, .. }) => {
