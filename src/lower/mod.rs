@@ -66,7 +66,6 @@ pub fn lower(
         unpainted: BTreeMap::new(),
         building: None,
         shared: BTreeMap::new(),
-        bodies: BTreeMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -104,8 +103,6 @@ struct Lowering<'s, 'd> {
     /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of
     /// it.
     shared: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
-    /// What each mesh became, stored once however often it is used; `None` where nothing is left of it.
-    bodies: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
 }
 
 impl Lowering<'_, '_> {

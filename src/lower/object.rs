@@ -10,8 +10,7 @@ use super::place::next;
 use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, blob, body, shape, sweep};
-use super::{Fault, Lowering, NO_SIZE, body, outline, shape};
+use super::{Fault, Lowering, NO_SIZE, blob, body, outline, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -236,14 +235,7 @@ impl<'s> Lowering<'s, '_> {
         here: &Inherited,
         site: Site,
     ) -> Result<(), Fault> {
-        let known = match self.bodies.get(&id) {
-            Some(known) => known.clone(),
-            None => {
-                let made = make()?.map(|(body, frame)| (Arc::new(body), frame));
-                self.bodies.entry(id).or_insert(made).clone()
-            }
-        };
-        match known {
+        match self.shared(id, |_| make())? {
             Some((body, frame)) => self.place_body(body, &frame, here, site),
             None => Ok(()),
         }
@@ -298,11 +290,6 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::cylinder(ends, radius, open)?, here, site)
             }
             Solid::Triangles { ref triangles, .. } => {
-                let made = self.shared(id, |_| body::mesh(triangles))?;
-                match made {
-                    Some((body, frame)) => self.place_body(body, &frame, here, site),
-                    None => Ok(()),
-                }
                 self.place_stored(id, || body::mesh(triangles), here, site)
             }
             Solid::Blob(ref written) => {
@@ -340,11 +327,13 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
             Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
-                let made = body::isosurface(function, container, threshold, accuracy, open)?;
-                self.place_made(made, here, site)
+                let make =
+                    || body::isosurface(function, container, threshold, accuracy, open).map(Some);
+                self.place_stored(id, make, here, site)
             }
             Solid::Parametric { ref functions, corners, container } => {
-                self.place_made(body::parametric(functions, corners, container)?, here, site)
+                let make = || body::parametric(functions, corners, container).map(Some);
+                self.place_stored(id, make, here, site)
             }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {

@@ -37,7 +37,10 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Torus(_) => "a map and up to four roots by steps a ray",
                 Body::Algebraic(_)
                 | Body::Blob(_)
+                | Body::Lathe(_)
                 | Body::Ovus(_)
+                | Body::Prism(_)
+                | Body::Sor(_)
                 | Body::SphereSweep(_)
                 | Body::Superellipsoid(_) => "a map and all roots by steps a ray",
                 Body::Isosurface(_) => {

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::blob::Blob;
 use super::mesh::Triangles;
+use super::outline::{Point, Spline};
 use super::sweep::Sweep;
 use crate::function::Closed;
-use super::outline::{Point, Spline};
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
