@@ -49,7 +49,7 @@ impl Evaluator<'_> {
             .fix(place, ";");
         // It may be told as an old form.
         let told = |one: &Diagnostic| {
-            one.code == Code::LegacyForm && one.primary().is_some_and(|at| at.span == place)
+            one.code == Code::LegacyForm && one.fixes.iter().any(|fix| fix.span == place)
         };
         if self.repeats(&diagnostic) || self.diagnostics.iter().any(told) {
             return;
@@ -69,11 +69,14 @@ impl Evaluator<'_> {
         if before.ends_with(';') || statement.contains('#') {
             return;
         }
+        let behind = text.get(token.span.end as usize..).unwrap_or("");
+        let more = behind.len() - behind.trim_start_matches(';').len();
+        let row = Span { end: token.span.end + more as u32, ..token.span };
         let diagnostic =
             Diagnostic::new(Code::Semicolon, format!("`;` has no meaning {}", place.name()))
                 .at(token.span, "only a declaration ends with one")
                 .help("leave it out: POV-Ray refuses it")
-                .fix(token.span, "");
+                .fix(row, "");
         // What was told of the statement itself is told: it may be another language's.
         let start = (before.len() - statement.len()) as u32;
         let of_statement = |span: Span| {
