@@ -181,7 +181,9 @@ impl Words {
             return Err((fault, site));
         };
         let [direction, right, up] = [self.direction, self.right, self.up].map(|word| word.vector);
-        let mirrored = up.cross(direction).dot(right).round() < 0.0;
+        let handed = up.cross(direction).dot(right).round();
+        // Before it is turned a camera may be flat, as with `up z`: POV-Ray mirrors it (measured).
+        let mirrored = handed < 0.0 || handed == 0.0 && dialect == Dialect::Pov;
         let mut across = self.sky.cross(forward);
         if across.largest() <= PARALLEL * self.sky.largest() {
             across = right - forward * right.dot(forward);
