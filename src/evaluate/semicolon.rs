@@ -4,7 +4,7 @@
 //! on, takes a second `;` there, and refuses every other one.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::syntax::ast::ItemKind;
 use crate::vocabulary::Dialect;
 
@@ -17,8 +17,9 @@ impl Evaluator<'_> {
     /// Takes the `;` behind the value of a `#declare`, which a number has to have.
     pub(super) fn end_of_declaration(&mut self, head: Span, value: Option<&Value>) {
         // `#define A 1`, `int A = 1`: told as that.
-        let head = self.sources.text(head);
-        let named = head.starts_with('#') && (head.ends_with("declare") || head.ends_with("local"));
+        let opening = self.sources.text(head);
+        let named = opening.starts_with('#')
+            && (opening.ends_with("declare") || opening.ends_with("local"));
         let numeric =
             named && matches!(value, Some(Value::Number(_) | Value::Vector(_) | Value::Color(_)));
         let last = self.taken;
@@ -41,7 +42,10 @@ impl Evaluator<'_> {
             None | Some(TokenKind::Word(_) | TokenKind::Block(_))
         );
         let needed = self.options.dialect == Dialect::Pov && self.version >= SINCE;
-        let Some(last) = last.filter(|_| numeric && ends && needed) else { return };
+        // The last word of a macro stands elsewhere.
+        let is_here = |last: &Site| last.span.file == head.file && last.span.start >= head.start;
+        let wanted = numeric && ends && needed;
+        let Some(last) = last.filter(|last| wanted && is_here(last)) else { return };
         let place = last.span.after();
         let diagnostic = Diagnostic::new(Code::Semicolon, "a declared number ends with `;`")
             .at(place, "expected `;` here")

@@ -4,6 +4,8 @@
 //! A wall is made of lines, one through each place of the outline; on which side of such a line the ray passes
 //! is a polynomial of the outline's own degree, so the ray meets the walls where the outline changes sides.
 
+mod ends;
+
 use smallvec::SmallVec;
 
 use super::U;
@@ -12,6 +14,7 @@ use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
 use super::cylinder::{BASE, CAP, between};
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
+use ends::{after, before, entered, high, low, reversed};
 
 /// The part of the first piece's outside; one more is that side seen from within, and so on.
 const WALLS: u32 = 3;
@@ -161,12 +164,19 @@ impl Ruled<'_> {
     }
 }
 
+/// How far to the side a line goes of which it is asked first whether it meets a wall at all: as it costs
+/// time only, any would do.
+const STEEP: f64 = 1.0 / 1024.0;
+
 impl Prism {
     /// Parts of the line between walls, in order.
     fn spans(&self, ray: &LocalRay) -> Spans {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
-        if !self.conic && tilt <= 2.0 * ray.turn {
-            return self.upright(ray, tilt);
+        if !self.conic
+            && tilt < STEEP
+            && let Some(inside) = self.upright(ray, tilt)
+        {
+            return inside;
         }
         let apex_off = ray.blur_at(2.0) + 32.0 * U;
         if self.conic && ray.nearest.length() <= 16.0 * apex_off {
@@ -210,14 +220,17 @@ impl Prism {
         Vector::new(a, b, if self.conic { -(a * x + b * y) } else { 0.0 })
     }
 
-    /// Of a line that is as good as upright.
-    fn upright(&self, ray: &LocalRay, tilt: f64) -> Spans {
-        let mut spans = Spans::new();
+    /// Of a line that goes nearly straight up, where all of it between the ends is on one side of the walls;
+    /// or, as far as rounding tells, goes straight up: then what cannot be told is outside.
+    fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<Spans> {
         let error = ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U;
-        if self.outline.is_inside([ray.nearest.x, ray.nearest.y], error) == Some(true) {
+        let told = self.outline.is_inside([ray.nearest.x, ray.nearest.y], error);
+        let inside = if tilt <= 2.0 * ray.turn { told.unwrap_or(false) } else { told? };
+        let mut spans = Spans::new();
+        if inside {
             pair(&[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)], &mut spans);
         }
-        spans
+        Some(spans)
     }
 
     /// Of a line through the origin, as good as: it comes from inside and goes on inside, or never is.
@@ -251,56 +264,6 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
     for pair in walls.chunks_exact(2) {
         spans.push((pair[0].met(false), pair[1].met(true)));
     }
-}
-
-fn low(met: &Met) -> f64 {
-    met.t - met.error
-}
-
-fn high(met: &Met) -> f64 {
-    met.t + met.error
-}
-
-/// On the line the other way.
-fn reversed(met: Met) -> Met {
-    Met { t: -met.t, ..met }
-}
-
-/// A crossing that is known to lie after a place.
-fn after(place: f64, met: Met) -> Met {
-    if place <= low(&met) {
-        return met;
-    }
-    let t = 0.5 * (place + high(&met));
-    Met { t, error: (t - place).max(0.0) + 4.0 * U * (t.abs() + met.error), ..met }
-}
-
-fn before(place: f64, met: Met) -> Met {
-    reversed(after(-place, reversed(met)))
-}
-
-/// Where a line that enters the walls at `wall` enters a body that begins at `end`, and whether that is at the
-/// end; `None` if not certainly before `limit`. What comes first, if rounding does not tell, the places after
-/// the end do: there is one that is certainly within the walls, or still outside.
-fn entered(
-    wall: Met,
-    end: Met,
-    limit: f64,
-    is_within: impl Fn(f64) -> Option<bool>,
-) -> Option<(Met, bool)> {
-    if low(&wall) > high(&end) {
-        return Some((wall, false));
-    }
-    let mut end = end;
-    while high(&end) < limit {
-        let place = high(&end);
-        match is_within(place) {
-            Some(true) => return Some((end, true)),
-            Some(false) if place < high(&wall) => return Some((after(place, wall), false)),
-            _ => end.error = 2.0 * end.error + f64::MIN_POSITIVE,
-        }
-    }
-    None
 }
 
 impl Prism {
