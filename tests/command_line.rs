@@ -160,6 +160,21 @@ fn a_number_from_the_command_line_reaches_the_scene() {
 }
 
 #[test]
+fn a_number_from_the_command_line_that_the_scene_replaces_is_told() {
+    let place = Place::new();
+    let scene =
+        |declared: &str| format!("{declared}\n{}", SCENE.replace("0, 1 pig", "0, Radius pig"));
+    place.write("d.scene", &scene("#declare Radius = 2;"));
+    let said = ["`-D Radius` does nothing: the scene declares `Radius` itself", "#ifndef (Radius)"];
+    place.run("d.scene --size 8x6 -D Radius=0.5").ends(0, &said);
+    for asked in ["#ifndef (Radius) #declare Radius = 2; #end", "#declare Radius = 2*Radius;"] {
+        place.write("d.scene", &scene(asked));
+        let run = place.run("d.scene --size 8x6 -D Radius=0.5").ends(0, &["d.png"]);
+        assert!(!run.stderr().contains("does nothing"), "{}", run.stderr());
+    }
+}
+
+#[test]
 fn stats_are_one_object_of_json_or_a_table() {
     let place = Place::new();
     let run = place.run("a.scene --size 16x8 --antialias off --stats json").ends(0, &[]);

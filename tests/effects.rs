@@ -416,6 +416,8 @@ fn half_widths_are_those_of_the_shape_and_what_has_none_is_named() {
         ("torus { 3, 0.5 }", 0.5, 3.5),
         ("disc { 0, y, 2 }", 2.0, 2.0),
         ("cylinder { 0, 6*y, 1 scale <1, 2, 5> }", 1.0, 6.0),
+        ("quadric { <1, 1, 1>, 0, 0, -1 }", 1.0, 1.0),
+        ("quadric { <1, 4, 1>, 0, <-6, 0, 0>, 5 rotate 30*y }", 1.0, 2.0),
     ] {
         let (found, endless) = halves(solid);
         let (from, to) = found.expect(solid);
@@ -423,7 +425,7 @@ fn half_widths_are_those_of_the_shape_and_what_has_none_is_named() {
         assert!(close(from, least) && close(to, greatest), "{solid}: {from} to {to}");
         assert!(endless.is_empty(), "{solid}");
     }
-    assert_eq!(halves("quadric { <1, 1, 1>, 0, 0, -1 }"), (None, vec!["polynomial"]));
+    assert_eq!(halves("quadric { <1, 1, -1>, 0, 0, -1 }"), (None, vec!["quadric"]));
     assert_eq!(halves("plane { y, 0 }"), (None, vec!["plane"]));
 }
 

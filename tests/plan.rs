@@ -62,7 +62,9 @@ fn written(plan: &Value) -> String {
     let dropped = list(&plan["dropped"]);
     let parts = if dropped.len() == 1 { "part" } else { "parts" };
     let numbers = (on.len(), off.len(), dropped.len());
-    out += &format!("{} effects on, {} off, {} {parts} dropped\n", numbers.0, numbers.1, numbers.2);
+    let effects = if on.len() == 1 { "effect" } else { "effects" };
+    let (on_count, off_count, dropped_count) = numbers;
+    out += &format!("{on_count} {effects} on, {off_count} off, {dropped_count} {parts} dropped\n");
     out += if on.is_empty() { "" } else { "on\n" };
     let rays = &plan["rays"];
     for row in on {
@@ -114,7 +116,7 @@ fn written(plan: &Value) -> String {
     }
     for endless in list(&numerics["endless"]) {
         let (shape, place) = (text(&endless["shape"]), at(&endless["place"]));
-        out += &format!("  no half width: a {shape} has no end{place}\n");
+        out += &format!("  no half width: {}{place}\n", lucarne::plan::print::without_end(shape));
     }
     if plan["precision"] == "single" && numerics["exceeds_single"] == true {
         out += &format!("  {}\n", lucarne::plan::print::BEYOND_SINGLE);
@@ -217,7 +219,7 @@ light_source {{ <4, 8, 6>, rgb 1 }} light_source {{ 5, rgb 0 }} light_source {{ 
 sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 1;
 {flat}
 #macro Dark(P) light_source {{ P, rgb 0 }} #end Dark(1) Dark(2)
-torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, 1, 1>, 0, 0, -1 }}
+torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, -1, 1>, 0, 0, -1 }}
 difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
 "
     );
@@ -238,7 +240,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
             for part in [
                 "in 2 calls at ",
                 "  nearly degenerate: box, ",
-                "  no half width: a polynomial has no end  (",
+                "  no half width: where a quadric ends is not known  (",
                 "  difference, 1: ",
                 "  single precision of every torus: it has no kernel for it  (",
                 "  single precision of every part of a whole: ",

@@ -150,7 +150,7 @@ pub const KNOBS: &[Knob] = &[
 const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
 /// What is counted costs in single precision, of what it costs in double: rounding a ray as seen from
 /// each shape costs more than the kernels save.
-const SINGLE: f64 = 1.09;
+const SINGLE: f64 = 1.11;
 
 fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }
@@ -201,10 +201,10 @@ impl Knob {
 /// What a ray costs beyond what it takes to find what it meets, and what that takes: in rays of the camera
 /// that meet nothing. Fitted to CPU seconds of the gallery, see `docs/accuracy.md`; a ray toward a light
 /// costs nothing beyond.
-const REFLECTION: f64 = 0.46;
-const TRANSMISSION: f64 = 4.6;
-const BOX_VISIT: f64 = 0.31;
-const ROOT_SOLVE: f64 = 0.23;
+const REFLECTION: f64 = 0.15;
+const TRANSMISSION: f64 = 6.1;
+const BOX_VISIT: f64 = 0.24;
+const ROOT_SOLVE: f64 = 0.24;
 
 /// What was counted, in rays of the camera that meet nothing.
 pub fn cost(counters: &Counters) -> f64 {

@@ -210,6 +210,9 @@ impl Evaluator<'_> {
         if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
             self.redeclared(here, head, target);
         }
+        if home == 0 && self.scopes.take_unread(symbol) {
+            self.lint_replaced_option(here, target);
+        }
         let owner = match in_main {
             true => Owner::Main,
             false if local && self.in_macro_of_main(here) => Owner::Macro,

@@ -13,7 +13,7 @@ use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{Site, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, ItemKind, NameId};
+use crate::syntax::ast::{Ast, DirectiveKind, ItemKind, NameId, Target};
 use crate::vocabulary::{PREDECLARED, Word};
 
 use super::scope::Owner;
@@ -74,7 +74,10 @@ impl Evaluator<'_> {
         self.lint_redeclared(main);
         unused.sort_by_key(|(_, site, _)| site.span);
         for (name, site, diagnostic) in unused {
-            self.scene.unused.push((name, site));
+            let text = &self.sources.get(site.span.file).text;
+            let before = text[..site.span.start as usize].trim_end();
+            let word = ["macro", "local"].into_iter().find(|word| before.ends_with(word));
+            self.scene.unused.push((format!("#{} {name}", word.unwrap_or("declare")), site));
             self.diagnostics.push(diagnostic);
         }
     }
@@ -109,6 +112,18 @@ impl Evaluator<'_> {
             }
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// `#declare N = 3;` where `-D N=5` was given, and nothing has asked for that.
+    pub(super) fn lint_replaced_option(&mut self, here: &Here, target: &Target) {
+        let name = self.sources.text(target.span).to_owned();
+        let message = format!("`-D {name}` does nothing: the scene declares `{name}` itself");
+        let help =
+            format!("where the given value shall win: `#ifndef ({name}) … #end` around this");
+        let diagnostic = Diagnostic::new(Code::UnusedDeclaration, message)
+            .at(target.span, "replaced here, before anything asked for it")
+            .help(help);
+        self.report(here, diagnostic);
     }
 
     /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.

@@ -340,8 +340,7 @@ impl<'a> Evaluator<'a> {
             scopes.assign(symbol, predeclared(name));
         }
         for (name, value) in &options.declares {
-            let symbol = scopes.intern(name);
-            scopes.assign(symbol, Value::Number(*value));
+            scopes.give(name, Value::Number(*value));
         }
         Self {
             sources,

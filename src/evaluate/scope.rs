@@ -62,6 +62,8 @@ struct SymbolState {
     /// Newest last: the depth of the table, and the slot.
     bindings: Vec<(u32, Slot)>,
     declared: Option<Declared>,
+    /// Whether its value is from outside, and nothing has asked for it yet.
+    is_unread: bool,
 }
 
 /// All tables of one evaluation.
@@ -130,10 +132,8 @@ impl Scopes {
 
     /// The value of a name; reading it counts as a use.
     pub fn read(&mut self, symbol: Symbol) -> Option<&Value> {
-        let state = &mut self.states[symbol.0 as usize];
-        if let Some(declared) = &mut state.declared {
-            declared.used = true;
-        }
+        self.mark_used(symbol);
+        let state = &self.states[symbol.0 as usize];
         let &(_, slot) = state.bindings.last()?;
         self.value(slot)
     }
@@ -295,10 +295,25 @@ impl Scopes {
         self.states[symbol.0 as usize].declared.as_ref()
     }
 
+    #[inline]
     pub fn mark_used(&mut self, symbol: Symbol) {
-        if let Some(declared) = &mut self.states[symbol.0 as usize].declared {
+        let state = &mut self.states[symbol.0 as usize];
+        state.is_unread = false;
+        if let Some(declared) = &mut state.declared {
             declared.used = true;
         }
+    }
+
+    /// A value from outside the scene, which is there before its first line.
+    pub fn give(&mut self, name: &str, value: Value) {
+        let symbol = self.intern(name);
+        self.assign(symbol, value);
+        self.states[symbol.0 as usize].is_unread = true;
+    }
+
+    /// Whether a name was given a value from outside that nothing has asked for; told once.
+    pub fn take_unread(&mut self, symbol: Symbol) -> bool {
+        std::mem::take(&mut self.states[symbol.0 as usize].is_unread)
     }
 
     /// The names that have a value now, in the order they were first seen.
@@ -365,60 +380,4 @@ impl Scopes {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn number(scopes: &mut Scopes, symbol: Symbol) -> Option<f64> {
-        scopes.read(symbol).and_then(Value::as_number)
-    }
-
-    #[test]
-    fn a_local_hides_the_global_until_its_table_closes() {
-        let mut scopes = Scopes::default();
-        let a = scopes.intern("a");
-        scopes.assign(a, Value::Number(1.0));
-        scopes.open();
-        assert_eq!(number(&mut scopes, a), Some(1.0));
-        scopes.assign_local(a, Value::Number(2.0));
-        scopes.assign(a, Value::Number(3.0));
-        assert_eq!(number(&mut scopes, a), Some(3.0));
-        scopes.close();
-        assert_eq!(number(&mut scopes, a), Some(1.0));
-    }
-
-    #[test]
-    fn declare_in_a_macro_makes_a_global() {
-        let mut scopes = Scopes::default();
-        let a = scopes.intern("a");
-        scopes.open();
-        scopes.assign(a, Value::Number(1.0));
-        scopes.close();
-        assert_eq!(number(&mut scopes, a), Some(1.0));
-    }
-
-    #[test]
-    fn a_reference_passes_the_value_out() {
-        let mut scopes = Scopes::default();
-        let (a, p) = (scopes.intern("a"), scopes.intern("p"));
-        scopes.assign(a, Value::Number(1.0));
-        let slot = scopes.slot(a).expect("declared");
-        scopes.open();
-        scopes.bind(p, slot, false);
-        scopes.assign(p, Value::Number(9.0));
-        scopes.close();
-        assert_eq!(number(&mut scopes, a), Some(9.0));
-        assert_eq!(number(&mut scopes, p), None);
-    }
-
-    #[test]
-    fn an_undefined_name_is_gone() {
-        let mut scopes = Scopes::default();
-        let a = scopes.intern("a");
-        scopes.assign(a, Value::Number(1.0));
-        assert!(scopes.undefine(a));
-        assert!(!scopes.undefine(a));
-        assert_eq!(number(&mut scopes, a), None);
-        scopes.assign(a, Value::Number(2.0));
-        assert_eq!(number(&mut scopes, a), Some(2.0));
-    }
-}
+mod tests;

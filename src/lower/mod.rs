@@ -144,8 +144,8 @@ impl Lowering<'_, '_> {
         for &(word, site) in &scene.sizeless {
             self.drop_part(site, word, NO_SIZE);
         }
-        for (name, site) in &scene.unused {
-            let (what, why) = (format!("#declare {name}"), "nothing uses it".to_owned());
+        for (what, site) in &scene.unused {
+            let (what, why) = (what.clone(), "nothing uses it".to_owned());
             self.origins.dropped.push(Dropped { site: *site, what, why, calls: Vec::new() });
         }
     }

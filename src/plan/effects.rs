@@ -7,6 +7,7 @@
 use super::dropped::dropped;
 use super::kinds::kinds;
 use super::numerics::numerics;
+use super::print::count;
 use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
 use crate::world::{Light, Material, MaterialOrigin, Origins, Pigment, World};
@@ -160,7 +161,10 @@ impl Census<'_> {
         if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        let cost = format!("up to {} rays a camera ray", self.max_trace_level - 1);
+        // Where paths fork at clear surfaces there are more rays than surfaces in a row.
+        let forks = self.world.materials.iter().any(is_clear);
+        let what = if forks { "surfaces deep" } else { "rays a camera ray" };
+        let cost = format!("up to {} {what}", self.max_trace_level - 1);
         Ok((self.materials(reflects, |origin| &origin.reflection), cost))
     }
 
@@ -280,10 +284,6 @@ fn reflects(material: &Material) -> bool {
 
 fn is_clear(material: &Material) -> bool {
     material.pigment.is_clear()
-}
-
-fn count(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 #[cfg(test)]

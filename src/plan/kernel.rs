@@ -1,7 +1,7 @@
 //! The hot effects: those the tracer decides by a kernel of its own, not by a branch for each ray.
 //!
-//! **Invariant:** one piece of code, compiled once for each combination; at most three bits (a third,
-//! spans, comes with the solids that need them), sixteen kernels in all.
+//! **Invariant:** one piece of code, compiled once for each combination; two bits, at most three; at most
+//! sixteen kernels in all.
 
 /// Which kernel traces a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

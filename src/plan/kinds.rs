@@ -51,7 +51,11 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 }
                 Body::Mesh(_) => "a map and a tree of triangles a ray",
             };
-            (body.word(), cost)
+            let word = match body {
+                Body::Algebraic(surface) => surface.word(),
+                other => other.word(),
+            };
+            (word, cost)
         }
     }
 }

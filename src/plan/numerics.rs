@@ -25,7 +25,7 @@ pub struct Numerics {
     /// The greatest distance from the camera to a solid's centre, in that solid's least half
     /// widths: so many times the rounding of a coordinate is larger for it.
     pub farthest: Option<Measured>,
-    /// The first of each kind of shape that has no end, and so no half width.
+    /// The first of each kind of shape that has no end, or none that is known, and so no half width.
     pub endless: Vec<(&'static str, Option<Site>)>,
     /// Solids that are 2²⁶ times as long as thick, or more, in the order of the objects.
     pub thin: Vec<Thin>,

@@ -104,7 +104,7 @@ impl Printer<'_> {
         writeln!(out, "rays traced: {kernel}")?;
         let (on, off) = (plan.effects.len(), plan.left_out.len());
         let dropped = plan.dropped.len();
-        writeln!(out, "{on} effects on, {off} off, {} dropped", count(dropped, "part"))
+        writeln!(out, "{} on, {off} off, {} dropped", count(on, "effect"), count(dropped, "part"))
     }
 
     fn called(&self, out: &mut String, called: &Called) -> fmt::Result {
@@ -153,7 +153,7 @@ impl Printer<'_> {
             writeln!(out, "  farthest for its size: {value} half widths away{}", at(far))?;
         }
         for (word, site) in &numerics.endless {
-            writeln!(out, "  no half width: a {word} has no end{}", self.at(*site))?;
+            writeln!(out, "  no half width: {}{}", without_end(word), self.at(*site))?;
         }
         if self.plan.precision == Precision::Single && numerics.exceeds_single() {
             writeln!(out, "  {BEYOND_SINGLE}")?;
@@ -200,7 +200,10 @@ impl Printer<'_> {
     /// Rays a camera ray, as rays a pixel and of the whole picture.
     fn counted(&self, rays: f64) -> String {
         let each = rays * self.plan.camera_rays_a_pixel();
-        format!("{each:.2} a pixel, about {}", round(rays * self.plan.camera_rays()))
+        // A pilot that had to look less deep counts some of them only.
+        let is_short = self.plan.pilot.is_some_and(|pilot| pilot.depth.is_some());
+        let (least, about) = if is_short { ("at least ", "") } else { ("", "about ") };
+        format!("{least}{each:.2} a pixel, {about}{}", round(rays * self.plan.camera_rays()))
     }
 
     /// The first places, and how many more.
@@ -228,6 +231,14 @@ impl Printer<'_> {
     }
 }
 
+/// Why a kind of shape has no half width.
+pub fn without_end(word: &str) -> String {
+    match word {
+        "plane" => "a plane has no end".to_owned(),
+        _ => format!("where a {word} ends is not known"),
+    }
+}
+
 /// A number, as one part of so many where it is.
 pub fn part(value: f64) -> String {
     match 1.0 / value {
@@ -236,7 +247,8 @@ pub fn part(value: f64) -> String {
     }
 }
 
-fn count(n: usize, noun: &str) -> String {
+/// `1 part`, `2 parts`.
+pub(super) fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 

@@ -3,7 +3,11 @@
 //! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
 //! however far away. It may have no end, and begin inside.
 
+mod closed;
+
 use std::fmt::Write;
+
+use closed::Closed;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -20,6 +24,8 @@ pub struct Algebraic {
     terms: Vec<f64>,
     /// Their absolute values.
     sizes: Vec<f64>,
+    /// Where it ends, if that is known.
+    closed: Option<Closed>,
 }
 
 impl Algebraic {
@@ -27,7 +33,18 @@ impl Algebraic {
     pub fn new(degree: usize, terms: Vec<f64>) -> Option<Self> {
         let fits = degree <= MOST && terms.len() == count_of_terms(degree);
         let sizes = terms.iter().map(|term| term.abs()).collect();
-        fits.then_some(Self { degree, terms, sizes })
+        let closed = if degree == 2 { Closed::of(&terms) } else { None };
+        fits.then_some(Self { degree, terms, sizes, closed })
+    }
+
+    /// What the language calls it.
+    pub fn word(&self) -> &'static str {
+        match self.degree {
+            0..=2 => "quadric",
+            3 => "cubic",
+            4 => "quartic",
+            _ => "poly",
+        }
     }
 
     /// Its value at `start + s · step` as a polynomial in s, for the polynomial of these terms.
@@ -151,8 +168,9 @@ impl Local for Algebraic {
         Height { value, gradient, error }
     }
 
-    fn extent(&self, _: Vector) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let endless = (f64::NEG_INFINITY, f64::INFINITY);
+        self.closed.map_or(endless, |closed| closed.extent(along))
     }
 
     fn is_iterated(&self) -> bool {
@@ -160,7 +178,7 @@ impl Local for Algebraic {
     }
 
     fn reach(&self) -> f64 {
-        f64::INFINITY
+        self.closed.map_or(f64::INFINITY, |closed| closed.reach())
     }
 
     /// Its terms but those that are 0: ` 2·x^2·y`.

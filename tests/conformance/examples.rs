@@ -13,7 +13,7 @@ use std::sync::Mutex;
 
 use serde_json::Value;
 
-use super::{SCENES, files, is_installed};
+use super::{SCENES, files, is_installed, listed};
 
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
 
@@ -83,14 +83,7 @@ fn every_example_is_whole_or_lacks_what_the_list_says() {
         return;
     }
     let list = std::fs::read_to_string(LIST).unwrap_or_default();
-    let listed: BTreeMap<&str, (&str, Option<&str>)> = list
-        .lines()
-        .filter_map(|line| line.split_once(": "))
-        .map(|(name, rest)| match rest.split_once(" — ") {
-            Some((outcome, said)) => (name, (outcome, Some(said))),
-            None => (name, (rest, None)),
-        })
-        .collect();
+    let listed = listed(&list);
     let found = outcomes(&paths);
     let (mut text, mut wrong) = (String::new(), String::new());
     for (name, outcome) in &found {

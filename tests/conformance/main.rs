@@ -3,6 +3,7 @@
 //! Needs the Debian packages `povray-examples` and `povray-includes`; says so where they are missing,
 //! and fails there with `LUCARNE_CONFORMANCE=required`.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 mod examples;
@@ -39,4 +40,15 @@ fn is_installed(package: &str, files: &[PathBuf]) -> bool {
         println!("not checked: the package `{package}` is not installed");
     }
     !files.is_empty()
+}
+
+/// A list's lines by scene: what becomes of it, and what is said of that after `—`.
+fn listed(list: &str) -> BTreeMap<&str, (&str, Option<&str>)> {
+    let lines = list.lines().filter_map(|line| line.split_once(": "));
+    lines
+        .map(|(name, rest)| match rest.split_once(" — ") {
+            Some((outcome, said)) => (name, (outcome, Some(said))),
+            None => (name, (rest, None)),
+        })
+        .collect()
 }

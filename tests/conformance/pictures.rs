@@ -8,7 +8,6 @@
 //! **Source:** P. Andersson et al., "FLIP: a difference evaluator for alternating images", Proceedings of the
 //! ACM on Computer Graphics and Interactive Techniques 3 (2020).
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -18,7 +17,7 @@ use nv_flip::{
     DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut,
 };
 
-use super::{SCENES, is_installed};
+use super::{SCENES, is_installed, listed};
 
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/pictures.list");
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
@@ -118,14 +117,7 @@ fn every_example_that_is_whole_looks_as_the_list_says() {
         return;
     }
     let list = std::fs::read_to_string(LIST).unwrap_or_default();
-    let listed: BTreeMap<&str, (&str, Option<&str>)> = list
-        .lines()
-        .filter_map(|line| line.split_once(": "))
-        .map(|(name, rest)| match rest.split_once(" — ") {
-            Some((outcome, said)) => (name, (outcome, Some(said))),
-            None => (name, (rest, None)),
-        })
-        .collect();
+    let listed = listed(&list);
     let is_set = |name: &str| std::env::var_os(name).is_some();
     let update = is_set("LUCARNE_UPDATE");
     let step = if update || is_set("LUCARNE_LONG") { 1 } else { 6 };

@@ -177,3 +177,50 @@ fn a_surface_of_all_degrees_has_the_gradient_of_its_value() {
         assert!((slope - told).abs() <= 1e-6 * (1.0 + told.abs()), "{degree}: {slope} {told}");
     }
 }
+
+#[test]
+fn a_closed_quadric_lies_within_its_extent_and_its_reach_and_nearly_fills_them() {
+    let mut random = Random(41);
+    for case in 0..tries_in(500) {
+        // (P − c)ᵀ·M·Mᵀ·(P − c) = r², written out.
+        let columns = [0; 3].map(|_| random.point(1.0));
+        let form = Matrix::from_cols(columns[0], columns[1], columns[2]);
+        let form = form * form.transpose() + Matrix::from_diagonal(Vector::splat(1e-3));
+        let centre = random.point(5.0);
+        let linear = form * centre * -2.0;
+        let constant = centre.dot(form * centre) - random.number(0.1, 4.0);
+        let [x, y, z] = [form.x_axis, form.y_axis, form.z_axis];
+        let terms = [
+            x.x,
+            2.0 * x.y,
+            2.0 * x.z,
+            linear.x,
+            y.y,
+            2.0 * y.z,
+            linear.y,
+            z.z,
+            linear.z,
+            constant,
+        ];
+        let surface = Algebraic::new(2, terms.to_vec()).expect("ten terms");
+        let along = random.point(1.0);
+        let (low, high) = surface.extent(along);
+        assert!(low.is_finite() && high.is_finite(), "{surface:?}");
+        // Where it is farthest along: there the gradient is parallel to `along`.
+        let depth = centre.dot(form * centre) - constant;
+        let way = form.inverse() * along;
+        let half = (depth * along.dot(way)).sqrt();
+        let exact = (along.dot(centre) - half, along.dot(centre) + half);
+        assert!(low <= exact.0 && exact.1 <= high, "{case}: {low} {high} {exact:?}");
+        assert!(high - low <= 2.0 * half * (1.0 + 1e-3), "{case}: {low} {high} {exact:?}");
+        for sign in [-1.0, 1.0] {
+            let point = centre + way * (sign * depth / half);
+            assert!(point.length() <= surface.reach(), "{case}: {point}");
+        }
+    }
+    let open = [[1.0, 1.0, -1.0], [1.0, 0.0, 1.0], [1.0, 1e-7, 1.0], [-1.0, -1.0, -1.0]];
+    for [a, b, c] in open {
+        let surface = surface(2, &squares(a, b, c, -1.0));
+        assert_eq!(surface.extent(Vector::X), (f64::NEG_INFINITY, f64::INFINITY));
+    }
+}

@@ -284,6 +284,15 @@ fn an_open_isosurface_ends_where_nothing_is_seen_and_a_closed_one_at_its_contain
     assert!(met(&bar(true), &across).iter().all(Met::is_seen));
 }
 
+/// Through the middle.
+const ALONG_X: LocalRay = LocalRay {
+    nearest: Vector::ZERO,
+    direction: Vector::X,
+    blur: 1e-16,
+    turn: 1e-16,
+    tolerance: 0.0,
+};
+
 #[test]
 fn what_is_undefined_is_no_surface_and_stops_no_search() {
     // √(x) − 0.5, which is no number where x < 0; and what is zero throughout.
@@ -291,17 +300,10 @@ fn what_is_undefined_is_no_surface_and_stops_no_search() {
         let root = f.one(Unary::Sqrt, x);
         f.less(root, 0.5)
     });
-    let ray = LocalRay {
-        nearest: Vector::ZERO,
-        direction: Vector::X,
-        blur: 1e-16,
-        turn: 1e-16,
-        tolerance: 0.0,
-    };
-    let all = met(&surface(half, Container::Box(Vector::ONE)), &ray);
+    let all = met(&surface(half, Container::Box(Vector::ONE)), &ALONG_X);
     assert!((all.last().expect("left").t - 0.25).abs() < 1e-12, "{all:?}");
     let zero = function(|f, [x, ..]| f.times(x, 0.0));
-    assert!(met(&surface(zero, Container::Box(Vector::ONE)), &ray).is_empty());
+    assert!(met(&surface(zero, Container::Box(Vector::ONE)), &ALONG_X).is_empty());
 }
 
 #[test]
@@ -313,14 +315,7 @@ fn a_surface_touching_its_container_from_inside_is_whole() {
         }),
         Container::Box(Vector::ONE),
     );
-    let ray = LocalRay {
-        nearest: Vector::ZERO,
-        direction: Vector::X,
-        blur: 1e-16,
-        turn: 1e-16,
-        tolerance: 0.0,
-    };
-    let all = met(&touching, &ray);
+    let all = met(&touching, &ALONG_X);
     assert_eq!(all.len(), 2, "{all:?}");
     assert!(
         all.iter().all(|met| (met.t.abs() - 1.0).abs() <= met.error && met.error < 1e-12),
