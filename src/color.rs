@@ -231,6 +231,15 @@ impl Gamma {
             Self::Srgb => encoded,
         }
     }
+
+    /// The component that stands for light of 0 to 1: the inverse of [`Gamma::linear`].
+    pub fn of_light(self, light: f64) -> f64 {
+        match self {
+            Self::Power(1.0) => light,
+            Self::Power(exponent) => pow(light.max(0.0), 1.0 / exponent),
+            Self::Srgb => srgb_encode(light),
+        }
+    }
 }
 
 impl Default for Gamma {

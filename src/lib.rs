@@ -19,6 +19,7 @@ pub mod function;
 pub mod geometry;
 pub mod lower;
 pub mod math;
+pub mod mesh_file;
 pub mod noise;
 pub mod pattern;
 pub mod picture;

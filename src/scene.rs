@@ -12,6 +12,8 @@ pub mod print;
 pub mod solid;
 pub mod sweep;
 
+use std::sync::Arc;
+
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
@@ -184,6 +186,8 @@ impl Pigment {
 pub enum PigmentKind {
     Color(Color),
     Patterned { pattern: Pattern, map: ColorMap },
+    /// Each face of the mesh has its own, of these: `mesh::Face::paint`. At least one.
+    Faces(Arc<[Color]>),
 }
 
 /// Colours over pattern values; entries sorted by value, at least one. Between two entries the

@@ -8,6 +8,8 @@ pub mod pigment;
 pub mod print;
 mod solid;
 
+use std::sync::Arc;
+
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
@@ -226,16 +228,19 @@ pub enum Pigment {
         /// Sorted by value; at least one entry.
         map: Vec<(f64, Color)>,
     },
+    /// The colours of a mesh's faces, by their corners: `shape::mesh::Skin::paint`. At least two.
+    Faces(Arc<[Color]>),
 }
 
 impl Pigment {
     /// Its colours, without their places.
     pub fn colors(&self) -> impl Iterator<Item = Color> {
-        let (one, map) = match self {
-            Self::Color(color) => (Some(*color), &[][..]),
-            Self::Patterned { map, .. } => (None, map.as_slice()),
+        let (some, map) = match self {
+            Self::Color(color) => (std::slice::from_ref(color), &[][..]),
+            Self::Patterned { map, .. } => (&[][..], map.as_slice()),
+            Self::Faces(colors) => (&colors[..], &[][..]),
         };
-        one.into_iter().chain(map.iter().map(|(_, color)| *color))
+        some.iter().copied().chain(map.iter().map(|(_, color)| *color))
     }
 
     /// Whether light goes through in any place.

@@ -130,6 +130,8 @@ codes! {
     CircularInclude "circular-include" error "a file includes itself";
     ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
     ForeignFile "foreign-file" error "a file is another program's, and no scene";
+    MalformedMesh "malformed-mesh" error "a mesh's file is not what its format says, or of no format that is read";
+    IncompleteMesh "incomplete-mesh" lint "a mesh's file asks for what is not there, or not read";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";

@@ -19,6 +19,7 @@ mod file;
 mod formula;
 mod function;
 mod include;
+mod limits;
 mod lint;
 mod probe;
 mod remembered;
@@ -54,6 +55,7 @@ use crate::vocabulary::PREDECLARED;
 use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
+pub use limits::Limits;
 use remembered::Remembered;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Hold, Silent, Token};
@@ -86,45 +88,6 @@ impl Default for EvaluateOptions {
             now: 0.0,
             frame_number: 0.0,
             limits: Limits::default(),
-        }
-    }
-}
-
-/// What stops a scene that would never end, or not in this machine's memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
-    /// macros be called.
-    pub loop_turns: u64,
-    /// Macro calls inside each other.
-    pub macro_depth: u32,
-    /// Includes inside each other.
-    pub include_depth: u32,
-    /// Brackets and directives inside each other, in one file; and `#declare`s that wait for the values
-    /// of each other.
-    pub nesting: u32,
-    /// Objects of the scene, declared ones included.
-    pub objects: u64,
-    /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
-    pub memory: u64,
-    /// MiB of one string.
-    pub string: u64,
-}
-
-impl Limits {
-    pub const TOGETHER: u64 = 4;
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            loop_turns: 1_000_000,
-            macro_depth: 1_000,
-            include_depth: 64,
-            nesting: 1_000,
-            objects: 5_000_000,
-            memory: 2_048,
-            string: 16,
         }
     }
 }
@@ -246,6 +209,8 @@ struct Evaluator<'a> {
     parsed: HashMap<String, Rc<Unit>>,
     /// The name that a file was found under, by what an including file calls it.
     found: HashMap<(String, FileId), String>,
+    /// What meshes were read from files.
+    meshes: block::MeshFiles,
     /// The names of the files that include each other now.
     including: Vec<String>,
     default_texture: TextureId,
@@ -370,6 +335,7 @@ impl<'a> Evaluator<'a> {
             calls_wait: false,
             parsed: HashMap::new(),
             found: HashMap::new(),
+            meshes: block::MeshFiles::default(),
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,

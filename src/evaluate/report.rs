@@ -234,6 +234,12 @@ impl Evaluator<'_> {
         held >> 20 < self.options.limits.memory
     }
 
+    /// How many bytes more may be remembered.
+    pub(super) fn memory_left(&self) -> u64 {
+        let held = self.stored.saturating_add(self.scopes.held());
+        (self.options.limits.memory << 20).saturating_sub(held)
+    }
+
     /// Nothing further is evaluated.
     #[cold]
     pub(super) fn too_much_memory(&mut self, here: &Here, span: Span) -> Reported {

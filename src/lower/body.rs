@@ -16,7 +16,7 @@ use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::Container;
 use crate::scene::mesh::Triangles;
 use crate::shape::isosurface;
-use crate::shape::mesh::Face;
+use crate::shape::mesh::{Face, Skin};
 use crate::shape::{
     Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Ovus, Parametric, Placed,
     Superellipsoid, Torus,
@@ -221,11 +221,25 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     let unit =
         |normal: &Vector| UnitVector::from_direction(*normal).map_or(Vector::ZERO, |n| n.get());
     let normals = triangles.normals.iter().map(unit).collect();
-    let body = Mesh::new(corners, normals, faces.collect(), inside);
+    let body = Mesh::with_skin(corners, normals, faces.collect(), inside, skin(triangles));
     let size = Double::from(2.0 * size);
     let columns = [0, 1, 2].map(|axis| DoubleVector::axis(axis) * size);
     let frame = Affine::from_columns(columns, exact(middle));
     Ok(body.map(|mesh| (Body::Mesh(mesh), frame)))
+}
+
+/// What the faces are painted with.
+fn skin(triangles: &Triangles) -> Skin {
+    let Triangles { faces, uvs, .. } = triangles;
+    let mut skin = Skin::default();
+    if faces.iter().any(|face| face.paint.is_some()) {
+        skin.paint = faces.iter().map(|face| face.paint.unwrap_or(Skin::BARE)).collect();
+    }
+    if faces.iter().any(|face| face.uvs.is_some()) {
+        skin.places = faces.iter().map(|face| face.uvs.unwrap_or(Skin::BARE)).collect();
+        skin.uvs.clone_from(uvs);
+    }
+    skin
 }
 
 /// A body under a map, as it stands in the world.

@@ -7,7 +7,6 @@ use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::CameraItemKind;
 use crate::source::Site;
-use crate::world::Pigment;
 
 /// What a white surface gives off by default: it tells shapes apart from black, and no more.
 pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
@@ -155,10 +154,7 @@ impl Lowering<'_, '_> {
     fn glows(&self) -> bool {
         self.world.materials.iter().any(|material| {
             let bright = |color: Rgb| (color * material.finish.glow).largest() > DEFAULT_AMBIENT;
-            match &material.pigment {
-                Pigment::Color(color) => bright(color.rgb),
-                Pigment::Patterned { map, .. } => map.iter().any(|(_, color)| bright(color.rgb)),
-            }
+            material.pigment.colors().any(|color| bright(color.rgb))
         })
     }
 }

@@ -320,6 +320,11 @@ fn lower_pattern(pattern: Pattern) -> Pattern {
 pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(*color),
+        PigmentKind::Faces(colors) => match &colors[..] {
+            [] => Pigment::Color(Color::BLACK),
+            [color] => Pigment::Color(*color),
+            _ => Pigment::Faces(colors.clone()),
+        },
         PigmentKind::Patterned { pattern, map: colors } => match colors.lone_color() {
             Some(color) => Pigment::Color(color),
             None => Pigment::Patterned {
@@ -329,15 +334,15 @@ pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fau
             },
         },
     };
-    let entries = match &pigment {
-        Pigment::Color(color) => &[(0.0, *color)][..],
-        Pigment::Patterned { map, .. } => map,
+    let places = match &pigment {
+        Pigment::Patterned { map, .. } => map.as_slice(),
+        Pigment::Color(_) | Pigment::Faces(_) => &[],
     };
-    for (value, color) in entries {
-        let numbers = [*value, color.filter, color.transmit];
-        if !color.rgb.is_finite() || numbers.iter().any(|n| !n.is_finite()) {
-            return Err(Fault::not_finite("this pigment"));
-        }
+    let is_finite = |color: Color| {
+        color.rgb.is_finite() && color.filter.is_finite() && color.transmit.is_finite()
+    };
+    if !pigment.colors().all(is_finite) || places.iter().any(|(value, _)| !value.is_finite()) {
+        return Err(Fault::not_finite("this pigment"));
     }
     Ok(pigment)
 }
@@ -352,6 +357,7 @@ fn telling_numbers(material: &Material) -> [u64; 6] {
     let color = match &material.pigment {
         Pigment::Color(color) => *color,
         Pigment::Patterned { map, .. } => map.first().map_or(Color::BLACK, |(_, color)| *color),
+        Pigment::Faces(colors) => colors.first().copied().unwrap_or(Color::BLACK),
     };
     let [red, green, blue] = color.rgb.components();
     let Finish { glow, diffuse, ref lobes, .. } = material.finish;

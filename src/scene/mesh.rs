@@ -8,6 +8,8 @@ pub struct Triangles {
     pub vertices: Vec<Vector>,
     /// Of any length.
     pub normals: Vec<Vector>,
+    /// Places in a texture.
+    pub uvs: Vec<[f64; 2]>,
     /// Their indices are those of entries.
     pub faces: Vec<Face>,
     /// `inside_vector`: it has an inside. Any length but zero.
@@ -20,12 +22,17 @@ pub struct Face {
     pub vertices: [u32; 3],
     /// `None` where it is flat.
     pub normals: Option<[u32; 3]>,
+    /// What each corner is painted with, of a list that the mesh's pigment is; `None` where that is not
+    /// said.
+    pub paint: Option<[u32; 3]>,
+    pub uvs: Option<[u32; 3]>,
 }
 
 impl Triangles {
     /// How many bytes it holds.
     pub fn bytes(&self) -> u64 {
-        let Self { vertices, normals, faces, .. } = self;
-        (size_of_val(&vertices[..]) + size_of_val(&normals[..]) + size_of_val(&faces[..])) as u64
+        let Self { vertices, normals, uvs, faces, .. } = self;
+        let points = size_of_val(&vertices[..]) + size_of_val(&normals[..]);
+        (points + size_of_val(&uvs[..]) + size_of_val(&faces[..])) as u64
     }
 }

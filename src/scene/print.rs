@@ -182,6 +182,9 @@ impl Printer<'_> {
         let pigment = &self.scene.pigments[id.index()];
         match &pigment.kind {
             PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", c)?,
+            PigmentKind::Faces(colors) => {
+                writeln!(out, "{indent}pigment of {} colors by faces", colors.len())?;
+            }
             PigmentKind::Patterned { pattern, map } => {
                 let name = match pattern {
                     Pattern::Checker => "checker".to_owned(),

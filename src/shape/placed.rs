@@ -82,6 +82,12 @@ impl Placed {
         Some(UnitVector::from_direction(self.placement.world_normal(normal))?.get())
     }
 
+    /// Of a painted mesh, what a point of its surface is painted with, and how much of each.
+    pub fn paint(&self, surface: &SurfacePoint) -> Option<[(u32, f64); 3]> {
+        let Body::Mesh(mesh) = &*self.body else { return None };
+        mesh.paint(surface.face, self.placement.local_point(surface.point))
+    }
+
     /// How long the local gradient is of which this is the world's.
     fn steepness(&self, gradient: Vector) -> f64 {
         (self.placement.world_from_local.transpose() * gradient).length()

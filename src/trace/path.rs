@@ -395,7 +395,7 @@ impl<'a> Tracer<'a> {
         let object = &self.world.objects[hit.object as usize];
         let color = match &self.world.materials[object.material as usize].pigment {
             Pigment::Color(color) => *color,
-            patterned @ Pigment::Patterned { .. } => {
+            patterned @ (Pigment::Patterned { .. } | Pigment::Faces(_)) => {
                 let surface = geometry::surface(self.world, ray, hit);
                 pigment::on_surface(self, patterned, ray, hit, &surface)
             }

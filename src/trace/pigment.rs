@@ -7,7 +7,7 @@ use super::path::Tracer;
 use crate::color::Color;
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
-use crate::shape::{Ray, SurfacePoint};
+use crate::shape::{Ray, Shape, SurfacePoint};
 use crate::world::pigment::at;
 use crate::world::{Pigment, World};
 
@@ -22,7 +22,9 @@ pub(super) fn on_surface(
 ) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
-        Pigment::Patterned { .. } => patterned(tracer, pigment, *ray, *hit, *surface),
+        Pigment::Patterned { .. } | Pigment::Faces(_) => {
+            patterned(tracer, pigment, *ray, *hit, *surface)
+        }
     }
 }
 
@@ -37,9 +39,28 @@ fn patterned(
     surface: SurfacePoint,
 ) -> Color {
     let world = tracer.world;
+    if let Pigment::Faces(colors) = pigment {
+        return of_face(world, colors, &hit, &surface);
+    }
     let is_sharp = tracer.sharpness.on_surface(&ray, &hit, &surface);
     let error = || texture_error(world, &ray, &hit, &surface);
     at(pigment, texture_point(world, &hit, &surface), is_sharp, error)
+}
+
+/// The colours of the corners of the face that was hit, as much of each as they are near.
+fn of_face(world: &World, colors: &[Color], hit: &Hit, surface: &SurfacePoint) -> Color {
+    let Shape::Placed(placed) = world.objects[hit.object as usize].shape else {
+        return Color::BLACK;
+    };
+    let Some(paint) = world.placed[placed as usize].paint(surface) else { return Color::BLACK };
+    let mut sum = Color::default();
+    for (index, weight) in paint {
+        let Some(color) = colors.get(index as usize).filter(|_| weight > 0.0) else { continue };
+        sum.rgb += color.rgb * weight;
+        sum.filter += color.filter * weight;
+        sum.transmit += color.transmit * weight;
+    }
+    sum
 }
 
 /// The hit in the texture's space; on a flat face the coordinates that are constant there are taken

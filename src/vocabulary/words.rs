@@ -80,6 +80,7 @@ vocabulary! {
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
         Evaluate "evaluate" statement inert "lets an isosurface learn its slope; it is known here";
         FaceIndices "face_indices" statement built "the triangles of a mesh2, as indices of vertices";
+        File "file" statement built in Mesh "`file \"name\"`: a mesh that is a `.ply`, `.obj`, `.stl`, `.gltf` or `.glb` file";
         Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";

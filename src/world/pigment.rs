@@ -19,6 +19,8 @@ pub fn at(
 ) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
+        // Which it is no point tells.
+        Pigment::Faces(colors) => colors.first().copied().unwrap_or(Color::BLACK),
         Pigment::Patterned { pattern, pattern_from_texture: map, map: colors } => {
             let place = map.point(point);
             let off_seams = if is_sharp { pattern.value_off_seams(place) } else { None };

@@ -256,6 +256,7 @@ fn faces(out: &mut String, solid: &Box_) -> fmt::Result {
 fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
     match pigment {
         Pigment::Color(c) => writeln!(out, "{indent}color {}", c),
+        Pigment::Faces(colors) => writeln!(out, "{indent}{} colors by faces", colors.len()),
         Pigment::Patterned { pattern, pattern_from_texture, map } => {
             let name = match pattern {
                 Pattern::Checker => "checker".to_owned(),

@@ -34,6 +34,7 @@ mod unexpected;
 mod unknown;
 
 pub(super) use habit::color_of_string;
+pub(super) use mesh::MeshFiles;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};

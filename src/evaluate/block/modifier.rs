@@ -17,7 +17,9 @@ impl Evaluator<'_> {
         used: Option<ObjectId>,
         modifiers: &mut Vec<Modifier>,
     ) -> Outcome<()> {
-        let mut textured = used.is_some_and(|used| self.made[used.index()].textured);
+        let is_texture = |modifier: &Modifier| matches!(modifier.kind, ModifierKind::Texture(_));
+        let mut textured = used.is_some_and(|used| self.made[used.index()].textured)
+            || modifiers.iter().any(is_texture);
         let place = || match word.family() {
             Family::Csg => Place::csg(word),
             _ => Place::shape(word),

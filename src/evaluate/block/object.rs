@@ -94,6 +94,7 @@ impl Evaluator<'_> {
             if kind.is_err() {
                 evaluator.skip_parts();
             }
+            modifiers.extend(evaluator.paint_of_file());
             let used = match kind {
                 Ok(ObjectKind::Use(used)) => Some(used),
                 _ => None,

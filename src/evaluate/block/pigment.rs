@@ -30,7 +30,7 @@ fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
         PigmentKind::Patterned { map, .. } if map.lone_color().is_none() => {
             std::mem::take(&mut pigment.pattern)
         }
-        PigmentKind::Patterned { .. } | PigmentKind::Color(_) => Vec::new(),
+        PigmentKind::Patterned { .. } | PigmentKind::Color(_) | PigmentKind::Faces(_) => Vec::new(),
     }
 }
 
@@ -81,8 +81,8 @@ impl Evaluator<'_> {
                 Ok(())
             }
             // The pattern is one that is not built.
-            PigmentKind::Color(_) if self.poison.is_some() => Ok(()),
-            PigmentKind::Color(_) => {
+            PigmentKind::Color(_) | PigmentKind::Faces(_) if self.poison.is_some() => Ok(()),
+            PigmentKind::Color(_) | PigmentKind::Faces(_) => {
                 let diagnostic = Diagnostic::new(
                     Code::MissingPart,
                     "a `color_map` needs a pattern in its pigment",
@@ -155,6 +155,7 @@ impl Evaluator<'_> {
         let map = match &pigment.kind {
             PigmentKind::Patterned { map, .. } => size_of_val(&map.0[..]),
             PigmentKind::Color(_) => 0,
+            PigmentKind::Faces(colors) => size_of_val(&colors[..]),
         };
         let lists =
             map + 2 * size_of_val(&pigment.transforms[..]) + size_of_val(&pigment.pattern[..]);

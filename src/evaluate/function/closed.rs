@@ -52,6 +52,8 @@ fn asking(id: FunctionId, parameters: usize) -> Option<Function> {
 fn mapped(pigment: &Pigment, component: usize) -> Asked {
     match pigment {
         Pigment::Color(color) => Asked::Constant(part(color.single(), component)),
+        // It belongs to a mesh alone.
+        Pigment::Faces(_) => Asked::Constant(0.0),
         Pigment::Patterned { pattern, pattern_from_texture, map } => Asked::Pattern {
             pattern: *pattern,
             pattern_from_point: *pattern_from_texture,

@@ -4,12 +4,14 @@
 //! of a closed mesh an even number of them.
 
 mod pierce;
+mod skin;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use pierce::View;
+pub use skin::Skin;
 
 /// Three corners in a row: the surface faces an eye that sees them turn left, where x points right, y up
 /// and z away. **Source:** POV-Ray 3.7's behaviour, asked by `trace`.
@@ -30,6 +32,7 @@ pub struct Mesh {
     /// In the order of the tree.
     pub(super) faces: Vec<Face>,
     tree: Tree,
+    skin: Skin,
     /// It is a solid: a point is inside from which this way leads out through an odd number of faces.
     pub(super) inside: Option<UnitVector>,
     reach: f64,
@@ -41,28 +44,44 @@ impl Mesh {
     pub fn new(
         corners: Vec<Vector>,
         normals: Vec<Vector>,
-        mut faces: Vec<Face>,
+        faces: Vec<Face>,
         inside: Option<UnitVector>,
     ) -> Option<Self> {
+        Self::with_skin(corners, normals, faces, inside, Skin::default())
+    }
+
+    /// With what its faces are painted with, a list of entries for each or for none.
+    pub fn with_skin(
+        corners: Vec<Vector>,
+        normals: Vec<Vector>,
+        faces: Vec<Face>,
+        inside: Option<UnitVector>,
+        skin: Skin,
+    ) -> Option<Self> {
         let holds = |list: &[Vector], all: [u32; 3]| all.iter().all(|&i| (i as usize) < list.len());
-        faces.retain(|face| {
+        let is_whole = |face: &Face| {
             holds(&corners, face.corners)
                 && face.normals.is_none_or(|all| holds(&normals, all))
                 && Flat::through(face.corners.map(|i| corners[i as usize])).is_some()
-        });
-        if faces.is_empty() {
+        };
+        let whole: Vec<u32> =
+            (0..faces.len() as u32).filter(|&i| is_whole(&faces[i as usize])).collect();
+        if whole.is_empty() {
             return None;
         }
         let bounds = |face: &Face| {
             let [a, b, c] = face.corners.map(|i| corners[i as usize]);
             Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }
         };
-        let (tree, order) = Tree::build(&faces.iter().map(bounds).collect::<Vec<_>>());
-        let faces: Vec<Face> = order.into_iter().map(|i| faces[i as usize]).collect();
+        let boxes: Vec<Bounds> = whole.iter().map(|&i| bounds(&faces[i as usize])).collect();
+        let (tree, order) = Tree::build(&boxes);
+        let order: Vec<u32> = order.into_iter().map(|i| whole[i as usize]).collect();
+        let faces: Vec<Face> = order.iter().map(|&i| faces[i as usize]).collect();
+        let skin = skin.in_order(&order);
         let used = faces.iter().flat_map(|face| face.corners);
         let reach = used.map(|i| corners[i as usize].length()).fold(0.0, f64::max);
         let reach = reach * (1.0 + 4.0 * U);
-        Some(Self { corners, normals, faces, tree, inside, reach })
+        Some(Self { corners, normals, faces, tree, skin, inside, reach })
     }
 
     /// Of the slenderest face: its longest side over its height there.
@@ -102,10 +121,7 @@ impl Mesh {
     fn smooth_normal(&self, part: u32, point: Vector) -> Option<Vector> {
         let face = self.faces.get(part as usize / 2)?;
         let normals = face.normals?.map(|i| self.normals[i as usize]);
-        let corners = self.corners_of(face);
-        let Flat { normal, .. } = Flat::through(corners)?;
-        let [a, b, c] = corners.map(|corner| corner - point);
-        let weights = [c.cross(b), a.cross(c), b.cross(a)].map(|area| area.dot(normal).max(0.0));
+        let weights = self.weights(part as usize / 2, point)?;
         Some(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
     }
 }
@@ -183,7 +199,9 @@ impl Local for Mesh {
 
     fn numbers(&self) -> String {
         let inside = if self.inside.is_some() { " solid" } else { "" };
-        format!(" of {}{inside}", self.faces.len())
+        let painted = if self.skin.paint.is_empty() { "" } else { " painted" };
+        let placed = if self.skin.places.is_empty() { "" } else { " with uv" };
+        format!(" of {}{inside}{painted}{placed}", self.faces.len())
     }
 
     fn contains(&self, point: Vector) -> bool {

@@ -1,0 +1,40 @@
+//! Limits: what stops a scene that would never end.
+
+/// What stops a scene that would never end, or not in this machine's memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
+    /// macros be called.
+    pub loop_turns: u64,
+    /// Macro calls inside each other.
+    pub macro_depth: u32,
+    /// Includes inside each other.
+    pub include_depth: u32,
+    /// Brackets and directives inside each other, in one file; and `#declare`s that wait for the values
+    /// of each other.
+    pub nesting: u32,
+    /// Objects of the scene, declared ones included.
+    pub objects: u64,
+    /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
+    pub memory: u64,
+    /// MiB of one string.
+    pub string: u64,
+}
+
+impl Limits {
+    pub const TOGETHER: u64 = 4;
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            loop_turns: 1_000_000,
+            macro_depth: 1_000,
+            include_depth: 64,
+            nesting: 1_000,
+            objects: 5_000_000,
+            memory: 2_048,
+            string: 16,
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! OBJ: vertices and faces, a statement a line; groups and objects are one mesh.
+//!
+//! It is read here. The crates that read it (tobj, obj, wobj, wavefront_obj) panic on some texts, give
+//! normals to the wrong corners where not all faces have them, or forget the material in a new group; and
+//! none says in which line an index is of nothing.
+//!
+//! **Source:** Alias|Wavefront, "Advanced Visualizer Manual", appendix B1 "Object Files"; the colours of
+//! vertices are MeshLab's and Blender's, in display values.
+
+use std::collections::HashMap;
+
+use super::build::{Builder, Corner};
+use super::material::{self, Material};
+use super::{Beside, Fault};
+use crate::color::srgb_decode;
+
+struct Reader<'b, 'f> {
+    builder: &'b mut Builder,
+    beside: &'b mut Beside<'f>,
+    materials: HashMap<String, Option<Material>>,
+    /// One for each vertex.
+    colors: Vec<Option<u32>>,
+    /// Of the material in use.
+    color: Option<u32>,
+    corners: Vec<Corner>,
+}
+
+pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> Result<(), Fault> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut reader = Reader {
+        builder,
+        beside,
+        materials: HashMap::new(),
+        colors: Vec::new(),
+        color: None,
+        corners: Vec::new(),
+    };
+    let mut begun = String::new();
+    for (number, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or("").trim();
+        // A line goes on where it ends with a backslash.
+        if let Some(part) = line.strip_suffix('\\') {
+            begun.push_str(part);
+            begun.push(' ');
+            continue;
+        }
+        let read = if begun.is_empty() {
+            reader.statement(line)
+        } else {
+            begun.push_str(line);
+            reader.statement(&std::mem::take(&mut begun))
+        };
+        // One in another file has its place there.
+        read.map_err(|fault| match fault.file {
+            Some(_) => fault,
+            None => fault.at(super::Place::Line(number + 1)),
+        })?;
+    }
+    Ok(())
+}
+
+impl Reader<'_, '_> {
+    fn statement(&mut self, line: &str) -> Result<(), Fault> {
+        let (word, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        match word {
+            "v" => self.vertex(rest),
+            "vn" => {
+                let [x, y, z] = numbers(rest, "a normal has three numbers")?;
+                self.builder.normal([x, y, z]).map(drop)
+            }
+            "vt" => {
+                let mut words = rest.split_whitespace().map(str::parse);
+                let (u, v) = (words.next(), words.next().unwrap_or(Ok(0.0)));
+                let (Some(Ok(u)), Ok(v)) = (u, v) else {
+                    return Err(Fault::new("a place in a texture has one number or more"));
+                };
+                self.builder.uv([u, v]).map(drop)
+            }
+            // An old word for the same.
+            "f" | "fo" => self.face(rest),
+            "mtllib" => self.library(rest.trim()),
+            "usemtl" => self.material(rest.trim()),
+            _ => Ok(()),
+        }
+    }
+
+    fn vertex(&mut self, rest: &str) -> Result<(), Fault> {
+        let all: Option<Vec<f64>> = rest.split_whitespace().map(|n| n.parse().ok()).collect();
+        let (place, color) = match all.as_deref() {
+            Some(&[x, y, z, red, green, blue, ..]) => ([x, y, z], Some([red, green, blue])),
+            Some(&[x, y, z, w, ..]) if w != 0.0 => ([x / w, y / w, z / w], None),
+            Some(&[x, y, z]) => ([x, y, z], None),
+            _ => return Err(Fault::new("a vertex has three numbers")),
+        };
+        self.builder.vertex(place)?;
+        let color = color.map(|rgb| self.builder.color(rgb.map(srgb_decode), 1.0));
+        self.colors.push(color.transpose()?);
+        Ok(())
+    }
+
+    fn face(&mut self, rest: &str) -> Result<(), Fault> {
+        let counts = self.builder.counts();
+        self.corners.clear();
+        for word in rest.split_whitespace() {
+            let mut parts = word.split('/');
+            let mut index = |which: usize| {
+                let part = parts.next().filter(|part| !part.is_empty());
+                part.map(|part| index(part, counts[which], which)).transpose()
+            };
+            let (vertex, uv, normal) = (index(0)?, index(2)?, index(1)?);
+            let vertex = vertex.ok_or_else(|| Fault::new("a corner has no vertex"))?;
+            let color = self.colors.get(vertex as usize).copied().flatten().or(self.color);
+            self.corners.push(Corner { vertex, normal, color, uv });
+        }
+        self.builder.polygon(&self.corners);
+        Ok(())
+    }
+
+    /// One that is not there costs the colours alone.
+    fn library(&mut self, name: &str) -> Result<(), Fault> {
+        match (self.beside)(name) {
+            Ok(bytes) => {
+                let text = String::from_utf8_lossy(&bytes);
+                let materials = material::read(&text).map_err(|fault| fault.in_file(name))?;
+                for (name, material) in materials {
+                    self.materials.entry(name).or_insert(material);
+                }
+            }
+            Err(reason) => {
+                self.builder.lacks(format!("its materials are missing: `{name}`, {reason}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn material(&mut self, name: &str) -> Result<(), Fault> {
+        self.color = match self.materials.get(name) {
+            Some(Some(material)) => {
+                if material.pictured {
+                    let pictures = "pictures on its surface are not read yet (`map_Kd`)";
+                    self.builder.lacks(pictures.to_owned());
+                }
+                Some(self.builder.color(material.rgb, material.alpha)?)
+            }
+            Some(None) | None => None,
+        };
+        Ok(())
+    }
+}
+
+fn numbers(text: &str, wanted: &str) -> Result<[f64; 3], Fault> {
+    let mut words = text.split_whitespace().map(str::parse);
+    match [words.next(), words.next(), words.next()] {
+        [Some(Ok(x)), Some(Ok(y)), Some(Ok(z))] => Ok([x, y, z]),
+        _ => Err(Fault::new(wanted)),
+    }
+}
+
+/// An index counts from 1, or backward from the last entry so far.
+fn index(text: &str, count: usize, which: usize) -> Result<u32, Fault> {
+    let what = ["vertices", "normals", "places in a texture"][which];
+    let number: i64 = text.parse().map_err(|_| Fault::new(format!("`{text}` is no index")))?;
+    let from_zero = if number < 0 { number.checked_add(count as i64) } else { number.checked_sub(1) };
+    let index = from_zero.and_then(|index| u32::try_from(index).ok());
+    index.filter(|&index| (index as usize) < count).ok_or_else(|| {
+        Fault::new(format!("index {number} is of nothing: there are {count} {what} before it"))
+    })
+}

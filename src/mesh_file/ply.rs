@@ -1,0 +1,291 @@
+//! PLY: elements with properties, as text or in binary of either order; the only file that names
+//! `ply_rs_bw`.
+//!
+//! Read are the `vertex` elements (x y z, nx ny nz, red green blue alpha, s t) and the `face` elements
+//! (vertex_indices, red green blue alpha). Colours of whole numbers are display values.
+//!
+//! **Source:** G. Turk, "The PLY Polygon File Format", 1994.
+
+use std::borrow::Cow;
+use std::io::Cursor;
+
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
+    ScalarType,
+};
+
+use super::build::{Builder, Corner};
+use super::{Fault, Place};
+use crate::color::srgb_decode;
+
+type Bytes<'b> = Reader<Cursor<&'b [u8]>>;
+
+pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
+    let bytes = &*with_plain_head(bytes);
+    let mut reader = Reader::new(Cursor::new(bytes));
+    let header = Parser::<Unread>::new().read_header(&mut reader).map_err(|e| told(&e))?;
+    let mut colors = Vec::new();
+    let mut has = Has { normals: false, uvs: false };
+    let mut has_faces = false;
+    for element in header.elements.values() {
+        check_count(element, &header, bytes.len() - reader.get_ref().position() as usize)?;
+        match element.name.as_str() {
+            "vertex" => {
+                let gives = |names: &[&str]| {
+                    names.iter().all(|name| element.properties.contains_key(*name))
+                };
+                if !gives(&["x", "y", "z"]) {
+                    return Err(Fault::new("its vertices have no x, y and z"));
+                }
+                has.normals = gives(&["nx", "ny", "nz"]);
+                has.uvs = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]].iter().any(|n| gives(n));
+                let vertices = elements::<Vertex>(&mut reader, element, &header)?;
+                for (number, vertex) in vertices.iter().enumerate() {
+                    colors.push(vertex.add(has, builder).map_err(|f| in_element("vertex", number, f))?);
+                }
+            }
+            "face" => {
+                has_faces = true;
+                let polygons = elements::<Polygon>(&mut reader, element, &header)?;
+                for (number, polygon) in polygons.iter().enumerate() {
+                    let added = polygon.add(&colors, has, builder);
+                    added.map_err(|fault| in_element("face", number, fault))?;
+                }
+            }
+            _ => drop(elements::<Unread>(&mut reader, element, &header)?),
+        }
+    }
+    match has_faces {
+        true => Ok(()),
+        false => Err(Fault::new("it has no `face` elements: points alone, or strips of triangles")),
+    }
+}
+
+fn in_element(what: &str, number: usize, fault: Fault) -> Fault {
+    Fault { reason: format!("{what} {number}: {}", fault.reason), ..fault }
+}
+
+/// Comments may be of any encoding; the crate reads UTF-8.
+fn with_plain_head(bytes: &[u8]) -> Cow<'_, [u8]> {
+    const END: &[u8] = b"end_header";
+    let end = bytes.windows(END.len()).position(|window| window == END).unwrap_or(bytes.len());
+    if bytes[..end].is_ascii() {
+        return Cow::Borrowed(bytes);
+    }
+    let mut bytes = bytes.to_vec();
+    bytes[..end].iter_mut().filter(|byte| !byte.is_ascii()).for_each(|byte| *byte = b'?');
+    Cow::Owned(bytes)
+}
+
+/// A binary element takes room, so there are no more of them than there is room for.
+fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(), Fault> {
+    let size = |scalar: &ScalarType| match scalar {
+        ScalarType::Char | ScalarType::UChar => 1,
+        ScalarType::Short | ScalarType::UShort => 2,
+        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
+        ScalarType::Double => 8,
+    };
+    let least: usize = match header.encoding {
+        // As a line.
+        Encoding::Ascii => 1,
+        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => {
+            let properties = element.properties.values();
+            let least = properties.map(|property| match &property.data_type {
+                PropertyType::Scalar(scalar) | PropertyType::List(scalar, _) => size(scalar),
+            });
+            least.sum()
+        }
+    };
+    match element.count.checked_mul(least.max(1)) {
+        Some(needed) if needed <= room + 1 => Ok(()),
+        _ => {
+            let ElementDef { name, count, .. } = element;
+            Err(Fault::new(format!("it is too short for {count} `{name}` elements")))
+        }
+    }
+}
+
+fn elements<E: PropertyAccess>(
+    reader: &mut Bytes,
+    element: &ElementDef,
+    header: &Header,
+) -> Result<Vec<E>, Fault> {
+    let read = Parser::<E>::new().read_payload_for_element(reader, element, header);
+    read.map_err(|error| match header.encoding {
+        Encoding::Ascii => told(&error),
+        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => {
+            let place = Place::Byte(reader.get_ref().position() as usize);
+            Fault { place: Some(place), ..told(&error) }
+        }
+    })
+}
+
+/// The first line of what the crate says.
+fn told(error: &ParseError) -> Fault {
+    let said = error.to_string();
+    let said = said.lines().next().unwrap_or("");
+    let place = error.line().map(Place::Line);
+    let said = error.line().and_then(|line| said.strip_prefix(&format!("Line {line}: "))).unwrap_or(said);
+    Fault { place, ..Fault::new(said.trim_end_matches('.')) }
+}
+
+/// An element of which nothing is kept.
+struct Unread;
+
+impl PropertyAccess for Unread {
+    fn new() -> Self {
+        Self
+    }
+}
+
+/// `red`, `green`, `blue` and `alpha`, display values of 0 to 1; NaN where one is not given.
+#[derive(Clone, Copy)]
+struct Paint([f64; 4]);
+
+impl Paint {
+    const NONE: Self = Self([f64::NAN; 4]);
+
+    fn set(&mut self, name: &str, number: &Property) {
+        let slot = match name {
+            "red" | "diffuse_red" | "r" => 0,
+            "green" | "diffuse_green" | "g" => 1,
+            "blue" | "diffuse_blue" | "b" => 2,
+            "alpha" | "a" => 3,
+            _ => return,
+        };
+        let most = match number {
+            Property::Float(_) | Property::Double(_) => 1.0,
+            Property::UShort(_) => 65_535.0,
+            // Whole numbers of other kinds hold the same 256 values.
+            _ => 255.0,
+        };
+        self.0[slot] = number_of(number) / most;
+    }
+
+    fn add(self, builder: &mut Builder) -> Result<Option<u32>, Fault> {
+        let [red, green, blue, alpha] = self.0;
+        if [red, green, blue].iter().any(|number| number.is_nan()) {
+            return Ok(None);
+        }
+        let alpha = if alpha.is_nan() { 1.0 } else { alpha };
+        builder.color([red, green, blue].map(srgb_decode), alpha).map(Some)
+    }
+}
+
+fn number_of(property: &Property) -> f64 {
+    match *property {
+        Property::Char(number) => f64::from(number),
+        Property::UChar(number) => f64::from(number),
+        Property::Short(number) => f64::from(number),
+        Property::UShort(number) => f64::from(number),
+        Property::Int(number) => f64::from(number),
+        Property::UInt(number) => f64::from(number),
+        Property::Float(number) => f64::from(number),
+        Property::Double(number) => number,
+        _ => f64::NAN,
+    }
+}
+
+/// x y z, nx ny nz, s t; NaN where one is not given.
+struct Vertex {
+    numbers: [f64; 8],
+    paint: Paint,
+}
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Self { numbers: [f64::NAN; 8], paint: Paint::NONE }
+    }
+
+    fn set_property(&mut self, name: &str, number: Property) -> PropertyAccessResult {
+        let slot = match name {
+            "x" => 0,
+            "y" => 1,
+            "z" => 2,
+            "nx" => 3,
+            "ny" => 4,
+            "nz" => 5,
+            "s" | "u" | "texture_u" => 6,
+            "t" | "v" | "texture_v" => 7,
+            _ => {
+                self.paint.set(name, &number);
+                return PropertyAccessResult::Set;
+            }
+        };
+        self.numbers[slot] = number_of(&number);
+        PropertyAccessResult::Set
+    }
+}
+
+/// Each of its lists has an entry for each vertex, or none has any.
+#[derive(Clone, Copy)]
+struct Has {
+    normals: bool,
+    uvs: bool,
+}
+
+impl Vertex {
+    /// Its colour.
+    fn add(&self, has: Has, builder: &mut Builder) -> Result<Option<u32>, Fault> {
+        let [x, y, z, nx, ny, nz, s, t] = self.numbers;
+        builder.vertex([x, y, z])?;
+        if has.normals {
+            builder.normal([nx, ny, nz])?;
+        }
+        if has.uvs {
+            builder.uv([s, t])?;
+        }
+        self.paint.add(builder)
+    }
+}
+
+struct Polygon {
+    /// −1 for what is no index.
+    vertices: Vec<i64>,
+    paint: Paint,
+}
+
+impl PropertyAccess for Polygon {
+    fn new() -> Self {
+        Self { vertices: Vec::new(), paint: Paint::NONE }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if !matches!(name, "vertex_indices" | "vertex_index") {
+            self.paint.set(name, &property);
+            return PropertyAccessResult::Set;
+        }
+        self.vertices = match property {
+            Property::ListChar(all) => all.into_iter().map(i64::from).collect(),
+            Property::ListUChar(all) => all.into_iter().map(i64::from).collect(),
+            Property::ListShort(all) => all.into_iter().map(i64::from).collect(),
+            Property::ListUShort(all) => all.into_iter().map(i64::from).collect(),
+            Property::ListInt(all) => all.into_iter().map(i64::from).collect(),
+            Property::ListUInt(all) => all.into_iter().map(i64::from).collect(),
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+impl Polygon {
+    /// Its own colour goes before those of its vertices.
+    fn add(&self, colors: &[Option<u32>], has: Has, builder: &mut Builder) -> Result<(), Fault> {
+        let own = self.paint.add(builder)?;
+        let corner = |&vertex: &i64| {
+            let color = usize::try_from(vertex).ok().and_then(|vertex| colors.get(vertex));
+            let Some(color) = color else {
+                let count = colors.len();
+                let message = format!("index {vertex} is of nothing: there are {count} vertices");
+                return Err(Fault::new(message));
+            };
+            let vertex = vertex as u32;
+            let (normal, uv) = (has.normals.then_some(vertex), has.uvs.then_some(vertex));
+            Ok(Corner { vertex, normal, color: own.or(*color), uv })
+        };
+        let corners: Vec<Corner> = self.vertices.iter().map(corner).collect::<Result<_, _>>()?;
+        builder.polygon(&corners);
+        Ok(())
+    }
+}

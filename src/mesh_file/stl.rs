@@ -1,0 +1,140 @@
+//! STL: triangles one by one, as text or in binary; the only file that names `stl_io`.
+//!
+//! A file is binary if it has the length that its count of triangles gives: many of those begin with the
+//! word `solid`, too. Its normals are those of the flat triangles, and tell nothing.
+//!
+//! **Source:** 3D Systems, "StereoLithography Interface Specification", 1989.
+
+use std::collections::HashMap;
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
+
+use stl_io::{Triangle, create_stl_reader};
+
+use super::build::{Builder, Corner};
+use super::{Fault, Place};
+
+/// A title and a count of 4 bytes, then 50 for each triangle.
+const HEAD: usize = 84;
+const EACH: usize = 50;
+
+pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
+    let mut soup = Soup { builder, known: HashMap::new() };
+    let is_text = bytes.trim_ascii_start().starts_with(b"solid") && length_told(bytes) != bytes.len();
+    if !is_text {
+        let title = bytes.get(HEAD - 4..).map(|rest| Pieces::new(&[b' '; HEAD - 4], rest, usize::MAX));
+        let mut pieces = title.ok_or_else(|| {
+            Fault::new("the file ends in the middle of its head").at(Place::Byte(bytes.len()))
+        })?;
+        return soup.read(&mut pieces).map_err(|fault| fault.at(Place::Byte(pieces.at)));
+    }
+    // A text may hold several solids.
+    let mut at = 0;
+    while let Some(head) = bytes[at..].split_inclusive(|byte| *byte == b'\n').next() {
+        if head.trim_ascii().is_empty() {
+            at += head.len();
+            continue;
+        }
+        if !head.trim_ascii_start().starts_with(b"solid") {
+            return Err(Fault::line(line_at(bytes, at), "expected `solid`"));
+        }
+        at += head.len();
+        // Of the line, the crate wants no more than the word and a blank.
+        let mut pieces = Pieces::new(b"solid \n", &bytes[at..], 1);
+        let outcome = soup.read(&mut pieces);
+        at += pieces.at - pieces.head.len().min(pieces.at);
+        // The line that was given last.
+        outcome.map_err(|fault| fault.at(Place::Line(line_at(bytes, at.saturating_sub(1)))))?;
+    }
+    Ok(())
+}
+
+/// The line of a byte, from 1.
+fn line_at(bytes: &[u8], at: usize) -> usize {
+    1 + bytes[..at].iter().filter(|byte| **byte == b'\n').count()
+}
+
+/// How long a binary file is by what it says.
+fn length_told(bytes: &[u8]) -> usize {
+    let count = bytes.get(HEAD - 4..HEAD).and_then(|count| count.try_into().ok());
+    let count = count.map_or(0, |count| u32::from_le_bytes(count) as usize);
+    HEAD.saturating_add(count.saturating_mul(EACH))
+}
+
+/// Triangles that know nothing of each other: equal corners become one vertex.
+struct Soup<'b> {
+    builder: &'b mut Builder,
+    known: HashMap<[u32; 3], u32>,
+}
+
+impl Soup<'_> {
+    fn read(&mut self, pieces: &mut Pieces) -> Result<(), Fault> {
+        let told = |error: io::Error| match error.kind() {
+            ErrorKind::UnexpectedEof => Fault::new("the file ends in the middle of a triangle"),
+            _ => Fault::new(error.to_string()),
+        };
+        let triangles = create_stl_reader(pieces).map_err(told)?;
+        for triangle in triangles {
+            self.add(&triangle.map_err(told)?)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, triangle: &Triangle) -> Result<(), Fault> {
+        let mut corners = [Corner::default(); 3];
+        for (corner, vertex) in corners.iter_mut().zip(&triangle.vertices) {
+            // Adding zero turns −0 into 0.
+            let key = vertex.0.map(|number| (number + 0.0).to_bits());
+            corner.vertex = match self.known.get(&key) {
+                Some(&known) => known,
+                None => {
+                    let new = self.builder.vertex(vertex.0.map(f64::from))?;
+                    self.known.insert(key, new);
+                    new
+                }
+            };
+        }
+        self.builder.triangle(corners);
+        Ok(())
+    }
+}
+
+/// Two texts as one, of which a line is given at a time: so what was given last is what was read last.
+struct Pieces<'t> {
+    head: &'t [u8],
+    rest: &'t [u8],
+    /// How far it was read.
+    at: usize,
+    lines: usize,
+}
+
+impl<'t> Pieces<'t> {
+    /// Gives about `lines` lines at once.
+    fn new(head: &'t [u8], rest: &'t [u8], lines: usize) -> Self {
+        Self { head, rest, at: 0, lines }
+    }
+}
+
+impl Read for Pieces<'_> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let left = match self.at.checked_sub(self.head.len()) {
+            None => &self.head[self.at..],
+            Some(at) => self.rest.get(at..).unwrap_or_default(),
+        };
+        let end = left.iter().position(|byte| *byte == b'\n').filter(|_| self.lines == 1);
+        let count = end.map_or(left.len(), |end| end + 1).min(into.len());
+        into[..count].copy_from_slice(&left[..count]);
+        self.at += count;
+        Ok(count)
+    }
+}
+
+impl Seek for Pieces<'_> {
+    /// To the start, from which the crate asks what it is.
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match to {
+            SeekFrom::Start(at) => self.at = at as usize,
+            SeekFrom::Current(_) | SeekFrom::End(_) => return Err(ErrorKind::Unsupported.into()),
+        }
+        Ok(self.at as u64)
+    }
+}
