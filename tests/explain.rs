@@ -38,6 +38,10 @@ fn codes(example: &Example) -> Vec<String> {
     fs::write(inside.join("deep.inc"), "#include \"deeper.inc\"\n").expect("written");
     fs::write(inside.join("deeper.inc"), "#include \"deepest.inc\"\n").expect("written");
     fs::write(inside.join("deepest.inc"), "\n").expect("written");
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    fs::write(inside.join("broken.obj"), format!("{corners}f 1 2 4\n")).expect("written");
+    let plain = format!("mtllib plain.mtl\n{corners}f 1 2 3\n");
+    fs::write(inside.join("plain.obj"), plain).expect("written");
     fs::write(folder.path().join("elsewhere.inc"), "\n").expect("written");
     let name = format!("example.{}", example.extension);
     let mut bytes = Vec::new();

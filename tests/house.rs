@@ -34,6 +34,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("film", &["color", "math", "plan"]),
     ("picture", &["color", "film"]),
     // verbs
+    ("mesh_file", &["color", "math", "scene"]),
     ("syntax", &["color", "source", "vocabulary", "diagnostic"]),
     (
         "lower",
@@ -58,6 +59,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "color",
             "diagnostic",
             "math",
+            "mesh_file",
             "noise",
             "pattern",
             "scene",
@@ -116,7 +118,10 @@ const DOORS: &[(&str, &[&str])] = &[
     ("stacker", &["evaluate/"]),
     ("image", &["picture"]),
     ("png", &["picture"]),
+    ("gltf", &["mesh_file/gltf2.rs"]),
+    ("ply_rs_bw", &["mesh_file/ply.rs"]),
     ("rayon", &["trace/"]),
+    ("stl_io", &["mesh_file/stl.rs"]),
     ("clap", &["cli/", "main.rs"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),

@@ -69,7 +69,9 @@ impl Files for Disk {
             return Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() });
         };
         let name = path.display().to_string();
-        if !self.formatted {
+        // A mesh is no scene.
+        let is_mesh = ["ply", "obj", "stl", "gltf", "glb"].iter().any(|end| name.ends_with(end));
+        if !self.formatted || is_mesh {
             return Ok(Found { name, bytes });
         }
         let mut known = LAID_OUT.lock().expect("no test fails while it holds this");

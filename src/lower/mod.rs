@@ -29,6 +29,7 @@ use std::sync::Arc;
 
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::scene::mesh::Triangles;
 use crate::scene::{ObjectId, Scene, TransformId};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
@@ -66,6 +67,7 @@ pub fn lower(
         unpainted: BTreeMap::new(),
         building: None,
         shared: BTreeMap::new(),
+        meshes: HashMap::new(),
         scene: &scene,
         options: *options,
     };
@@ -103,6 +105,8 @@ struct Lowering<'s, 'd> {
     /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of
     /// it.
     shared: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
+    /// The first object of those that have the same triangles.
+    meshes: HashMap<*const Triangles, ObjectId>,
 }
 
 impl Lowering<'_, '_> {

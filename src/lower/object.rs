@@ -290,6 +290,8 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::cylinder(ends, radius, open)?, here, site)
             }
             Solid::Triangles { ref triangles, .. } => {
+                // Those of a file may be named in many places.
+                let id = *self.meshes.entry(Arc::as_ptr(triangles)).or_insert(id);
                 self.place_stored(id, || body::mesh(triangles), here, site)
             }
             Solid::Blob(ref written) => {

@@ -54,7 +54,7 @@ fn binary_ply(big: bool) -> Vec<u8> {
     let float = |number: f32| if big { number.to_be_bytes() } else { number.to_le_bytes() };
     let int = |number: i32| if big { number.to_be_bytes() } else { number.to_le_bytes() };
     for (vertex, red) in [(O, 255), (X, 0), (XY, 0), (Y, 255)] {
-        vertex.map(|number| bytes.extend(float(number as f32)));
+        vertex.iter().for_each(|number| bytes.extend(float(*number as f32)));
         bytes.extend([red, 0, 0]);
     }
     bytes.push(4);
@@ -101,7 +101,7 @@ fn a_broken_ply_is_told_at_its_line_or_byte() {
     let three = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
     let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     let (place, reason) = at(&format!("{three}{faces}0 0 0\n1 0\n0 1 0\n3 0 1 2\n"));
-    assert_eq!(place, Some(Place::Line(10)), "{reason}");
+    assert_eq!(place, Some(Place::Line(11)), "{reason}");
     let (_, reason) = at(&format!("{three}{faces}0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"));
     assert_eq!(reason, "face 0: index 3 is of nothing: there are 3 vertices");
     let (place, _) = at("element vertex 3\nproperty floot x\nend_header\n");
@@ -158,7 +158,7 @@ fn a_broken_obj_is_told_at_its_line() {
         ("v 0 0 0\nf 1/9223372036854775807 1 1\n", 2, "is of nothing"),
         ("v 0 0 0\nf 1/-9223372036854775808 1 1\n", 2, "is of nothing"),
         ("v 0 0 0\nf 1 a 1\n", 2, "`a` is no index"),
-        ("v 0 0 0\nf /1 1 1\n", 2, "no vertex"),
+        ("v 0 0 0\nf / 1 1\n", 2, "no vertex"),
     ] {
         let (place, reason) = fault("a.obj", text);
         assert_eq!(place, Some(Place::Line(line)), "{text}: {reason}");

@@ -299,7 +299,7 @@ impl Written {
 fn pigment(scene: &Scene, index: usize) -> Option<Rgb> {
     match scene.pigments[index].kind {
         PigmentKind::Color(color) => Some(color.rgb),
-        PigmentKind::Patterned { .. } => None,
+        PigmentKind::Patterned { .. } | PigmentKind::Faces(_) => None,
     }
 }
 

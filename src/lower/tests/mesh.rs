@@ -9,20 +9,25 @@ use crate::scene::Dialect;
 use crate::shape::Ray;
 use crate::shape::body::Local;
 use crate::source::{FileError, Files, Found};
-use crate::world::World;
+use crate::world::{Material, Pigment, World};
 
-struct NoFiles;
+/// A triangle in three colours.
+struct OneFile;
 
-impl Files for NoFiles {
-    fn read(&self, _: &str, _: &str) -> Result<Found, FileError> {
-        Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })
+impl Files for OneFile {
+    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
+        let bytes = b"v 0 0 0 1 0 0\nv 4 0 0 0 1 0\nv 0 4 0 0 0 1\nf 1 2 3\n".to_vec();
+        match name {
+            "a.obj" => Ok(Found { name: name.to_owned(), bytes }),
+            _ => Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() }),
+        }
     }
 }
 
 /// The World, and the codes of what was said.
 fn world(text: &str) -> (World, Vec<&'static str>) {
     let text = format!("camera {{ location -9*z look_at 0 }}\n{text}");
-    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+    let mut road = Road::new(&OneFile, Options::new(Dialect::Scene));
     let file = road.read("a.scene", text.into_bytes());
     let ast = road.parse(file);
     let scene = road.evaluate(ast);
@@ -48,6 +53,36 @@ fn a_mesh_placed_ten_thousand_times_is_stored_once() {
     let first = &world.placed[0].body;
     assert!(world.placed.iter().all(|placed| Arc::ptr_eq(&placed.body, first)));
     assert_eq!(Arc::strong_count(first), 10_000);
+}
+
+#[test]
+fn a_mesh_from_a_file_named_ten_thousand_times_is_stored_once() {
+    let scene = "#for (I, 1, 5000) mesh { file \"a.obj\" translate I*x } #end
+        #declare M = mesh { file \"a.obj\" } #for (I, 1, 5000) object { M scale I } #end";
+    let (world, codes) = world(scene);
+    assert!(codes.is_empty(), "{codes:?}");
+    assert_eq!((world.placed.len(), world.materials.len()), (10_000, 1));
+    let first = &world.placed[0].body;
+    assert!(world.placed.iter().all(|placed| Arc::ptr_eq(&placed.body, first)));
+}
+
+#[test]
+fn the_colours_of_a_file_give_way_to_a_pigment_and_keep_a_finish() {
+    let (world, codes) = world(
+        "mesh { file \"a.obj\" finish { phong 1 } }
+        mesh { file \"a.obj\" pigment { rgb 1 } }
+        union { mesh { file \"a.obj\" } pigment { rgb 0.5 } }
+        #declare M = mesh { file \"a.obj\" } object { M pigment { rgb 0.25 } }",
+    );
+    assert!(codes.is_empty(), "{codes:?}");
+    let materials: Vec<&Material> =
+        world.objects.iter().map(|object| &world.materials[object.material as usize]).collect();
+    let is_colored = |material: &&Material| matches!(material.pigment, Pigment::Faces(_));
+    let colored: Vec<bool> = materials.iter().map(is_colored).collect();
+    assert_eq!(colored, [true, false, true, false]);
+    assert_eq!(materials[0].finish.lobes.len(), 1);
+    let Pigment::Faces(colors) = &materials[0].pigment else { unreachable!("it is colored") };
+    assert_eq!(colors.len(), 3);
 }
 
 #[test]

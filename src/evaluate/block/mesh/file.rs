@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::mesh_file::{self, Fault, Model};
 use crate::scene::mesh::Triangles;
 use crate::scene::{Modifier, ModifierKind, Pigment, PigmentId, PigmentKind, Solid, Texture};
-use crate::source::{FileError, FileId, Site, Span};
+use crate::source::{FileError, FileId, Site, Source, Span};
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
@@ -94,6 +94,8 @@ impl Evaluator<'_> {
         if let Some(read) = self.meshes.found.get(&found.name) {
             return Ok(read.clone());
         }
+        // It is no text, and has its name there alone.
+        self.sources.add(Source::new(found.name.clone(), ""));
         let mut beside = |other: &str| {
             let file = files.read(other, &found.name);
             file.map(|file| file.bytes).map_err(|error| match error {
