@@ -185,7 +185,10 @@ impl Pigment {
 #[derive(Debug, Clone, PartialEq)]
 pub enum PigmentKind {
     Color(Color),
-    Patterned { pattern: Pattern, map: ColorMap },
+    Patterned {
+        pattern: Pattern,
+        map: ColorMap,
+    },
     /// Each face of the mesh has its own, of these: `mesh::Face::paint`. At least one.
     Faces(Arc<[Color]>),
 }

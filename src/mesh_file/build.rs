@@ -153,7 +153,8 @@ impl Builder {
 
 /// Appends; the new entry's index.
 fn next<T>(list: &mut Vec<T>, entry: T) -> Result<u32, Fault> {
-    let index = u32::try_from(list.len()).map_err(|_| Fault::new("it has more than 2³² entries"))?;
+    let index =
+        u32::try_from(list.len()).map_err(|_| Fault::new("it has more than 2³² entries"))?;
     list.push(entry);
     Ok(index)
 }

@@ -160,7 +160,10 @@ impl Document<'_, '_> {
         }
         let mut waiting: Vec<(usize, Map)> = match scene {
             Some(scene) => scene.nodes.iter().map(|node| (node.value(), Map::IDENTITY)).collect(),
-            None => (0..root.nodes.len()).filter(|i| !is_child[*i]).map(|i| (i, Map::IDENTITY)).collect(),
+            None => (0..root.nodes.len())
+                .filter(|i| !is_child[*i])
+                .map(|i| (i, Map::IDENTITY))
+                .collect(),
         };
         // In written order.
         waiting.reverse();
@@ -189,7 +192,9 @@ impl Document<'_, '_> {
 
     fn primitive(&mut self, primitive: &Primitive, map: &Map) -> Result<(), Fault> {
         let mode = match primitive.mode {
-            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
+                mode
+            }
             _ => return Ok(()),
         };
         let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
@@ -202,7 +207,9 @@ impl Document<'_, '_> {
                 let (width, numbers) = self.numbers(index, widths)?;
                 let fits = numbers.len() / width == count;
                 fits.then_some(Some((width, numbers))).ok_or_else(|| {
-                    Fault::new("its vertices have more or fewer normals, colours or places than they are")
+                    Fault::new(
+                        "its vertices have more or fewer normals, colours or places than they are",
+                    )
                 })
             }
         };
@@ -239,7 +246,9 @@ impl Document<'_, '_> {
             Some(indices) => indices.into_iter().map(|index| index as usize).collect(),
         };
         if let Some(stray) = order.iter().find(|i| **i >= count) {
-            return Err(Fault::new(format!("index {stray} is of nothing: there are {count} vertices")));
+            return Err(Fault::new(format!(
+                "index {stray} is of nothing: there are {count} vertices"
+            )));
         }
         self.builder.check_size(64 * order.len() as u64)?;
         // A mirrored mesh keeps its outside.
@@ -308,14 +317,19 @@ impl Document<'_, '_> {
             let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
             let length = usize::try_from(view.byte_length.0).ok()?;
             let bytes = bytes.get(start..start.checked_add(length)?)?;
-            Some((bytes.get(usize::try_from(accessor.byte_offset.unwrap_or_default().0).ok()?..)?, view))
+            Some((
+                bytes.get(usize::try_from(accessor.byte_offset.unwrap_or_default().0).ok()?..)?,
+                view,
+            ))
         });
         let (bytes, view) = run.ok_or_else(|| fault("its bytes are not there"))?;
         let each = size(component.0);
         let stride = view.byte_stride.map_or(0, |stride| stride.0).max(each * width);
         let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
         // The last need not be filled up to the stride.
-        let needed = count.checked_sub(1).map_or(Some(0), |n| n.checked_mul(stride)?.checked_add(each * width));
+        let needed = count
+            .checked_sub(1)
+            .map_or(Some(0), |n| n.checked_mul(stride)?.checked_add(each * width));
         if needed.is_none_or(|needed| needed > bytes.len()) {
             return Err(fault(&format!("its {count} vectors are longer than its bytes")));
         }
@@ -351,8 +365,8 @@ fn number(component: ComponentType, bytes: &[u8], normalized: bool) -> f64 {
     let (number, most) = match component {
         ComponentType::I8 => (f64::from(one as i8), 127.0),
         ComponentType::U8 => (f64::from(one), 255.0),
-        ComponentType::I16 => (f64::from(i16::from_le_bytes(two())), 32_767.0),
-        ComponentType::U16 => (f64::from(u16::from_le_bytes(two())), 65_535.0),
+        ComponentType::I16 => (f64::from(i16::from_le_bytes(two())), f64::from(i16::MAX)),
+        ComponentType::U16 => (f64::from(u16::from_le_bytes(two())), f64::from(u16::MAX)),
         ComponentType::U32 => (f64::from(u32::from_le_bytes(four())), 1.0),
         ComponentType::F32 => (f64::from(f32::from_le_bytes(four())), 1.0),
     };

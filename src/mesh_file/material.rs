@@ -44,7 +44,8 @@ pub(super) fn read(text: &str) -> Result<HashMap<String, Option<Material>>, Faul
                 slot.get_or_insert(PLAIN).rgb = rgb;
             }
             "d" | "Tr" => {
-                let number = rest.split_whitespace().next_back().and_then(|n| n.parse::<f64>().ok());
+                let number =
+                    rest.split_whitespace().next_back().and_then(|n| n.parse::<f64>().ok());
                 let number = number.ok_or_else(|| fault("a number"))?;
                 let alpha = if word == "d" { number } else { 1.0 - number };
                 if alpha != 1.0 || slot.is_some() {

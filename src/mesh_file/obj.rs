@@ -160,7 +160,8 @@ fn numbers(text: &str, wanted: &str) -> Result<[f64; 3], Fault> {
 fn index(text: &str, count: usize, which: usize) -> Result<u32, Fault> {
     let what = ["vertices", "normals", "places in a texture"][which];
     let number: i64 = text.parse().map_err(|_| Fault::new(format!("`{text}` is no index")))?;
-    let from_zero = if number < 0 { number.checked_add(count as i64) } else { number.checked_sub(1) };
+    let from_zero =
+        if number < 0 { number.checked_add(count as i64) } else { number.checked_sub(1) };
     let index = from_zero.and_then(|index| u32::try_from(index).ok());
     index.filter(|&index| (index as usize) < count).ok_or_else(|| {
         Fault::new(format!("index {number} is of nothing: there are {count} {what} before it"))

@@ -39,10 +39,13 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
                     return Err(Fault::new("its vertices have no x, y and z"));
                 }
                 has.normals = gives(&["nx", "ny", "nz"]);
-                has.uvs = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]].iter().any(|n| gives(n));
+                has.uvs =
+                    [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]].iter().any(|n| gives(n));
                 let vertices = elements::<Vertex>(&mut reader, element, &header)?;
                 for (number, vertex) in vertices.iter().enumerate() {
-                    colors.push(vertex.add(has, builder).map_err(|f| in_element("vertex", number, f))?);
+                    colors.push(
+                        vertex.add(has, builder).map_err(|f| in_element("vertex", number, f))?,
+                    );
                 }
             }
             "face" => {
@@ -126,7 +129,8 @@ fn told(error: &ParseError) -> Fault {
     let said = error.to_string();
     let said = said.lines().next().unwrap_or("");
     let place = error.line().map(Place::Line);
-    let said = error.line().and_then(|line| said.strip_prefix(&format!("Line {line}: "))).unwrap_or(said);
+    let said =
+        error.line().and_then(|line| said.strip_prefix(&format!("Line {line}: "))).unwrap_or(said);
     Fault { place, ..Fault::new(said.trim_end_matches('.')) }
 }
 
@@ -156,7 +160,7 @@ impl Paint {
         };
         let most = match number {
             Property::Float(_) | Property::Double(_) => 1.0,
-            Property::UShort(_) => 65_535.0,
+            Property::UShort(_) => f64::from(u16::MAX),
             // Whole numbers of other kinds hold the same 256 values.
             _ => 255.0,
         };

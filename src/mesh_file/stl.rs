@@ -19,9 +19,11 @@ const EACH: usize = 50;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let mut soup = Soup { builder, known: HashMap::new() };
-    let is_text = bytes.trim_ascii_start().starts_with(b"solid") && length_told(bytes) != bytes.len();
+    let is_text =
+        bytes.trim_ascii_start().starts_with(b"solid") && length_told(bytes) != bytes.len();
     if !is_text {
-        let title = bytes.get(HEAD - 4..).map(|rest| Pieces::new(&[b' '; HEAD - 4], rest, usize::MAX));
+        let title =
+            bytes.get(HEAD - 4..).map(|rest| Pieces::new(&[b' '; HEAD - 4], rest, usize::MAX));
         let mut pieces = title.ok_or_else(|| {
             Fault::new("the file ends in the middle of its head").at(Place::Byte(bytes.len()))
         })?;

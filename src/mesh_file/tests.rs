@@ -127,10 +127,14 @@ fn an_obj_is_read_with_its_materials() {
         };
         read("a.obj", OBJ.as_bytes(), &mut beside, MOST)
     };
-    let model = read("newmtl red\nKd 1 0 0\nd 0.25\nmap_Kd a.png\nnewmtl other\nKd 0.5\n").expect("whole");
+    let model =
+        read("newmtl red\nKd 1 0 0\nd 0.25\nmap_Kd a.png\nnewmtl other\nKd 0.5\n").expect("whole");
     assert_eq!(corners(&model), [[O, XY, X], [O, Y, XY], [O, Y, X]]);
     assert_eq!(model.triangles.faces[0].normals, Some([0, 0, 0]));
-    assert_eq!((model.triangles.faces[1].normals, model.triangles.faces[1].uvs), (None, Some([0; 3])));
+    assert_eq!(
+        (model.triangles.faces[1].normals, model.triangles.faces[1].uvs),
+        (None, Some([0; 3]))
+    );
     // The material goes on in the second group; without one, a face is white.
     assert_eq!(colors(&model), [[X; 3], [X; 3], [[1.0; 3]; 3]]);
     assert_eq!(model.colors[0].transmit, 0.75);
@@ -305,7 +309,8 @@ fn a_broken_gltf_is_told_and_where_it_can_be() {
         let (_, reason) = fault("a.glb", glb(&text, &held));
         assert!(reason.contains(part), "{is}: {reason}");
     }
-    let stray = gltf_bytes().into_iter().enumerate().map(|(i, byte)| if i == 36 { 7 } else { byte });
+    let stray =
+        gltf_bytes().into_iter().enumerate().map(|(i, byte)| if i == 36 { 7 } else { byte });
     let (_, reason) = fault("a.glb", glb(&gltf(""), &stray.collect::<Vec<u8>>()));
     assert!(reason.contains("index 7 is of nothing"), "{reason}");
 }
@@ -318,7 +323,8 @@ fn a_file_of_many_uses_is_no_larger_than_it_may_be() {
     let start = text.find(r#""nodes":["#).expect("nodes");
     let end = text.find(r#""meshes""#).expect("meshes");
     let text = format!("{}\"nodes\":[{}],{}", &text[..start], nodes.join(","), &text[end..]);
-    let read = |most| read("a.glb", &glb(&text, &gltf_bytes()), &mut |_| Err(indices.clone()), most);
+    let read =
+        |most| read("a.glb", &glb(&text, &gltf_bytes()), &mut |_| Err(indices.clone()), most);
     assert_eq!(read(MOST).expect("small").triangles.faces.len(), 2_000);
     assert!(read(100_000).expect_err("too large").is_too_large);
 }
@@ -357,8 +363,28 @@ enum Change {
 
 fn change() -> impl Strategy<Value = Change> {
     let telling = prop::sample::select(vec![
-        "0", "-1", "9", "99999999999", "nan", "1e999", " ", "\n", "/", "\\\n", "\"", "[", "}", "%", "\u{2003}",
-        "f 1 2 3\n", "Kd 1\n", "usemtl \n", "solid\n", "endsolid\n", "element face 9\n", "property list int int a\n",
+        "0",
+        "-1",
+        "9",
+        "99999999999",
+        "nan",
+        "1e999",
+        " ",
+        "\n",
+        "/",
+        "\\\n",
+        "\"",
+        "[",
+        "}",
+        "%",
+        "\u{2003}",
+        "f 1 2 3\n",
+        "Kd 1\n",
+        "usemtl \n",
+        "solid\n",
+        "endsolid\n",
+        "element face 9\n",
+        "property list int int a\n",
     ]);
     prop_oneof![
         any::<u8>().prop_map(Change::Put),

@@ -238,8 +238,7 @@ impl Word {
 }
 
 /// The words that are free as names outside their block.
-const CONTEXTUAL: [Word; 5] =
-    [Word::File, Word::Kd, Word::Ks, Word::PhongExponent, Word::Shift];
+const CONTEXTUAL: [Word; 5] = [Word::File, Word::Kd, Word::Ks, Word::PhongExponent, Word::Shift];
 
 /// A little more than four slots a spelling, so that most look-ups compare one string.
 const SLOTS: usize = 2048;
