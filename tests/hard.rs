@@ -4,6 +4,8 @@
 mod alike;
 #[path = "hard/clear.rs"]
 mod clear;
+#[path = "hard/coinciding.rs"]
+mod coinciding;
 mod dice;
 #[path = "hard/exact.rs"]
 mod exact;
@@ -32,6 +34,8 @@ mod scaled;
 mod scene;
 #[path = "hard/sizes.rs"]
 mod sizes;
+#[path = "hard/solids.rs"]
+mod solids;
 #[path = "hard/trees.rs"]
 mod trees;
 #[path = "hard/turns.rs"]
