@@ -7,6 +7,8 @@ mod clear;
 #[path = "hard/coinciding.rs"]
 mod coinciding;
 mod dice;
+#[path = "hard/deep.rs"]
+mod deep;
 #[path = "hard/exact.rs"]
 mod exact;
 #[path = "hard/frames.rs"]

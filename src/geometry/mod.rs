@@ -6,6 +6,7 @@
 
 mod balls;
 mod build;
+mod coinciding;
 mod extent;
 mod nearest;
 mod occluder;
@@ -16,6 +17,7 @@ mod tree;
 mod whole;
 mod work;
 
+pub use coinciding::coinciding_parts;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 pub use work::Work;

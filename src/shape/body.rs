@@ -152,6 +152,9 @@ macro_rules! bodies {
         }
 
         impl Body {
+            /// The words of all kinds.
+            pub const WORDS: &[&str] = &[$($word),*];
+
             /// The language's word for it.
             pub fn word(&self) -> &'static str {
                 match self {

@@ -27,6 +27,16 @@ impl World {
         csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
     }
 
+    /// The language's word for an object's shape.
+    pub fn word(&self, object: &Object) -> &'static str {
+        match object.shape {
+            Shape::Sphere(_) | Shape::Ellipsoid(_) => "sphere",
+            Shape::Plane(_) => "plane",
+            Shape::Box(_) => "box",
+            Shape::Placed(i) => self.placed[i as usize].body.word(),
+        }
+    }
+
     /// Those of the objects that are no parts, and of each whole the first part.
     pub fn solids(&self) -> impl Iterator<Item = u32> {
         (0..self.objects.len() as u32).filter(|&i| {
