@@ -23,8 +23,12 @@ mod kernels;
 mod language;
 #[path = "hard/lights.rs"]
 mod lights;
+#[path = "hard/merged.rs"]
+mod merged;
 #[path = "hard/mirrors.rs"]
 mod mirrors;
+#[path = "hard/other_words.rs"]
+mod other_words;
 #[path = "hard/page.rs"]
 mod page;
 #[path = "benches/numerics/rows.rs"]

@@ -7,6 +7,7 @@
 mod balls;
 mod build;
 mod coinciding;
+mod edge;
 mod extent;
 mod nearest;
 mod occluder;
@@ -392,7 +393,10 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     match world.objects[object as usize].shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
-        Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
+        Shape::Box(i) => match world.objects[object as usize].whole {
+            None => world.boxes[i as usize].surface(ray, t, leaving),
+            Some(_) => edge::surface_of_part(world, ray, hit, &world.boxes[i as usize]),
+        },
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
         Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
     }

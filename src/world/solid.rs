@@ -45,6 +45,15 @@ impl World {
         })
     }
 
+    /// The objects that a solid of [`World::solids`] is made of.
+    pub fn parts(&self, solid: u32) -> &[Object] {
+        let at = solid as usize;
+        match self.objects[at].whole {
+            Some(whole) => &self.objects[self.wholes[whole as usize].leaves()],
+            None => &self.objects[at..=at],
+        }
+    }
+
     /// Whether the crossings of any solid are found by steps that come nearer and nearer.
     pub fn has_iterated_roots(&self) -> bool {
         self.placed.iter().any(|placed| placed.body.is_iterated())

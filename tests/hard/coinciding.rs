@@ -10,7 +10,7 @@ use crate::dice::Dice;
 use crate::held::held;
 use crate::scene::{
     Camera, Light, Object, Operation, Scene, Solid, Step, Triple, WHITE, cone, cuboid, plane,
-    sphere, ten, whole,
+    sphere, ten, torus, whole,
 };
 
 /// Odd, so that some rays go along faces.
@@ -93,6 +93,10 @@ impl Carver {
                 };
                 Solid::Cone { ends: [a, b], radii: [base, cap] }
             }
+            8 if self.dice.below(3) == 0 => {
+                let [major, minor] = [&[0.7, 1.0], &[0.3, 0.6]].map(|radii| self.dice.one_of(radii));
+                Solid::Torus { major, minor }
+            }
             8 => {
                 let centre = match self.dice.below(2) {
                     0 => [0.0; 3],
@@ -114,7 +118,10 @@ impl Carver {
                     (0..3).for_each(|axis| self.edges[axis].push(corner[axis]));
                 }
             }
-            Solid::Sphere { .. } | Solid::Plane { .. } | Solid::Whole { .. } => {}
+            Solid::Sphere { .. }
+            | Solid::Plane { .. }
+            | Solid::Torus { .. }
+            | Solid::Whole { .. } => {}
         }
         self.drawn.push(solid.clone());
         solid
@@ -126,6 +133,7 @@ impl Carver {
             Solid::Plane { normal, distance } => plane(normal, distance),
             Solid::Box { corners: [a, b] } => cuboid(a, b),
             Solid::Cone { ends, radii } => cone(ends, radii),
+            Solid::Torus { major, minor } => torus(major, minor),
             Solid::Whole { .. } => unreachable!("a leaf has no parts"),
         };
         let paint = self.dice.one_of(&PAINTS);
@@ -254,8 +262,13 @@ fn elsewhere(scene: &Scene, dice: &mut Dice, is_rigid: bool) -> String {
         steps.insert(0, Step::Scale([1.0, stretch, 1.0]));
     }
     steps.push(Step::Translate([far, 0.3 * far, -far]));
+    text_moved(scene, &steps)
+}
+
+/// The text of a scene that is moved as a whole, its camera with it.
+pub fn text_moved(scene: &Scene, steps: &[Step]) -> String {
     let mut moved = scene.clone();
-    moved.camera_steps = steps.clone();
+    moved.camera_steps = steps.to_vec();
     let text = moved.text();
     let steps = steps.iter().map(Step::text).collect::<Vec<_>>().join(" ");
     // All but the camera stands in one block.

@@ -75,6 +75,11 @@ pub enum Solid {
         ends: [Triple; 2],
         radii: [f64; 2],
     },
+    /// About the y axis.
+    Torus {
+        major: f64,
+        minor: f64,
+    },
     /// Of a whole the steps count, and what it is filled with; of its parts the rest.
     Whole {
         operation: Operation,
@@ -125,6 +130,10 @@ pub fn cuboid(low: Triple, high: Triple) -> Object {
 
 pub fn cone(ends: [Triple; 2], radii: [f64; 2]) -> Object {
     Object::new(Solid::Cone { ends, radii })
+}
+
+pub fn torus(major: f64, minor: f64) -> Object {
+    Object::new(Solid::Torus { major, minor })
 }
 
 pub fn whole(operation: Operation, parts: Vec<Object>) -> Object {
@@ -249,6 +258,7 @@ impl Object {
             Solid::Cone { ends: [a, b], radii: [base, cap] } => {
                 format!("cone {{ {}, {base:e}, {}, {cap:e}", triple(*a), triple(*b))
             }
+            Solid::Torus { major, minor } => format!("torus {{ {major:e}, {minor:e}"),
             Solid::Whole { operation, parts } => {
                 let parts: String = parts.iter().map(|part| part.text(true)).collect();
                 format!("{} {{ {parts}", operation.word())

@@ -18,11 +18,18 @@ pub struct Thing<'a> {
 /// A solid that is made of nothing else, and the way to the spaces in which it and its paint were written.
 pub struct Part<'a> {
     pub object: &'a Object,
-    solid: Vec<Limit>,
-    /// The origin of its limits.
+    form: Form,
+    /// The origin of its form.
     origin: WideVector,
     solid_from_world: Option<WideMap>,
     pub paint_from_world: Option<WideMap>,
+}
+
+enum Form {
+    /// What is inside of all.
+    Limits(Vec<Limit>),
+    /// About the y axis.
+    Torus { major: Wide, minor: Wide },
 }
 
 /// Inside: where f ≤ 0, with p seen from the solid's origin.
@@ -80,21 +87,20 @@ impl<'a> Thing<'a> {
     /// In order, behind the start too. Two distances are one where they differ by less than `least`, or
     /// by less than `touch` of themselves.
     pub fn crossings(&self, ray: &Ray, touch: &Wide, least: &Wide) -> Vec<Crossing> {
-        let chords: Vec<Option<Chord>> = self.parts.iter().map(|part| part.chord(ray)).collect();
-        let ends = |(part, chord): (usize, &Option<Chord>)| {
-            let (enter, leave) = chord.clone().map_or((None, None), |c| (c.enter, c.leave));
-            let crossing = move |(t, normal)| Crossing { t, normal, part };
-            [enter.map(crossing), leave.map(crossing)].into_iter().flatten().collect::<Vec<_>>()
-        };
-        let mut all: Vec<Crossing> = chords.iter().enumerate().flat_map(ends).collect();
+        let (mut inside, mut all) = (Vec::new(), Vec::new());
+        for (number, part) in self.parts.iter().enumerate() {
+            let (starts_inside, crossings) = part.crossings(ray);
+            inside.push(starts_inside);
+            all.extend(crossings.into_iter().map(|(t, normal)| Crossing {
+                t,
+                normal,
+                part: number,
+            }));
+        }
         if self.parts.len() == 1 {
             return all;
         }
         all.sort_by(|a, b| a.t.partial_cmp(&b.t).expect("ordered"));
-        let mut inside: Vec<bool> = chords
-            .iter()
-            .map(|chord| chord.as_ref().is_some_and(|chord| chord.enter.is_none()))
-            .collect();
         let mut kept = Vec::new();
         let mut rest = all.as_slice();
         while let Some(first) = rest.first() {
@@ -153,7 +159,7 @@ fn node<'a>(object: &'a Object, outer: Option<&WideMap>, parts: &mut Vec<Part<'a
         let nodes = nodes.into_iter().map(|(node, _)| node).collect();
         return (Node::Made(*operation, nodes), size);
     }
-    let (origin, solid, reach) = limits(&object.solid);
+    let (origin, form, reach) = form(&object.solid);
     let size = match &map {
         Some(map) => map
             .rows
@@ -167,7 +173,7 @@ fn node<'a>(object: &'a Object, outer: Option<&WideMap>, parts: &mut Vec<Part<'a
     };
     parts.push(Part {
         object,
-        solid,
+        form,
         origin,
         solid_from_world: map.as_ref().map(WideMap::inverse),
         paint_from_world: world_from_paint.as_ref().map(WideMap::inverse),
@@ -184,8 +190,8 @@ fn joined(outer: Option<&WideMap>, inner: Option<WideMap>) -> Option<WideMap> {
     }
 }
 
-/// The origin, the limits as seen from there, and the reach of a solid of no parts.
-fn limits(solid: &Solid) -> (WideVector, Vec<Limit>, Wide) {
+/// The origin, the form as seen from there, and the reach of a solid of no parts.
+fn form(solid: &Solid) -> (WideVector, Form, Wide) {
     match solid {
         Solid::Sphere { centre, radius } => {
             let origin = WideVector::of(*centre);
@@ -193,13 +199,13 @@ fn limits(solid: &Solid) -> (WideVector, Vec<Limit>, Wide) {
             let reach = &origin.largest() + &radius;
             let constant = -&(radius.clone() * &radius);
             let matrix = WideMap::identity().rows;
-            (origin, vec![round(matrix, zero(), constant)], reach)
+            (origin, Form::Limits(vec![round(matrix, zero(), constant)]), reach)
         }
         Solid::Plane { normal, distance } => {
             let normal = WideVector::of(*normal);
             let distance = Wide::of(*distance) * normal.length();
             let reach = distance.abs();
-            (zero(), vec![Limit::Flat { normal, distance }], reach)
+            (zero(), Form::Limits(vec![Limit::Flat { normal, distance }]), reach)
         }
         Solid::Box { corners: [a, b] } => {
             let side = |pick: fn(f64, f64) -> f64| {
@@ -215,7 +221,7 @@ fn limits(solid: &Solid) -> (WideVector, Vec<Limit>, Wide) {
             let pair = |axis: usize| {
                 [face(axis, -1.0, -&low.0[axis]), face(axis, 1.0, high.0[axis].clone())]
             };
-            (zero(), (0..3).flat_map(pair).collect(), reach)
+            (zero(), Form::Limits((0..3).flat_map(pair).collect()), reach)
         }
         // With s = w·d/D along the axis, D = d²: |w|²·D − (w·d)² ≤ (r + (r′ − r)·s)²·D.
         Solid::Cone { ends: [a, b], radii: [base, cap] } => {
@@ -242,7 +248,12 @@ fn limits(solid: &Solid) -> (WideVector, Vec<Limit>, Wide) {
             let widest = if base > Wide::of(*cap) { base } else { Wide::of(*cap) };
             let reach = origin.largest() + &axis.largest() + &widest;
             let [first, last] = ends;
-            (origin, vec![mantle, first, last], reach)
+            (origin, Form::Limits(vec![mantle, first, last]), reach)
+        }
+        Solid::Torus { major, minor } => {
+            let (major, minor) = (Wide::of(*major), Wide::of(*minor));
+            let reach = &major + &minor;
+            (zero(), Form::Torus { major, minor }, reach)
         }
         Solid::Whole { .. } => unreachable!("it has parts"),
     }
@@ -258,23 +269,27 @@ fn round(matrix: [WideVector; 3], line: WideVector, constant: Wide) -> Limit {
 }
 
 impl Part<'_> {
-    fn chord(&self, ray: &Ray) -> Option<Chord> {
+    /// Whether the line comes from inside, and where it passes the surface, in order.
+    fn crossings(&self, ray: &Ray) -> (bool, Vec<(Wide, WideVector)>) {
         let (start, direction) = match &self.solid_from_world {
             Some(map) => (map.point(&ray.start), map.direction(&ray.direction)),
             None => (ray.start.clone(), ray.direction.clone()),
         };
         let start = start.minus(&self.origin);
-        let mut chord = Chord { enter: None, leave: None };
-        for limit in &self.solid {
-            chord = chord.within(limit.chord(&start, &direction)?);
-        }
-        if let Chord { enter: Some((enter, _)), leave: Some((leave, _)) } = &chord
-            && enter > leave
-        {
-            return None;
-        }
         let in_world = |(t, normal)| (t, self.world_normal(normal));
-        Some(Chord { enter: chord.enter.map(in_world), leave: chord.leave.map(in_world) })
+        match &self.form {
+            Form::Limits(limits) => match chord(limits, &start, &direction) {
+                None => (false, Vec::new()),
+                Some(Chord { enter, leave }) => {
+                    let starts_inside = enter.is_none();
+                    let ends = [enter, leave].into_iter().flatten();
+                    (starts_inside, ends.map(in_world).collect())
+                }
+            },
+            Form::Torus { major, minor } => {
+                (false, torus(major, minor, &start, &direction).map(in_world).collect())
+            }
+        }
     }
 
     /// By the inverse transpose.
@@ -290,6 +305,106 @@ impl Part<'_> {
             None => normal,
         }
     }
+}
+
+/// Inside of all limits.
+fn chord(limits: &[Limit], start: &WideVector, direction: &WideVector) -> Option<Chord> {
+    let mut chord = Chord { enter: None, leave: None };
+    for limit in limits {
+        chord = chord.within(limit.chord(start, direction)?);
+    }
+    match &chord {
+        Chord { enter: Some((enter, _)), leave: Some((leave, _)) } if enter > leave => None,
+        _ => Some(chord),
+    }
+}
+
+/// With k = R² − r²: (p² + k)² = 4R²·(x² + z²).
+fn torus(
+    major: &Wide,
+    minor: &Wide,
+    start: &WideVector,
+    direction: &WideVector,
+) -> impl Iterator<Item = (Wide, WideVector)> {
+    let (four, two) = (Wide::of(4.0), Wide::of(2.0));
+    let ring = four * &(major.clone() * major);
+    let k = major.clone() * major - &(minor.clone() * minor);
+    let level = |v: &WideVector| {
+        WideVector([v.0[0].clone(), Wide::zero(), v.0[2].clone()])
+    };
+    let across = (level(start), level(direction));
+    // p² + k and x² + z² as polynomials of t.
+    let (a, b) = (direction.square(), two.clone() * &start.dot(direction));
+    let c = start.square() + &k;
+    let [d, e, f] = [
+        across.1.square() * &ring,
+        two.clone() * &across.0.dot(&across.1) * &ring,
+        across.0.square() * &ring,
+    ];
+    let quartic = vec![
+        c.clone() * &c - &f,
+        two.clone() * &b * &c - &e,
+        b.clone() * &b + &(two.clone() * &a * &c) - &d,
+        two.clone() * &a * &b,
+        a.clone() * &a,
+    ];
+    let middle = -&(start.dot(direction) / &a);
+    let half = (major + minor) / &a.sqrt();
+    let half = half.clone() + &(half * &Wide::of(0.001));
+    let roots = roots(&quartic, &(&middle - &half), &(&middle + &half));
+    let (start, direction) = (start.clone(), direction.clone());
+    roots.into_iter().map(move |t| {
+        let place = start.plus(&direction.times(&t));
+        let all = place.square() + &k;
+        let normal = place.times(&all).minus(&level(&place).times(&(ring.clone() / &two)));
+        (t, normal)
+    })
+}
+
+/// The roots between two places at which a polynomial, its lowest coefficient first, changes its sign: one
+/// between each two neighbours of its derivative's.
+fn roots(polynomial: &[Wide], low: &Wide, high: &Wide) -> Vec<Wide> {
+    if polynomial.len() < 2 {
+        return Vec::new();
+    }
+    let slope: Vec<Wide> = polynomial
+        .iter()
+        .zip(0..)
+        .skip(1)
+        .map(|(coefficient, power)| coefficient.clone() * &Wide::of(f64::from(power)))
+        .collect();
+    let mut ends = vec![low.clone()];
+    ends.extend(roots(&slope, low, high));
+    ends.push(high.clone());
+    let at = |of: &[Wide], t: &Wide| {
+        of.iter().rev().fold(Wide::zero(), |sum, coefficient| sum * t + coefficient)
+    };
+    let least = (high - low) * &Wide::of(1.0 / 2f64.powi(200));
+    let mut found = Vec::new();
+    for pair in ends.windows(2) {
+        let [mut before, mut behind] = [pair[0].clone(), pair[1].clone()];
+        let rises = at(polynomial, &behind).is_positive();
+        if at(polynomial, &before).is_positive() == rises {
+            continue;
+        }
+        let mut place = (&before + &behind) * &Wide::of(0.5);
+        // Newton's step where it stays between, else half.
+        while &behind - &before > least {
+            let value = at(polynomial, &place);
+            if value.is_positive() == rises { behind = place.clone() } else { before = place.clone() }
+            let speed = at(&slope, &place);
+            let step = if speed.is_zero() { high - low } else { value / &speed };
+            let next = &place - &step;
+            let is_last = step.abs() < least;
+            let is_between = next > before && next < behind;
+            place = if is_between { next } else { (&before + &behind) * &Wide::of(0.5) };
+            if is_last {
+                break;
+            }
+        }
+        found.push(place);
+    }
+    found
 }
 
 impl Chord {
