@@ -217,7 +217,7 @@ impl Geometry {
         };
         let whole = &world.wholes[whole as usize];
         let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
-        let bounds = whole.leaves().map(|leaf| Extent::of_shape(world, leaf as u32).bounds());
+        let bounds = whole.leaves().map(|leaf| Extent::of_part(world, leaf as u32).bounds());
         let whole = Whole::new(whole, leaves, bounds.collect());
         let entry = Entry {
             solid: Solid::Whole(self.wholes.len() as u32),
