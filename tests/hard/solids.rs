@@ -395,12 +395,11 @@ fn roots(polynomial: &[Wide], low: &Wide, high: &Wide) -> Vec<Wide> {
             let speed = at(&slope, &place);
             let step = if speed.is_zero() { high - low } else { value / &speed };
             let next = &place - &step;
-            let is_last = step.abs() < least;
-            let is_between = next > before && next < behind;
-            place = if is_between { next } else { (&before + &behind) * &Wide::of(0.5) };
-            if is_last {
+            if step.abs() < least {
                 break;
             }
+            let is_between = next > before && next < behind;
+            place = if is_between { next } else { (&before + &behind) * &Wide::of(0.5) };
         }
         found.push(place);
     }
