@@ -24,6 +24,8 @@ pub struct Options {
     pub picture: Option<(u32, u32)>,
     /// Tell every old form of the main file, also where it is not run.
     pub legacy: bool,
+    /// Look for coinciding faces, though nobody may be told.
+    pub coinciding: bool,
     pub evaluate: EvaluateOptions,
 }
 
@@ -35,6 +37,7 @@ impl Options {
             levels: Levels::new(dialect == Dialect::Scene),
             picture: None,
             legacy: false,
+            coinciding: false,
             evaluate,
         }
     }
@@ -127,8 +130,8 @@ impl<'a> Road<'a> {
         if self.diagnostics.iter().any(|message| message.code == Code::ObjectLimit) {
             return (World::default(), Origins::default());
         }
-        let Options { picture, ref evaluate, .. } = self.options;
-        let options = LowerOptions { objects: evaluate.limits.objects, picture };
+        let Options { picture, coinciding, ref evaluate, .. } = self.options;
+        let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
         let before = self.diagnostics.len();
         let lowered = lower(scene, &options, &mut self.diagnostics);
         self.silence(before);

@@ -88,6 +88,8 @@ pub struct Origins {
     pub dropped: Vec<Dropped>,
     /// Transforms that nearly flatten space, in text order.
     pub near_singular: Vec<NearSingular>,
+    /// Parts of one solid whose surfaces coincide, where they were looked for; each two places once.
+    pub coinciding: Vec<Coinciding>,
     pub expansions: Expansions,
 }
 
@@ -146,6 +148,15 @@ pub struct NearSingular {
     pub site: Site,
     /// The largest factor by which it stretches a direction over the smallest: 2²⁶ or more.
     pub condition: f64,
+}
+
+/// Two parts of one solid that have a face, or a part of one, in common.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coinciding {
+    /// `box`, `cylinder`.
+    pub words: [&'static str; 2],
+    /// The first declared first.
+    pub sites: [Site; 2],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -21,7 +21,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::mend::{apply, mend};
-use lucarne::diagnostic::{Code, Diagnostic, Levels, Severity};
+use lucarne::diagnostic::{Code, Diagnostic, Level, Levels, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::{FileError, FileId, Files, Found, Sources, Span, WriteError};
@@ -61,6 +61,7 @@ fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, S
     let dialect = lucarne::road::dialect(name);
     let mut options = Options::new(dialect);
     options.levels = Levels::new(true);
+    options.levels.set(Code::CoincidingFaces, Level::Warn);
     let mut road = Road::new(files, options);
     road.compile(name, bytes);
     (road.diagnostics.iter().cloned().collect(), road.sources)

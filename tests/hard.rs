@@ -4,7 +4,11 @@
 mod alike;
 #[path = "hard/clear.rs"]
 mod clear;
+#[path = "hard/coinciding.rs"]
+mod coinciding;
 mod dice;
+#[path = "hard/deep.rs"]
+mod deep;
 #[path = "hard/exact.rs"]
 mod exact;
 #[path = "hard/frames.rs"]
@@ -19,8 +23,12 @@ mod kernels;
 mod language;
 #[path = "hard/lights.rs"]
 mod lights;
+#[path = "hard/merged.rs"]
+mod merged;
 #[path = "hard/mirrors.rs"]
 mod mirrors;
+#[path = "hard/other_words.rs"]
+mod other_words;
 #[path = "hard/page.rs"]
 mod page;
 #[path = "benches/numerics/rows.rs"]
@@ -32,6 +40,8 @@ mod scaled;
 mod scene;
 #[path = "hard/sizes.rs"]
 mod sizes;
+#[path = "hard/solids.rs"]
+mod solids;
 #[path = "hard/trees.rs"]
 mod trees;
 #[path = "hard/turns.rs"]

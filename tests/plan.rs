@@ -128,6 +128,12 @@ fn written(plan: &Value) -> String {
         out += &format!("  nearly degenerate: {what}, {times} times as long as thick{place}\n");
     }
     out += &and_more(thin, "  ");
+    let coinciding = list(&numerics["coinciding"]);
+    for found in coinciding.iter().take(3) {
+        let part = |i: usize| format!("{}{}", text(&found["shapes"][i]), at(&found["places"][i]));
+        out += &format!("  a face in common: {}, {}\n", part(0), part(1));
+    }
+    out += &and_more(coinciding, "  ");
     let near = list(&numerics["near_singular"]);
     for found in near.iter().take(3) {
         let (piece, place) = (quote(&found["place"]), at(&found["place"]));
@@ -219,8 +225,13 @@ light_source {{ <4, 8, 6>, rgb 1 }} light_source {{ 5, rgb 0 }} light_source {{ 
 sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 1;
 {flat}
 #macro Dark(P) light_source {{ P, rgb 0 }} #end Dark(1) Dark(2)
+<<<<<<< HEAD
 torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, -1, 1>, 0, 0, -1 }}
 difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
+=======
+torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, 1, 1>, 0, 0, -1 }}
+difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{ 0, 1 }} }} disc {{ 0, y, 2 }}
+>>>>>>> 9218f7b (Faces that parts of one solid have in common are named; solids a hundred thousand operations deep)
 "
     );
     std::fs::write(&hard, text).expect("written");
@@ -242,6 +253,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
                 "  nearly degenerate: box, ",
                 "  no half width: where a quadric ends is not known  (",
                 "  difference, 1: ",
+                "  a face in common: box  (",
                 "  single precision of every torus: it has no kernel for it  (",
                 "  single precision of every part of a whole: ",
                 "  single precision cannot resolve this range: ",

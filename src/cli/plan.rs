@@ -16,7 +16,9 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_main(&arguments.file)?;
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
-    let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
+    let mut options = arguments.scene.options(&arguments.file, Some(frame));
+    options.coinciding = true;
+    let mut road = Road::new(&files, options);
     let (world, origins) = road.compile(&name_of(&arguments.file), bytes);
     let mut plan = plan(&world, &origins, &arguments.picture.options(frame));
     pilot(&world, &mut plan);
@@ -123,6 +125,14 @@ struct Numbers<'a> {
     exceeds_single: bool,
     thin: Vec<Thin<'a>>,
     near_singular: Vec<Number<'a>>,
+    coinciding: Vec<Pair<'a>>,
+}
+
+/// Two parts of one solid that have a face in common.
+#[derive(Serialize)]
+struct Pair<'a> {
+    shapes: [&'a str; 2],
+    places: [Place<'a>; 2],
 }
 
 #[derive(Serialize)]
@@ -258,6 +268,12 @@ impl<'a> Report<'a> {
                     .near_singular
                     .iter()
                     .map(|near| Number { value: near.condition, place: Some(place(near.site)) })
+                    .collect(),
+                coinciding: plan
+                    .numerics
+                    .coinciding
+                    .iter()
+                    .map(|pair| Pair { shapes: pair.words, places: pair.sites.map(place) })
                     .collect(),
             },
             rays: plan.pilot.map(|pilot| Rays {

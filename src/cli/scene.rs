@@ -61,7 +61,10 @@ impl SceneArguments {
 
     /// What becomes of each warning: a code goes before `all`, and of one named twice the strictest holds.
     fn levels(&self, dialect: Dialect) -> Levels {
-        let mut levels = Levels::new(self.lint || dialect == Dialect::Scene);
+        let mut levels = Levels::new(dialect == Dialect::Scene);
+        if self.lint {
+            levels.set_all(Level::Warn);
+        }
         let named =
             [(&self.allow, Level::Allow), (&self.warn, Level::Warn), (&self.deny, Level::Deny)];
         for (warnings, level) in named {

@@ -25,6 +25,12 @@ macro_rules! codes {
                 match self { $(Code::$variant => codes!(@lint $severity)),* }
             }
 
+            /// True for a lint that is told only where it is asked for by name, or with all others: here
+            /// nothing is wrong.
+            pub fn is_quiet(self) -> bool {
+                match self { $(Code::$variant => codes!(@quiet $severity)),* }
+            }
+
             /// True for a message that is no error, unless the caller makes it one.
             pub fn warns(self) -> bool {
                 self.severity() == Severity::Warning
@@ -52,9 +58,13 @@ macro_rules! codes {
     (@severity error) => { Severity::Error };
     (@severity warning) => { Severity::Warning };
     (@severity lint) => { Severity::Warning };
+    (@severity quiet) => { Severity::Warning };
     (@severity note) => { Severity::Note };
     (@lint lint) => { true };
+    (@lint quiet) => { true };
     (@lint $other:ident) => { false };
+    (@quiet quiet) => { true };
+    (@quiet $other:ident) => { false };
 }
 
 codes! {
@@ -116,6 +126,7 @@ codes! {
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";

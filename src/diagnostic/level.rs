@@ -19,20 +19,22 @@ pub enum Level {
 /// The level of every code that warns.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Levels {
-    /// Of all that were not named; where it is not said, lints are dropped and other warnings told.
-    lints: Option<Level>,
+    /// Lints are told: not the quiet ones.
+    lints: bool,
+    /// Of all that were not named; where it is not said, other warnings are told.
+    all: Option<Level>,
     named: BTreeMap<Code, Level>,
 }
 
 impl Levels {
-    /// All lints told, or none.
+    /// Lints told, but for the quiet ones; or none.
     pub fn new(lints: bool) -> Self {
-        Self { lints: lints.then_some(Level::Warn), named: BTreeMap::new() }
+        Self { lints, all: None, named: BTreeMap::new() }
     }
 
     /// Sets every code that is not named.
     pub fn set_all(&mut self, level: Level) {
-        self.lints = Some(level);
+        self.all = Some(level);
     }
 
     pub fn set(&mut self, code: Code, level: Level) {
@@ -46,10 +48,8 @@ impl Levels {
 
     /// Of a code that warns; of an error and of a note, none.
     pub fn of(&self, code: Code) -> Option<Level> {
-        let unnamed = match code.is_lint() {
-            true => self.lints.unwrap_or(Level::Allow),
-            false => self.lints.unwrap_or(Level::Warn),
-        };
+        let is_told = !code.is_lint() || self.lints && !code.is_quiet();
+        let unnamed = self.all.unwrap_or(if is_told { Level::Warn } else { Level::Allow });
         code.warns().then(|| self.named.get(&code).copied().unwrap_or(unnamed))
     }
 }
@@ -79,5 +79,16 @@ mod tests {
         assert_eq!(levels.of(Code::NoLight), Some(Level::Warn));
         assert_eq!(levels.of(Code::UnknownWord), None);
         assert_eq!(Levels::new(false).of(Code::AuthorWarning), Some(Level::Warn));
+    }
+
+    #[test]
+    fn a_quiet_lint_is_told_where_it_or_all_are_asked_for() {
+        let mut levels = Levels::new(true);
+        assert_eq!(levels.of(Code::CoincidingFaces), Some(Level::Allow));
+        levels.set(Code::CoincidingFaces, Level::Warn);
+        assert_eq!(levels.of(Code::CoincidingFaces), Some(Level::Warn));
+        let mut levels = Levels::new(false);
+        levels.set_all(Level::Deny);
+        assert_eq!(levels.of(Code::CoincidingFaces), Some(Level::Deny));
     }
 }

@@ -178,6 +178,11 @@ impl Diagnostics {
         }
     }
 
+    /// Whether a lint is told at all.
+    pub fn tells(&self, lint: Code) -> bool {
+        self.levels.of(lint) != Some(Level::Allow)
+    }
+
     /// Whether a message would be kept. Loop turns and repeated calls say the same thing again, and once is
     /// enough: what is said again need not be worked out.
     pub fn takes(&self, diagnostic: &Diagnostic) -> bool {

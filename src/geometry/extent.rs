@@ -29,10 +29,9 @@ impl Extent {
             match *node {
                 Node::Leaf { inverse } => {
                     let leaf = leaves.next().unwrap_or_default() as u32;
-                    stack.push(if inverse || Self::is_endless(world, leaf) {
-                        Self::EVERYWHERE
-                    } else {
-                        Self::of_shape(world, leaf)
+                    stack.push(match inverse {
+                        true => Self::EVERYWHERE,
+                        false => Self::of_part(world, leaf),
                     });
                 }
                 Node::Union(count) | Node::Merge(count) => {
@@ -53,10 +52,16 @@ impl Extent {
         stack.pop().unwrap_or(Self::NOWHERE)
     }
 
-    /// It has no end, though what is seen of it may have one.
-    fn is_endless(world: &World, object: u32) -> bool {
+    /// Of all that a part of a whole counts for: what is seen of a disc has an end, what is below it has
+    /// none.
+    pub fn of_part(world: &World, object: u32) -> Self {
         let shape = world.objects[object as usize].shape;
-        matches!(shape, Shape::Placed(i) if world.placed[i as usize].body.reach().is_infinite())
+        match shape {
+            Shape::Placed(i) if world.placed[i as usize].body.reach().is_infinite() => {
+                Self::EVERYWHERE
+            }
+            _ => Self::of_shape(world, object),
+        }
     }
 
     /// Of an object by itself.

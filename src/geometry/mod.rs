@@ -6,6 +6,8 @@
 
 mod balls;
 mod build;
+mod coinciding;
+mod edge;
 mod extent;
 mod nearest;
 mod occluder;
@@ -16,6 +18,7 @@ mod tree;
 mod whole;
 mod work;
 
+pub use coinciding::coinciding_parts;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 pub use work::Work;
@@ -214,7 +217,7 @@ impl Geometry {
         };
         let whole = &world.wholes[whole as usize];
         let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
-        let bounds = whole.leaves().map(|leaf| Extent::of_shape(world, leaf as u32).bounds());
+        let bounds = whole.leaves().map(|leaf| Extent::of_part(world, leaf as u32).bounds());
         let whole = Whole::new(whole, leaves, bounds.collect());
         let entry = Entry {
             solid: Solid::Whole(self.wholes.len() as u32),
@@ -390,7 +393,10 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     match world.objects[object as usize].shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
-        Shape::Box(i) => world.boxes[i as usize].surface(ray, t, leaving),
+        Shape::Box(i) => match world.objects[object as usize].whole {
+            None => world.boxes[i as usize].surface(ray, t, leaving),
+            Some(_) => edge::surface_of_part(world, ray, hit, &world.boxes[i as usize]),
+        },
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
         Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
     }

@@ -1,3 +1,4 @@
+mod every_body;
 mod wholes;
 
 use super::*;

@@ -68,6 +68,8 @@ impl Geometry {
             for met in self.crossings(solid, ray) {
                 // What is told twice was not crossed.
                 if sheet || met.leaving == inside {
+                    // 0 and −0 are one place: what ends there has begun before.
+                    let met = Met { t: met.t + 0.0, ..met };
                     events.push(Event { met, leaf, sheet, last });
                     (inside, last) = (!met.leaving, Some(met.t));
                 }

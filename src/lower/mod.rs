@@ -8,6 +8,7 @@ pub mod alone;
 mod blob;
 mod body;
 mod camera;
+mod coinciding;
 mod csg;
 mod finish;
 mod interior;
@@ -42,11 +43,13 @@ pub struct LowerOptions {
     pub objects: u64,
     /// Width and height in pixels of the picture that will be made, where it is known.
     pub picture: Option<(u32, u32)>,
+    /// Coinciding faces are looked for, though nobody may be told.
+    pub coinciding: bool,
 }
 
 impl Default for LowerOptions {
     fn default() -> Self {
-        Self { objects: 5_000_000, picture: None }
+        Self { objects: 5_000_000, picture: None, coinciding: false }
     }
 }
 
@@ -77,6 +80,7 @@ pub fn lower(
     lowering.objects();
     lowering.unused();
     lowering.near_singular();
+    lowering.coinciding();
     lowering.lint();
     lowering.prune_interiors();
     let Lowering { world, mut origins, .. } = lowering;

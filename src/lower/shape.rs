@@ -90,6 +90,7 @@ pub fn plane(
     let towards = rows[0] * n.x + rows[1] * n.y + rows[2] * n.z;
     let towards = if determinant.round() < 0.0 { -towards } else { towards };
     let unit = towards.normalized().ok_or_else(|| no_size(FLAT))?;
+    let unit = map.without_rounding(unit);
     let distance = local.distance * determinant.abs() / towards.length() + unit.dot(map.offset());
     let (unit, distance) = if inverse { (-unit, -distance) } else { (unit, distance) };
     if !unit.is_finite() || !distance.is_finite() {
@@ -112,7 +113,7 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
     let mut sides = Vec::with_capacity(3);
     for (axis, row) in rows.into_iter().enumerate() {
-        let unit = row.normalized().ok_or_else(|| no_size(FLAT))?;
+        let unit = map.without_rounding(row.normalized().ok_or_else(|| no_size(FLAT))?);
         let unit = if determinant.round() < 0.0 { -unit } else { unit };
         let half_width = half_widths[axis] * determinant.abs() / row.length();
         sides.push(Side { axis, normal: unit, half_width, turned: false });

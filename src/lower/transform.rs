@@ -189,6 +189,12 @@ impl Affine {
         16.0 * (self.rounding + Self::STEP_ROUNDING)
     }
 
+    /// A vector of length 1 that has gone through the map: what of it may be rounding is 0. So what was
+    /// turned and turned back is level again, and a line along it stays beside it.
+    pub fn without_rounding(&self, unit: DoubleVector) -> DoubleVector {
+        unit.map(|c| if c.abs().round() <= 16.0 * self.rounding { Double::ZERO } else { c })
+    }
+
     /// The largest number of the linear part, as a power of two.
     fn size(&self) -> f64 {
         power_of_two_near(self.rows.iter().map(|row| row.largest()).fold(0.0, f64::max))

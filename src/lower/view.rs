@@ -49,8 +49,9 @@ impl Lowering<'_, '_> {
         if self.reporter.diagnostics.iter().any(is_told) {
             return true;
         }
-        let fits = (0..world.objects.len())
-            .filter_map(|i| bounds(world, i as u32))
+        let fits = world
+            .solids()
+            .filter_map(|i| bounds(world, i))
             .any(|bounds| view.outside(&bounds).is_none() && view.pictures(&bounds) <= TOO_LARGE);
         if fits {
             return false;
@@ -76,27 +77,30 @@ impl Lowering<'_, '_> {
         let Some(camera) = self.origins.camera else { return false };
         let world = &self.world;
         let here = world.camera.location;
-        let is_shut = |(i, object): &(usize, &Object)| {
+        let is_dark = |object: &Object| {
             let material = world.materials.get(object.material as usize);
             let dark = material.is_some_and(|m| {
                 !m.pigment.is_clear() && m.finish.glow.largest() <= DEFAULT_AMBIENT
             });
-            dark && object.in_image
-                && object.casts_shadow
-                && !object.inverse
-                && !object.double_illuminate
-                && bounds(world, *i as u32).is_some()
-                && world.contains(object, here)
+            dark && object.in_image && object.casts_shadow && !object.double_illuminate
         };
-        let comes_in = |object: &Object, light: &Light| match light.kind {
+        let contains =
+            |solid: u32, place| world.whole_contains(&world.objects[solid as usize], place);
+        let is_shut = |solid: u32| {
+            world.parts(solid).iter().all(is_dark)
+                && bounds(world, solid).is_some()
+                && !self.is_inverse(solid)
+                && contains(solid, here)
+        };
+        let comes_in = |solid: u32, light: &Light| match light.kind {
             _ if !light.casts_shadows => true,
-            LightKind::Point { position } => world.contains(object, position),
+            LightKind::Point { position } => contains(solid, position),
             LightKind::Directional { .. } | LightKind::Parallel { .. } => false,
         };
-        let around = world.objects.iter().enumerate().find(|shut| {
-            is_shut(shut) && !world.lights.iter().any(|light| comes_in(shut.1, light))
+        let around = world.solids().find(|&solid| {
+            is_shut(solid) && !world.lights.iter().any(|light| comes_in(solid, light))
         });
-        let Some(site) = around.and_then(|(i, _)| self.origins.objects.get(i)).copied() else {
+        let Some(site) = around.and_then(|i| self.origins.objects.get(i as usize)).copied() else {
             return false;
         };
         let diagnostic =
@@ -109,11 +113,19 @@ impl Lowering<'_, '_> {
         true
     }
 
+    /// What is outside of it has no end. (A whole that has none has no bounds.)
+    fn is_inverse(&self, solid: u32) -> bool {
+        let object = &self.world.objects[solid as usize];
+        object.whole.is_none() && object.inverse
+    }
+
     pub(super) fn lint_view(&mut self) {
         let (world, view) = (&self.world, View::of(&self.world.camera));
         let mut all: Option<(Bounds, Outside)> = None;
-        for (i, object) in world.objects.iter().enumerate() {
-            let Some(bounds) = bounds(world, i as u32).filter(|_| !object.inverse) else { return };
+        for solid in world.solids() {
+            let Some(bounds) = bounds(world, solid).filter(|_| !self.is_inverse(solid)) else {
+                return;
+            };
             let Some(outside) = view.outside(&bounds) else { return };
             all = Some(match all {
                 Some((others, side)) if side == outside => (others.union(&bounds), side),

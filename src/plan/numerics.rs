@@ -13,7 +13,7 @@ use crate::math::{Matrix, Vector};
 use crate::shape::body::Local;
 use crate::shape::{Body, Placed, Shape};
 use crate::source::Site;
-use crate::world::{NearSingular, Origins, World};
+use crate::world::{Coinciding, NearSingular, Origins, World};
 
 /// What is known of a World's numbers before a ray is traced.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,6 +31,8 @@ pub struct Numerics {
     pub thin: Vec<Thin>,
     /// Maps with a condition number of 2²⁶ or more, in text order.
     pub near_singular: Vec<NearSingular>,
+    /// Parts of one solid that have a face in common, where they were looked for.
+    pub coinciding: Vec<Coinciding>,
 }
 
 /// A solid that is nearly a line or a point in some direction, and not in others.
@@ -66,8 +68,11 @@ pub struct Measured {
 }
 
 pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
-    let mut found =
-        Numerics { near_singular: origins.near_singular.clone(), ..Numerics::default() };
+    let mut found = Numerics {
+        near_singular: origins.near_singular.clone(),
+        coinciding: origins.coinciding.clone(),
+        ..Numerics::default()
+    };
     let mut triangles = Triangles::default();
     for (i, object) in world.objects.iter().enumerate() {
         let site = origins.objects.get(i).copied();

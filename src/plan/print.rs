@@ -4,6 +4,7 @@ use std::fmt::{self, Write};
 
 use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan, Precision};
 use crate::source::{Site, Sources, Span};
+use crate::world::Coinciding;
 
 /// Places named for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
@@ -163,6 +164,15 @@ impl Printer<'_> {
             writeln!(out, "  nearly degenerate: {what}, {times} times as long as thick{place}")?;
         }
         if let more @ 1.. = numerics.thin.len().saturating_sub(PLACES_SHOWN) {
+            writeln!(out, "  and {more} more")?;
+        }
+        for Coinciding { words: [first, second], sites } in
+            numerics.coinciding.iter().take(PLACES_SHOWN)
+        {
+            let [one, other] = sites.map(|site| self.at(Some(site)));
+            writeln!(out, "  a face in common: {first}{one}, {second}{other}")?;
+        }
+        if let more @ 1.. = numerics.coinciding.len().saturating_sub(PLACES_SHOWN) {
             writeln!(out, "  and {more} more")?;
         }
         let near = &numerics.near_singular;

@@ -51,12 +51,17 @@ impl Box_ {
     /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
-        let normals = self.directions();
-        let face = match slabs(self.centre, normals, self.half_widths, ray) {
+        let face = match slabs(self.centre, self.directions(), self.half_widths, ray) {
             Some(slabs) if leaving => slabs.leave_face,
             Some(slabs) => slabs.enter_face,
             None => 0, // Not a crossing of this box.
         };
+        self.surface_of_face(face, ray, t)
+    }
+
+    /// As [`Box_::surface`], on a face that is given.
+    pub fn surface_of_face(&self, face: u32, ray: &Ray, t: f64) -> SurfacePoint {
+        let normals = self.directions();
         let axis = (face / 2) as usize;
         let normal = if face.is_multiple_of(2) { normals[axis] } else { -normals[axis] };
         let half_width = self.half_widths[axis];
@@ -67,6 +72,17 @@ impl Box_ {
         let far = 2.0 * (normal.abs_dot(self.centre) + normal.abs_dot(point));
         let error = U * (24.0 * reach + 12.0 * half_width + far);
         SurfacePoint { point, normal, error, face }
+    }
+
+    /// Those of its faces that a point on it cannot be told from.
+    pub fn faces_at(&self, surface: &SurfacePoint) -> impl Iterator<Item = u32> {
+        let local = surface.point - self.centre;
+        let room = 8.0 * surface.error;
+        (0..6).filter(move |face| {
+            let (axis, side) = ((face / 2) as usize, if face % 2 == 0 { 1.0 } else { -1.0 });
+            let off = side * self.normals[axis].get().dot(local) - self.half_widths[axis];
+            off.abs() <= room
+        })
     }
 
     /// One of the three faces `normals` belong to, and with it the opposite one.

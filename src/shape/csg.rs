@@ -168,8 +168,12 @@ impl Tree {
             };
             match self.operations.is_empty() {
                 true => whole = state.shown,
-                false => push(changes, Change { part, state }),
+                false => changes.push(Change { part, state }),
             }
+        }
+        // The last operation first: the next is at the end.
+        if changes.len() > 1 {
+            changes.sort_unstable_by_key(|change| std::cmp::Reverse(change.part.operation));
         }
         // The operations in order, so that of each all parts are known.
         while let Some(operation) = changes.last().map(|change| change.part.operation) {
@@ -199,7 +203,7 @@ struct Change {
     state: State,
 }
 
-/// The last operation first.
+/// Among others, the last operation first.
 fn push(changes: &mut SmallVec<[Change; 8]>, change: Change) {
     let place = changes.partition_point(|other| other.part.operation >= change.part.operation);
     changes.insert(place, change);

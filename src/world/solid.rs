@@ -27,12 +27,31 @@ impl World {
         csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
     }
 
+    /// The language's word for an object's shape.
+    pub fn word(&self, object: &Object) -> &'static str {
+        match object.shape {
+            Shape::Sphere(_) | Shape::Ellipsoid(_) => "sphere",
+            Shape::Plane(_) => "plane",
+            Shape::Box(_) => "box",
+            Shape::Placed(i) => self.placed[i as usize].body.word(),
+        }
+    }
+
     /// Those of the objects that are no parts, and of each whole the first part.
     pub fn solids(&self) -> impl Iterator<Item = u32> {
         (0..self.objects.len() as u32).filter(|&i| {
             let whole = self.objects[i as usize].whole;
             whole.is_none_or(|whole| self.wholes[whole as usize].first == i)
         })
+    }
+
+    /// The objects that a solid of [`World::solids`] is made of.
+    pub fn parts(&self, solid: u32) -> &[Object] {
+        let at = solid as usize;
+        match self.objects[at].whole {
+            Some(whole) => &self.objects[self.wholes[whole as usize].leaves()],
+            None => &self.objects[at..=at],
+        }
     }
 
     /// Whether the crossings of any solid are found by steps that come nearer and nearer.

@@ -7,13 +7,14 @@
 //! Two distances are one when they differ by less than 2⁻¹⁵⁰ of the sizes they come from: far
 //! below what the numbers of a scene can say, far above what 320 bits leave over.
 
-use crate::scene::{Camera, Light, Object, Paint, Scene, Solid, Step, Triple};
-use crate::wide::{Wide, WideMap, WideVector};
+use crate::scene::{Camera, Light, Object, Paint, Scene, Triple};
+use crate::solids::{Crossing, Part, Ray, Thing};
+use crate::wide::{Wide, WideVector};
 
 pub struct Exact<'a> {
     scene: &'a Scene,
     lens: Lens,
-    things: Vec<Thing>,
+    things: Vec<Thing<'a>>,
     lights: Vec<(WideVector, Triple)>,
     /// 2⁻¹⁵⁰.
     touch: Wide,
@@ -27,35 +28,8 @@ struct Lens {
     up: WideVector,
 }
 
-/// An object, and the way to the spaces in which its solid and its paint were written.
-struct Thing {
-    solid: WideSolid,
-    solid_from_world: Option<WideMap>,
-    paint_from_world: Option<WideMap>,
-    /// How large the numbers are that its crossings come from, in the world.
-    size: Wide,
-}
-
-enum WideSolid {
-    Sphere { centre: WideVector, square: Wide },
-    Plane { normal: WideVector, distance: Wide },
-    Box { low: WideVector, high: WideVector },
-}
-
-struct Ray {
-    start: WideVector,
-    direction: WideVector,
-}
-
-/// A crossing, and the solid's normal there in its own space.
-struct Crossing {
-    t: Wide,
-    normal: WideVector,
-}
-
 struct Hit<'a> {
-    object: &'a Object,
-    thing: &'a Thing,
+    part: &'a Part<'a>,
     point: WideVector,
     /// Toward where the ray came from.
     normal: WideVector,
@@ -86,7 +60,7 @@ impl<'a> Exact<'a> {
     /// `level` is 1 for rays from the camera.
     fn radiance(&self, ray: &Ray, level: u32) -> Triple {
         let Some(hit) = self.nearest(ray) else { return self.scene.background };
-        let object = hit.object;
+        let object = hit.part.object;
         let mut seen = self.local(&hit);
         if level >= self.scene.depth {
             return seen;
@@ -114,10 +88,10 @@ impl<'a> Exact<'a> {
     /// Snell's law; solids are not in each other. `None`: nothing goes through.
     fn bent(&self, ray: &Ray, hit: &Hit) -> Option<WideVector> {
         let direction = &ray.direction;
-        if hit.object.ior == 1.0 {
+        if hit.part.object.ior == 1.0 {
             return Some(direction.clone());
         }
-        let index = Wide::of(hit.object.ior);
+        let index = Wide::of(hit.part.object.ior);
         let ratio = if hit.leaving { index } else { Wide::one() / index };
         let normal = hit.normal.unit();
         let cosine = -&direction.dot(&normal);
@@ -131,7 +105,8 @@ impl<'a> Exact<'a> {
         let mut best: Option<(Crossing, usize)> = None;
         for (index, thing) in self.things.iter().enumerate() {
             let least = self.touch.clone() * &self.sizes(thing, ray) / &ray.direction.largest();
-            let first = thing.crossings(ray).into_iter().find(|crossing| crossing.t > least);
+            let all = thing.crossings(ray, &self.touch, &least);
+            let first = all.into_iter().find(|crossing| crossing.t > least);
             let Some(crossing) = first else { continue };
             let nearer =
                 |best: &Crossing| crossing.t < &best.t - &(&(&self.touch * &best.t) + &least);
@@ -139,14 +114,13 @@ impl<'a> Exact<'a> {
                 best = Some((crossing, index));
             }
         }
-        let (Crossing { t, normal }, index) = best?;
-        let thing = &self.things[index];
-        let normal = thing.world_normal(normal);
+        let (crossing, index) = best?;
+        let part = self.things[index].part(&crossing);
+        let Crossing { t, normal, .. } = crossing;
         let leaving = ray.direction.dot(&normal).is_positive();
         let toward = if leaving { -1.0 } else { 1.0 };
         Some(Hit {
-            object: &self.scene.objects[index],
-            thing,
+            part,
             point: ray.start.plus(&ray.direction.times(&t)),
             normal: normal.times(&Wide::of(toward)),
             leaving,
@@ -162,12 +136,12 @@ impl<'a> Exact<'a> {
     /// surface's part.
     fn lit(&self, ray: &Ray) -> Triple {
         let mut light = [1.0; 3];
-        for (object, thing) in self.scene.objects.iter().zip(&self.things) {
+        for thing in &self.things {
             let least = self.touch.clone() * &self.sizes(thing, ray) / &ray.direction.largest();
             let most = Wide::one() - least.clone();
-            let through = object.transmittance();
-            for crossing in thing.crossings(ray) {
+            for crossing in thing.crossings(ray, &self.touch, &least) {
                 if crossing.t > least && crossing.t < most {
+                    let through = thing.part(&crossing).object.transmittance();
                     light = std::array::from_fn(|c| light[c] * through[c]);
                 }
             }
@@ -179,13 +153,13 @@ impl<'a> Exact<'a> {
     }
 
     fn local(&self, hit: &Hit) -> Triple {
-        let body = 1.0 - hit.object.filter - hit.object.transmit;
+        let body = 1.0 - hit.part.object.filter - hit.part.object.transmit;
         let color = self.color(hit).map(|c| c * body);
-        let mut sum = color.map(|c| product(c, hit.object.ambient));
+        let mut sum = color.map(|c| product(c, hit.part.object.ambient));
         for (position, intensity) in &self.lights {
             let way = position.minus(&hit.point);
             let along = way.dot(&hit.normal);
-            if !along.is_positive() || hit.object.diffuse == 0.0 {
+            if !along.is_positive() || hit.part.object.diffuse == 0.0 {
                 continue;
             }
             let ray = Ray { start: hit.point.clone(), direction: way };
@@ -194,7 +168,7 @@ impl<'a> Exact<'a> {
                 continue;
             }
             let square = along.clone() * &along / &(ray.direction.square() * hit.normal.square());
-            let strength = hit.object.diffuse * square.to_f64().sqrt();
+            let strength = hit.part.object.diffuse * square.to_f64().sqrt();
             for c in 0..3 {
                 sum[c] += product(intensity[c], light[c] * color[c] * strength);
             }
@@ -203,10 +177,10 @@ impl<'a> Exact<'a> {
     }
 
     fn color(&self, hit: &Hit) -> Triple {
-        match &hit.object.paint {
+        match &hit.part.object.paint {
             Paint::Plain(color) => *color,
             Paint::Checker { even, odd, .. } => {
-                let place = match &hit.thing.paint_from_world {
+                let place = match &hit.part.paint_from_world {
                     Some(map) => map.point(&hit.point),
                     None => hit.point.clone(),
                 };
@@ -279,175 +253,4 @@ impl Lens {
             Ray { start: self.location.clone(), direction: self.direction.plus(&on_screen) }
         }
     }
-}
-
-impl Thing {
-    fn of(object: &Object) -> Self {
-        let world_from_solid = spent(&object.steps);
-        let (solid, reach) = match object.solid {
-            Solid::Sphere { centre, radius } => {
-                let centre = WideVector::of(centre);
-                let reach = &centre.largest() + &Wide::of(radius);
-                let square = Wide::of(radius) * Wide::of(radius);
-                (WideSolid::Sphere { centre, square }, reach)
-            }
-            Solid::Plane { normal, distance } => {
-                let normal = WideVector::of(normal);
-                let distance = Wide::of(distance) * normal.length();
-                let reach = distance.abs();
-                (WideSolid::Plane { normal, distance }, reach)
-            }
-            Solid::Box { corners: [a, b] } => {
-                let side = |pick: fn(f64, f64) -> f64| {
-                    WideVector::of(std::array::from_fn(|i| pick(a[i], b[i])))
-                };
-                let (low, high) = (side(f64::min), side(f64::max));
-                let reach = &low.largest() + &high.largest();
-                (WideSolid::Box { low, high }, reach)
-            }
-        };
-        let size = match &world_from_solid {
-            Some(map) => map
-                .rows
-                .iter()
-                .fold(map.offset.largest(), |size, row| size + &(row.largest() * &reach)),
-            None => reach,
-        };
-        let world_from_paint = match &object.paint {
-            Paint::Plain(_) => None,
-            Paint::Checker { steps, .. } => match (spent(steps), &world_from_solid) {
-                (Some(inner), Some(outer)) => Some(outer.after(&inner)),
-                (Some(one), None) => Some(one),
-                (None, outer) => outer.clone(),
-            },
-        };
-        Self {
-            solid,
-            solid_from_world: world_from_solid.as_ref().map(WideMap::inverse),
-            paint_from_world: world_from_paint.as_ref().map(WideMap::inverse),
-            size,
-        }
-    }
-
-    /// In order, behind the start too.
-    fn crossings(&self, ray: &Ray) -> Vec<Crossing> {
-        let (start, direction) = match &self.solid_from_world {
-            Some(map) => (&map.point(&ray.start), &map.direction(&ray.direction)),
-            None => (&ray.start, &ray.direction),
-        };
-        match &self.solid {
-            WideSolid::Sphere { centre, square } => {
-                let from_centre = start.minus(centre);
-                let a = direction.square();
-                let b = from_centre.dot(direction);
-                let c = from_centre.square() - square;
-                let discriminant = b.clone() * &b - &(a.clone() * &c);
-                if !discriminant.is_positive() {
-                    return Vec::new();
-                }
-                let root = discriminant.sqrt();
-                let q = if b.is_negative() { root - &b } else { -&(root + &b) };
-                let mut roots = [q.clone() / &a, c / &q];
-                if roots[1] < roots[0] {
-                    roots.swap(0, 1);
-                }
-                let at = |t: Wide| {
-                    let normal = from_centre.plus(&direction.times(&t));
-                    Crossing { t, normal }
-                };
-                roots.map(at).into()
-            }
-            WideSolid::Plane { normal, distance } => {
-                let speed = normal.dot(direction);
-                if speed.is_zero() {
-                    return Vec::new();
-                }
-                let t = (distance - &normal.dot(start)) / &speed;
-                vec![Crossing { t, normal: normal.clone() }]
-            }
-            WideSolid::Box { low, high } => slabs(low, high, start, direction),
-        }
-    }
-
-    /// By the inverse transpose.
-    fn world_normal(&self, normal: WideVector) -> WideVector {
-        match &self.solid_from_world {
-            Some(map) => map
-                .rows
-                .iter()
-                .zip(&normal.0)
-                .map(|(row, n)| row.times(n))
-                .reduce(|sum, row| sum.plus(&row))
-                .expect("three rows"),
-            None => normal,
-        }
-    }
-}
-
-/// Where a line enters the last slab and leaves the first; along a face it is inside.
-fn slabs(
-    low: &WideVector,
-    high: &WideVector,
-    start: &WideVector,
-    direction: &WideVector,
-) -> Vec<Crossing> {
-    let (mut enter, mut leave): (Option<Crossing>, Option<Crossing>) = (None, None);
-    for axis in 0..3 {
-        let (low, high) = (&low.0[axis], &high.0[axis]);
-        let (place, speed) = (&start.0[axis], &direction.0[axis]);
-        if speed.is_zero() {
-            if place < low || place > high {
-                return Vec::new();
-            }
-            continue;
-        }
-        let normal = |sign: f64| {
-            let mut normal = WideVector::of([0.0; 3]);
-            normal.0[axis] = Wide::of(sign);
-            normal
-        };
-        let crossing =
-            |face: &Wide, sign| Crossing { t: (face - place) / speed, normal: normal(sign) };
-        let (low, high) = (crossing(low, -1.0), crossing(high, 1.0));
-        let (near, far) = if speed.is_positive() { (low, high) } else { (high, low) };
-        if enter.as_ref().is_none_or(|enter| near.t > enter.t) {
-            enter = Some(near);
-        }
-        if leave.as_ref().is_none_or(|leave| far.t < leave.t) {
-            leave = Some(far);
-        }
-    }
-    match (enter, leave) {
-        (Some(enter), Some(leave)) if enter.t <= leave.t => vec![enter, leave],
-        _ => Vec::new(),
-    }
-}
-
-/// The map of all steps; `None` where there are none.
-fn spent(steps: &[Step]) -> Option<WideMap> {
-    let scaled = |v: Triple| {
-        let mut map = WideMap::identity();
-        for (axis, factor) in v.into_iter().enumerate() {
-            map.rows[axis].0[axis] = Wide::of(factor);
-        }
-        map
-    };
-    let turned = |v: Triple| {
-        let [x, y, z]: [WideMap; 3] =
-            std::array::from_fn(|axis| WideMap::rotation(axis, &Wide::of(v[axis])));
-        z.after(&y).after(&x)
-    };
-    let map = |step: &Step| match *step {
-        Step::Translate(v) => WideMap { offset: WideVector::of(v), ..WideMap::identity() },
-        Step::Scale(v) => scaled(v),
-        Step::Rotate(v) => turned(v),
-        Step::Spin { axis, degrees, times } => {
-            WideMap::rotation(axis, &(Wide::of(degrees) * Wide::of(times.into())))
-        }
-        Step::Matrix([x, y, z, offset]) => {
-            let row = |i: usize| WideVector::of([x[i], y[i], z[i]]);
-            WideMap { rows: [row(0), row(1), row(2)], offset: WideVector::of(offset) }
-        }
-    };
-    steps.iter().map(map).reduce(|before, step| step.after(&before))
 }

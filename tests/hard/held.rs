@@ -50,33 +50,56 @@ pub fn hold_sized(name: &str, scene: &Scene, size: (u32, u32)) {
 
 /// As [`hold_sized`], of a text that is to show the scene in words of its own.
 #[track_caller]
-pub fn hold_text(name: &str, scene: &Scene, text: &str, (width, height): (u32, u32)) {
+pub fn hold_text(name: &str, scene: &Scene, text: &str, size: (u32, u32)) {
+    let Held { mut bad, unjudged, shown } = held(scene, text, size);
+    assert!(shown > 0, "{name}: nothing but the background is to be seen");
+    let count = bad.len();
+    bad.truncate(6);
+    assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
+    // A picture that is nowhere judged proves nothing.
+    assert!(4 * unjudged <= size.0 * size.1, "{name}: {unjudged} pixels are not judged\n{text}");
+}
+
+/// What is seen at a pixel and is not what is there.
+#[derive(Debug)]
+#[allow(dead_code, reason = "to be printed")]
+pub struct Bad {
+    place: (u32, u32),
+    seen: Rgb,
+    expected: Triple,
+}
+
+/// How a picture compares with the exact one.
+pub struct Held {
+    pub bad: Vec<Bad>,
+    pub unjudged: u32,
+    /// So many pixels are not the background.
+    pub shown: u32,
+}
+
+/// Renders a text that is to show the scene, and compares it.
+pub fn held(scene: &Scene, text: &str, (width, height): (u32, u32)) -> Held {
     let film = rendered(text, (width, height));
     let exact = Exact::new(scene);
     let at = |x: f64, y: f64| exact.at(x, y, width, height);
-    let (mut bad, mut unjudged, mut shown) = (Vec::new(), 0, false);
+    let mut held = Held { bad: Vec::new(), unjudged: 0, shown: 0 };
     for y in 0..height {
         for x in 0..width {
             let (px, py) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
             let seen = film.radiance[film.index(x, y)];
             let expected = at(px, py);
-            shown |= apart(expected, scene.background) > OFF;
+            held.shown += u32::from(apart(expected, scene.background) > OFF);
             if apart(components(seen), expected) <= OFF {
                 continue;
             }
             if changes_near(&exact, (x, y), (width, height)) {
-                unjudged += 1;
+                held.unjudged += 1;
             } else {
-                bad.push((x, y, seen, expected));
+                held.bad.push(Bad { place: (x, y), seen, expected });
             }
         }
     }
-    assert!(shown, "{name}: nothing but the background is to be seen");
-    let count = bad.len();
-    bad.truncate(6);
-    assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
-    // A picture that is nowhere judged proves nothing.
-    assert!(4 * unjudged <= width * height, "{name}: {unjudged} pixels are not judged\n{text}");
+    held
 }
 
 /// Whether the exact picture changes so near the centre of a pixel that it is not judged.

@@ -53,13 +53,46 @@ pub struct Object {
     pub steps: Vec<Step>,
     /// How many times the text places it.
     pub copies: u32,
+    /// Transforms that undo each other: nothing here but the text knows of them.
+    pub detour: String,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum Solid {
-    Sphere { centre: Triple, radius: f64 },
-    Plane { normal: Triple, distance: f64 },
-    Box { corners: [Triple; 2] },
+    Sphere {
+        centre: Triple,
+        radius: f64,
+    },
+    Plane {
+        normal: Triple,
+        distance: f64,
+    },
+    Box {
+        corners: [Triple; 2],
+    },
+    /// A cylinder where both radii are one.
+    Cone {
+        ends: [Triple; 2],
+        radii: [f64; 2],
+    },
+    /// About the y axis.
+    Torus {
+        major: f64,
+        minor: f64,
+    },
+    /// Of a whole the steps count, and what it is filled with; of its parts the rest.
+    Whole {
+        operation: Operation,
+        parts: Vec<Object>,
+    },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operation {
+    Merge,
+    Intersection,
+    /// The others are taken from the first.
+    Difference,
 }
 
 #[derive(Debug, Clone)]
@@ -95,6 +128,18 @@ pub fn cuboid(low: Triple, high: Triple) -> Object {
     Object::new(Solid::Box { corners: [low, high] })
 }
 
+pub fn cone(ends: [Triple; 2], radii: [f64; 2]) -> Object {
+    Object::new(Solid::Cone { ends, radii })
+}
+
+pub fn torus(major: f64, minor: f64) -> Object {
+    Object::new(Solid::Torus { major, minor })
+}
+
+pub fn whole(operation: Operation, parts: Vec<Object>) -> Object {
+    Object::new(Solid::Whole { operation, parts })
+}
+
 impl Object {
     fn new(solid: Solid) -> Self {
         let (paint, steps) = (Paint::Plain(WHITE), Vec::new());
@@ -109,6 +154,7 @@ impl Object {
             ior: 1.0,
             steps,
             copies: 1,
+            detour: String::new(),
         }
     }
 
@@ -160,7 +206,7 @@ impl Scene {
         }
         for object in &self.objects {
             let copies = object.copies;
-            let object = object.text();
+            let object = object.text(false);
             match copies {
                 1 => text += &object,
                 n => {
@@ -197,15 +243,40 @@ impl Camera {
 }
 
 impl Object {
-    fn text(&self) -> String {
-        let solid = match self.solid {
-            Solid::Sphere { centre, radius } => format!("sphere {{ {}, {radius:e}", triple(centre)),
-            Solid::Plane { normal, distance } => {
-                format!("plane {{ {}, {distance:e}", triple(normal))
+    fn text(&self, is_part: bool) -> String {
+        let solid = match &self.solid {
+            Solid::Sphere { centre, radius } => {
+                format!("sphere {{ {}, {radius:e}", triple(*centre))
             }
-            Solid::Box { corners: [a, b] } => format!("box {{ {}, {}", triple(a), triple(b)),
+            Solid::Plane { normal, distance } => {
+                format!("plane {{ {}, {distance:e}", triple(*normal))
+            }
+            Solid::Box { corners: [a, b] } => format!("box {{ {}, {}", triple(*a), triple(*b)),
+            Solid::Cone { ends: [a, b], radii: [one, other] } if one == other => {
+                format!("cylinder {{ {}, {}, {one:e}", triple(*a), triple(*b))
+            }
+            Solid::Cone { ends: [a, b], radii: [base, cap] } => {
+                format!("cone {{ {}, {base:e}, {}, {cap:e}", triple(*a), triple(*b))
+            }
+            Solid::Torus { major, minor } => format!("torus {{ {major:e}, {minor:e}"),
+            Solid::Whole { operation, parts } => {
+                let parts: String = parts.iter().map(|part| part.text(true)).collect();
+                format!("{} {{ {parts}", operation.word())
+            }
         };
+        let steps = written(&self.steps);
+        let detour = &self.detour;
+        let interior = match self.ior {
+            ior if ior == 1.0 || is_part => String::new(),
+            ior => format!("interior {{ ior {ior:e} }}"),
+        };
+        let surface = self.surface();
+        format!("{solid} {detour} {surface} {interior} {steps} }}\n")
+    }
+
+    fn surface(&self) -> String {
         let paint = match &self.paint {
+            _ if matches!(self.solid, Solid::Whole { .. }) => return String::new(),
             Paint::Plain(color) if self.filter == 0.0 && self.transmit == 0.0 => {
                 format!("rgb {}", triple(*color))
             }
@@ -219,29 +290,40 @@ impl Object {
         let Self { ambient, diffuse, reflection, .. } = self;
         let finish =
             format!("ambient {ambient:e} diffuse {diffuse:e} reflection {{ rgb {reflection:e} }}");
-        let steps = written(&self.steps);
-        let interior = match self.ior {
-            1.0 => String::new(),
-            ior => format!("interior {{ ior {ior:e} }}"),
-        };
-        format!("{solid} pigment {{ {paint} }} finish {{ {finish} }} {interior} {steps} }}\n")
+        format!("pigment {{ {paint} }} finish {{ {finish} }}")
+    }
+}
+
+impl Operation {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Merge => "merge",
+            Self::Intersection => "intersection",
+            Self::Difference => "difference",
+        }
     }
 }
 
 fn written(steps: &[Step]) -> String {
-    let word = |step: &Step| match *step {
-        Step::Translate(v) => format!("translate {}", triple(v)),
-        Step::Scale(v) => format!("scale {}", triple(v)),
-        Step::Rotate(v) => format!("rotate {}", triple(v)),
-        Step::Spin { axis, degrees, times } => {
-            format!("#for (J, 1, {times}) rotate {degrees:e}*{} #end", ["x", "y", "z"][axis])
+    steps.iter().map(Step::text).collect::<Vec<_>>().join(" ")
+}
+
+impl Step {
+    pub fn text(&self) -> String {
+        match *self {
+            Self::Translate(v) => format!("translate {}", triple(v)),
+            Self::Scale(v) => format!("scale {}", triple(v)),
+            Self::Rotate(v) => format!("rotate {}", triple(v)),
+            Self::Spin { axis, degrees, times } => {
+                format!("#for (J, 1, {times}) rotate {degrees:e}*{} #end", ["x", "y", "z"][axis])
+            }
+            Self::Matrix(rows) => {
+                let numbers: Vec<String> =
+                    rows.iter().flatten().map(|n| format!("{n:e}")).collect();
+                format!("matrix <{}>", numbers.join(", "))
+            }
         }
-        Step::Matrix(rows) => {
-            let numbers: Vec<String> = rows.iter().flatten().map(|n| format!("{n:e}")).collect();
-            format!("matrix <{}>", numbers.join(", "))
-        }
-    };
-    steps.iter().map(word).collect::<Vec<_>>().join(" ")
+    }
 }
 
 fn triple([x, y, z]: Triple) -> String {

@@ -43,7 +43,7 @@ pub fn assert_all_agree(sphere: &Sphere, ray: &Ray, chord: Option<&Chord>) {
 
 /// The time that this thread has had of a processor, whatever else runs.
 #[cfg(target_os = "linux")]
-fn processor_time() -> Duration {
+pub fn processor_time() -> Duration {
     use nix::sys::resource::{UsageWho, getrusage};
     let usage = getrusage(UsageWho::RUSAGE_THREAD).expect("a thread");
     let micros = |time: nix::sys::time::TimeVal| {
@@ -54,7 +54,7 @@ fn processor_time() -> Duration {
 
 /// Elsewhere the wall's clock will do.
 #[cfg(not(target_os = "linux"))]
-fn processor_time() -> Duration {
+pub fn processor_time() -> Duration {
     static START: OnceLock<std::time::Instant> = OnceLock::new();
     START.get_or_init(std::time::Instant::now).elapsed()
 }

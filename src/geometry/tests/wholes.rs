@@ -177,3 +177,32 @@ fn a_block_with_ten_thousand_balls_taken_out_asks_few_of_them() {
     }
     assert!(asked < 40 * rays && balls > rays / 5, "{asked} asked, {balls} balls");
 }
+
+/// A ray from a corner that parts share: it enters and leaves them at 0, one of them at −0.
+#[test]
+fn a_ray_that_starts_where_parts_begin_and_end_enters_before_it_leaves() {
+    for (first, second) in [(2.0, 1.0), (1.0, -2.0), (-1.0, -1.0), (-0.0, 1.0)] {
+        for node in [Node::Merge(2), Node::Intersection(2)] {
+            let mut world = empty();
+            for size in [first, second] {
+                let half = 0.5 * size;
+                add_box(&mut world, aligned_box(Vector::splat(half), [half.abs(); 3]));
+            }
+            world.objects.iter_mut().for_each(|object| object.whole = Some(0));
+            let leaf = Node::Leaf { inverse: false };
+            let nodes = vec![leaf, leaf, node];
+            world.wholes.push(crate::world::Whole { nodes, first: 0, count: 2 });
+            let geometry = Geometry::build(&world);
+            let Some(whole) = geometry.wholes.first() else { continue };
+            let mut random = Random(24);
+            for _ in 0..tries_in(100) {
+                let direction = random.structured_direction().get();
+                for origin in [Vector::ZERO, -Vector::ZERO] {
+                    let events = geometry.events(whole, &Ray { origin, direction });
+                    let ways: Vec<bool> = events.iter().map(|event| event.met.leaving).collect();
+                    assert!(ways.iter().step_by(2).all(|leaving| !leaving), "{events:?}");
+                }
+            }
+        }
+    }
+}
