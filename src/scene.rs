@@ -5,9 +5,12 @@
 //! is an index, shared and never copied, and stands before its parents.
 
 pub mod blob;
+pub mod height_field;
 pub mod light;
 pub mod mesh;
 pub mod outline;
+pub mod polygon;
+pub mod text;
 pub mod print;
 pub mod solid;
 pub mod sweep;

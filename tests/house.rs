@@ -34,6 +34,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("film", &["color", "math", "plan"]),
     ("picture", &["color", "film"]),
     // verbs
+    ("font", &["scene"]),
     ("syntax", &["color", "source", "vocabulary", "diagnostic"]),
     (
         "lower",
@@ -60,11 +61,14 @@ const ROOMS: &[(&str, &[&str])] = &[
             "math",
             "noise",
             "pattern",
+            // Heights are read from pictures.
+            "picture",
             "scene",
             "source",
             "standard",
             "syntax",
             "vocabulary",
+            "font",
             "function",
             "spline",
             // `trace()`, `inside()`, `min_extent()` and `max_extent()` look at what was declared.
@@ -114,7 +118,9 @@ const DOORS: &[(&str, &[&str])] = &[
     ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
     ("stacker", &["evaluate/"]),
+    ("gif", &["picture"]),
     ("image", &["picture"]),
+    ("ttf_parser", &["font.rs"]),
     ("png", &["picture"]),
     ("rayon", &["trace/"]),
     ("clap", &["cli/", "main.rs"]),

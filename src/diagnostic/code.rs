@@ -131,6 +131,7 @@ codes! {
     ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
     ForeignFile "foreign-file" error "a file is another program's, and no scene";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
+    StandInFont "stand-in-font" lint "a font of POV-Ray's is not there, and the built-in one is used";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";

@@ -246,6 +246,8 @@ struct Evaluator<'a> {
     parsed: HashMap<String, Rc<Unit>>,
     /// The name that a file was found under, by what an including file calls it.
     found: HashMap<(String, FileId), String>,
+    /// Fonts that were read.
+    fonts: block::Fonts,
     /// The names of the files that include each other now.
     including: Vec<String>,
     default_texture: TextureId,
@@ -370,6 +372,7 @@ impl<'a> Evaluator<'a> {
             calls_wait: false,
             parsed: HashMap::new(),
             found: HashMap::new(),
+            fonts: block::Fonts::new(),
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,

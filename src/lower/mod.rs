@@ -16,6 +16,7 @@ mod lint;
 mod modifier;
 mod object;
 mod outline;
+mod patch;
 mod place;
 mod shape;
 mod sweep;

@@ -11,6 +11,7 @@ use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, outline, shape, sweep};
+use super::{Fault, Lowering, NO_SIZE, body, outline, patch, shape};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -303,6 +304,17 @@ impl<'s> Lowering<'s, '_> {
                         Ok(())
                     }
                 }
+            Solid::Text { ref text } => {
+                self.place_stored(id, || patch::text(text), here, site)
+            },
+            Solid::BicubicPatch { ref points } => {
+                self.place_made(patch::bicubic(points)?, here, site)
+            }
+            Solid::HeightField { ref field } => {
+                self.place_stored(id, || Ok(patch::height_field(field)), here, site)
+            }
+            Solid::Polygon { ref polygon } => {
+                self.place_stored(id, || patch::polygon(polygon), here, site)
             }
             Solid::Cone { ends, radii, open } => {
                 self.place_made(body::cone(ends, radii, open)?, here, site)

@@ -13,6 +13,7 @@ use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::isosurface::Isosurface;
 use super::lathe::Lathe;
+use super::height_field::HeightField;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::parametric::Parametric;
@@ -20,6 +21,9 @@ use super::prism::Prism;
 use super::sor::Sor;
 use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
+use super::patch::Patch;
+use super::polygon::Polygon;
+use super::text::Text;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -224,15 +228,19 @@ bodies! {
     Cone "cone"
     Cylinder "cylinder"
     Disc "disc"
+    HeightField "height_field"
     Isosurface "isosurface"
     Lathe "lathe"
     Mesh "mesh"
     Ovus "ovus"
     Parametric "parametric"
+    Patch "bicubic_patch"
+    Polygon "polygon"
     Prism "prism"
     Sor "sor"
     SphereSweep "sphere_sweep"
     Superellipsoid "superellipsoid"
+    Text "text"
     Torus "torus"
 }
 

@@ -37,14 +37,14 @@ vocabulary! {
         Append "append" statement built "opens a file to write at its end";
     }
     Shape {
-        BicubicPatch "bicubic_patch" statement later "a surface of 16 Bézier control points";
+        BicubicPatch "bicubic_patch" statement built "`bicubic_patch { <16 points> }`: a Bézier surface of degree 3, met exactly; a sheet";
         Blob "blob" statement built "spheres and cylinders, each with a strength, that melt into one surface";
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
         Cone "cone" statement built "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
         Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
         Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; to other solids, all that is behind it";
-        HeightField "height_field" statement later "a landscape from a picture or a function";
+        HeightField "height_field" statement built "`height_field { png \"file\" }` or `height_field { function W, H { … } }`: a landscape over the unit square, as high as a picture is light";
         Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: where a function of space is less than a number";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
         Lathe "lathe" statement built "`lathe { SPLINE count, points }`: a curve turned about the y axis";
@@ -54,7 +54,7 @@ vocabulary! {
         Parametric "parametric" statement built "`parametric { function { … } function { … } function { … } <u1, v1>, <u2, v2> }`: a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
         Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
-        Polygon "polygon" statement later "a flat figure of several corners";
+        Polygon "polygon" statement built "`polygon { count, <corner>, … }`: a flat figure; a corner that is its line's first closes it, and lines within others are holes";
         Polynomial "polynomial" statement built "`polynomial { order, xyz(i, j, k): number … }`: a polynomial surface by its terms";
         Prism "prism" statement built "`prism { SPLINE SWEEP low, high, count, points }`: a flat outline drawn up along y";
         Quadric "quadric" statement built "`quadric { <A, B, C>, <D, E, F>, <G, H, I>, J }`: a polynomial surface of degree 2";
@@ -64,7 +64,7 @@ vocabulary! {
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement built "`sphere_sweep { linear_spline count, <centre>, radius, … }`: a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
-        Text "text" statement later "letters of a font as a solid";
+        Text "text" statement built "`text { ttf \"file\" \"string\" thickness, offset }`: letters of a font as a solid; without `ttf`, of the font that is built in";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
         Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }
@@ -80,7 +80,7 @@ vocabulary! {
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
         Evaluate "evaluate" statement inert "lets an isosurface learn its slope; it is known here";
         FaceIndices "face_indices" statement built "the triangles of a mesh2, as indices of vertices";
-        Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
+        Flatness "flatness" statement built "how flat a patch must be to stop dividing it; it is met as it is, and this changes nothing";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
         InsideVector "inside_vector" statement built "gives a mesh an inside";
@@ -100,21 +100,21 @@ vocabulary! {
         QuadraticSpline "quadratic_spline" statement built "a spline of parabolas";
         Quaternion "quaternion" statement later "the algebra of a julia_fractal";
         Slice "slice" statement later "the three-dimensional cut of a julia_fractal";
-        Smooth "smooth" statement later "rounds a height_field by its normals";
+        Smooth "smooth" statement built "a height_field is lit as if it were round";
         Spline "spline" statement built "a curve through points at given times";
         Strength "strength" statement built "how strongly a part of a blob pulls";
         Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
         TextureList "texture_list" statement later "the textures of a mesh2";
         Threshold "threshold" statement built "the value at which a blob or isosurface ends";
         Tolerance "tolerance" statement inert "how exactly a sphere_sweep is found; every crossing has its error bound";
-        Ttf "ttf" statement later "a TrueType font";
-        Type "type" statement later "the method by which a patch is drawn";
-        USteps "u_steps" statement later "how often a patch is divided along u";
+        Ttf "ttf" statement built "`ttf \"file\"`: a TrueType or OpenType font";
+        Type "type" statement built "0 or 1: how a patch is kept; this changes nothing";
+        USteps "u_steps" statement built "how often a patch is divided along u; this changes nothing";
         UvIndices "uv_indices" statement built "the uv coordinates of each face of a mesh2";
         UvVectors "uv_vectors" statement built "the uv coordinates of a mesh or patch";
-        VSteps "v_steps" statement later "how often a patch is divided along v";
+        VSteps "v_steps" statement built "how often a patch is divided along v; this changes nothing";
         VertexVectors "vertex_vectors" statement built "the vertices of a mesh2";
-        WaterLevel "water_level" statement later "cuts off the low part of a height_field";
+        WaterLevel "water_level" statement built "`water_level n`: of a height_field nothing lower is seen";
         Xyz "xyz" function built "`xyz(i, j, k): number` in a `polynomial`: what x to the i, y to the j and z to the k is times";
     }
     Csg {

@@ -9,6 +9,7 @@ mod color;
 mod color_map;
 mod finish;
 mod habit;
+mod height_field;
 mod inert;
 mod interior;
 mod isosurface;
@@ -25,8 +26,10 @@ mod place;
 mod polynomial;
 mod settings;
 mod skip;
+mod sheet;
 mod solid;
 mod sweep;
+mod text;
 mod texture;
 mod transform;
 mod unbuilt;
@@ -48,6 +51,7 @@ pub(in crate::evaluate) use object::Made;
 pub(in crate::evaluate) use part::Given;
 pub use pieces::WrittenMap;
 pub(in crate::evaluate) use place::Place;
+pub(in crate::evaluate) use text::Fonts;
 pub(in crate::evaluate) use unknown::Unknown;
 
 impl Evaluator<'_> {
