@@ -7,6 +7,7 @@
 //! POV-Ray 3.7 sets letters was measured: the left end of the first is at x = 0, each goes on after the width
 //! and the kerning of the one before, and `offset` moves all that follow.
 
+use ttf_parser::kern::Format;
 use ttf_parser::{Face, GlyphId, OutlineBuilder, PlatformId};
 
 use crate::scene::text::{Contour, Letter};
@@ -84,10 +85,19 @@ impl<'a> Font<'a> {
         glyph.unwrap_or_default()
     }
 
+    /// Pairs are not in order in every font that says so.
     fn kerning(&self, before: GlyphId, glyph: GlyphId) -> i16 {
         let tables = self.face.tables().kern.into_iter().flat_map(|kern| kern.subtables);
         let mut tables = tables.filter(|table| table.horizontal && !table.has_state_machine);
-        tables.find_map(|table| table.glyphs_kerning(before, glyph)).unwrap_or(0)
+        let kerning = tables.find_map(|table| match table.format {
+            Format::Format0(list) => {
+                let mut pairs = list.pairs.into_iter();
+                let pair = pairs.find(|pair| pair.left() == before && pair.right() == glyph);
+                pair.map(|pair| pair.value)
+            }
+            _ => table.glyphs_kerning(before, glyph),
+        });
+        kerning.unwrap_or(0)
     }
 }
 

@@ -256,8 +256,10 @@ impl<'s> Lowering<'s, '_> {
         if here.unseen {
             return Ok(());
         }
-        // Told where it is written, and left out.
-        if self.scene.dialect == Dialect::Pov && solid.is_sizeless() {
+        // Told where it is written, and left out; a blank need not be told.
+        let may_be_nothing =
+            self.scene.dialect == Dialect::Pov || matches!(solid, Solid::Text { .. });
+        if may_be_nothing && solid.is_sizeless() {
             self.nothing(here.flags.inverse);
             return Ok(());
         }

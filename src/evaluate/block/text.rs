@@ -50,9 +50,9 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(self.sizeless(), "a text of thickness 0 is nothing")
                 .at(thickness.span, "expected a number other than 0");
             self.nothing(token, &thickness.here, diagnostic)?;
-        } else if text.letters.is_empty() {
-            let diagnostic = Diagnostic::new(self.sizeless(), "a text without letters is nothing")
-                .at(given.span, "nothing of this shows");
+        } else if text.letters.is_empty() && text.string.is_empty() {
+            let diagnostic = Diagnostic::new(self.sizeless(), "a text of no letters is nothing")
+                .at(given.span, "expected what is to be written");
             self.nothing(token, &given.here, diagnostic)?;
         }
         Ok(Solid::Text { text: Arc::new(text) })
