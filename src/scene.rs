@@ -10,10 +10,10 @@ pub mod light;
 pub mod mesh;
 pub mod outline;
 pub mod polygon;
-pub mod text;
 pub mod print;
 pub mod solid;
 pub mod sweep;
+pub mod text;
 
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;

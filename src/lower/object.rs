@@ -309,6 +309,7 @@ impl<'s> Lowering<'s, '_> {
             Solid::Text { ref text } => {
                 self.place_stored(id, || patch::text(text), here, site)
             },
+            Solid::Text { ref text } => self.place_stored(id, || patch::text(text), here, site),
             Solid::BicubicPatch { ref points } => {
                 self.place_made(patch::bicubic(points)?, here, site)
             }

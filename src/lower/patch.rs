@@ -101,8 +101,10 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
     let prisms = text.letters.iter().filter_map(|letter| {
         let mut outline = Outline::default();
         for contour in &letter.contours {
-            let pieces = contour.pieces().map(|points| points.iter().map(place).collect::<Vec<_>>());
-            let mut pieces: Vec<Piece> = pieces.filter_map(|points| Piece::bezier(&points)).collect();
+            let pieces =
+                contour.pieces().map(|points| points.iter().map(place).collect::<Vec<_>>());
+            let mut pieces: Vec<Piece> =
+                pieces.filter_map(|points| Piece::bezier(&points)).collect();
             if let (Some(first), Some(last)) = (pieces.first(), pieces.last()) {
                 let closing = Piece::line(last.last(), first.first());
                 if last.last() != first.first() {

@@ -36,7 +36,9 @@ fn of_pair(high: u8, low: u8) -> f32 {
 /// # Errors
 /// What is wrong with the bytes.
 pub fn read(bytes: &[u8], is_tga: bool) -> Result<Heights, String> {
-    let format = if is_tga { ImageFormat::Tga } else {
+    let format = if is_tga {
+        ImageFormat::Tga
+    } else {
         image::guess_format(bytes).map_err(|_| "its type is not known here".to_owned())?
     };
     let read = match format {
@@ -95,9 +97,7 @@ fn png(bytes: &[u8]) -> Result<Heights, String> {
                 ColorType::Rgb | ColorType::Rgba if info.bit_depth == BitDepth::Sixteen => {
                     height(sample(0))
                 }
-                ColorType::Rgb | ColorType::Rgba => {
-                    of_pair(sample(0) as u8, sample(1) as u8)
-                }
+                ColorType::Rgb | ColorType::Rgba => of_pair(sample(0) as u8, sample(1) as u8),
             });
         }
     }
@@ -124,7 +124,9 @@ fn other(bytes: &[u8], format: ImageFormat) -> Result<Heights, String> {
     let picture = ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(told)?;
     let width = picture.width() as usize;
     let heights = match picture {
-        DynamicImage::ImageLuma8(picture) => picture.pixels().map(|p| of_pair(p.0[0], p.0[0])).collect(),
+        DynamicImage::ImageLuma8(picture) => {
+            picture.pixels().map(|p| of_pair(p.0[0], p.0[0])).collect()
+        }
         DynamicImage::ImageLumaA8(picture) => {
             picture.pixels().map(|p| of_pair(p.0[0], p.0[0])).collect()
         }

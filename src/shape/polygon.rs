@@ -97,9 +97,10 @@ impl Local for Polygon {
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * self.reach * along.length();
         let corners = self.edges.iter().map(|[from, _]| from.dot(along));
-        let (low, high) = corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-            (low.min(height), high.max(height))
-        });
+        let (low, high) = corners
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+                (low.min(height), high.max(height))
+            });
         (low - slack, high + slack)
     }
 

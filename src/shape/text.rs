@@ -117,7 +117,8 @@ impl Local for Text {
     }
 
     fn numbers(&self) -> String {
-        let pieces: usize = self.letters.iter().map(|letter| letter.prism.outline.pieces.len()).sum();
+        let pieces: usize =
+            self.letters.iter().map(|letter| letter.prism.outline.pieces.len()).sum();
         format!(" of {} letters, {pieces} pieces", self.letters.len())
     }
 

@@ -162,7 +162,8 @@ impl Evaluator<'_> {
                 if !value.is_finite() {
                     stray.get_or_insert((x, y));
                 }
-                let within = if (0.0..=1.0).contains(&value) { value } else { value - value.floor() };
+                let within =
+                    if (0.0..=1.0).contains(&value) { value } else { value - value.floor() };
                 heights.push((within * (65535.0 / 65536.0)) as f32);
             }
         }

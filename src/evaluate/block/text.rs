@@ -88,7 +88,8 @@ impl Evaluator<'_> {
         match name {
             Some(name) => self.font_of(name, &number.here, number.span),
             None => {
-                let message = format!("there is no font {}: the built-in one is used", number.value);
+                let message =
+                    format!("there is no font {}: the built-in one is used", number.value);
                 let diagnostic = Diagnostic::new(Code::StandInFont, message)
                     .at(number.span, "expected 0 to 3")
                     .help("0 is povlogo.ttf, 1 timrom.ttf, 2 cyrvetic.ttf, 3 crystal.ttf");

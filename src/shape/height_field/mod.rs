@@ -223,7 +223,8 @@ impl Local for HeightField {
         let ends_inside = !own.last().is_some_and(|last| last.leaving);
         let wall = |met: Met, leaving| Met { leaving, part: Met::UNSEEN, ..met };
         if starts_inside {
-            let enter = walls.map_or(wall(first, false), |[enter, _]| enter.earlier(wall(first, false)));
+            let enter =
+                walls.map_or(wall(first, false), |[enter, _]| enter.earlier(wall(first, false)));
             if enter.t.is_finite() {
                 found.insert(begin, Met { part: Met::UNSEEN, ..enter });
             }
@@ -263,7 +264,8 @@ impl Local for HeightField {
                 cell as f64 / self.cells[axis] as f64 - 0.5
             };
             let (i, j) = (number % across, number / across);
-            let ranges = [[place(0, i), place(0, i + 1)], [low, high], [place(1, j), place(1, j + 1)]];
+            let ranges =
+                [[place(0, i), place(0, i + 1)], [low, high], [place(1, j), place(1, j + 1)]];
             let (mut least, mut most) = (0.0, 0.0);
             for (axis, [low, high]) in ranges.into_iter().enumerate() {
                 let (a, b) = (low * along[axis], high * along[axis]);

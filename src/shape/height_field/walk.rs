@@ -2,8 +2,8 @@
 //!
 //! **Invariant:** every cell that the line may pass over is told, once; rounding tells a few more.
 
-use super::U;
 use super::super::body::LocalRay;
+use super::U;
 
 /// A line over the grid, between two places.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +37,9 @@ impl Track {
             slack: [off * sizes[0], off * sizes[1], off],
             span: [-4.0, 4.0],
         };
-        for (axis, [low, high]) in [[0.0, sizes[0]], [0.0, sizes[1]], [low, high]].into_iter().enumerate() {
+        for (axis, [low, high]) in
+            [[0.0, sizes[0]], [0.0, sizes[1]], [low, high]].into_iter().enumerate()
+        {
             track.span = track.within(axis, low, high)?;
         }
         Some(track)

@@ -215,7 +215,8 @@ impl Piece {
         if !within || point.x.abs().max(point.y.abs()) > off {
             return None;
         }
-        let steepest = |steps: [Vector; 12]| steps.iter().map(|step| step.z.abs()).fold(0.0, f64::max);
+        let steepest =
+            |steps: [Vector; 12]| steps.iter().map(|step| step.z.abs()).fold(0.0, f64::max);
         let error = spread[0] * steepest(self.net.steps_along_u())
             + spread[1] * steepest(self.net.steps_along_v())
             + off;
@@ -246,8 +247,7 @@ fn part_at([u, v]: [f64; 2]) -> u32 {
 fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
     let determinant = along_u.x * along_v.y - along_v.x * along_u.y;
     let by = 1.0 / determinant;
-    let inverse =
-        [[along_v.y * by, -along_v.x * by], [-along_u.y * by, along_u.x * by]];
+    let inverse = [[along_v.y * by, -along_v.x * by], [-along_u.y * by, along_u.x * by]];
     inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
 }
 

@@ -23,8 +23,7 @@ pub(super) struct Place {
 fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let r = 1.0 - t;
     let values = [r * r * r, 3.0 * r * r * t, 3.0 * r * t * t, t * t * t];
-    let slopes =
-        [-3.0 * r * r, 3.0 * r * (r - 2.0 * t), 3.0 * t * (2.0 * r - t), 3.0 * t * t];
+    let slopes = [-3.0 * r * r, 3.0 * r * (r - 2.0 * t), 3.0 * t * (2.0 * r - t), 3.0 * t * t];
     (values, slopes)
 }
 
@@ -39,8 +38,7 @@ fn halves([a, b, c, d]: [Vector; 4]) -> ([Vector; 4], [Vector; 4]) {
 impl Net {
     pub fn at(&self, u: f64, v: f64) -> Place {
         let ((across, slope_u), (down, slope_v)) = (weights(u), weights(v));
-        let mut place =
-            Place { point: Vector::ZERO, along_u: Vector::ZERO, along_v: Vector::ZERO };
+        let mut place = Place { point: Vector::ZERO, along_u: Vector::ZERO, along_v: Vector::ZERO };
         for (row, points) in self.0.chunks_exact(4).enumerate() {
             let weighed = |weights: [f64; 4]| {
                 points[0] * weights[0]
@@ -132,8 +130,7 @@ impl Net {
                 greatest = greatest.max(hull);
                 continue;
             }
-            let (a, b) =
-                if depth % 2 == 0 { net.halves_along_u() } else { net.halves_along_v() };
+            let (a, b) = if depth % 2 == 0 { net.halves_along_u() } else { net.halves_along_v() };
             for half in [a, b] {
                 let (hull, corner) = value(&half);
                 found = found.max(corner);

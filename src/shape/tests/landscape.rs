@@ -33,18 +33,15 @@ fn above(body: &Body, [x, y, z]: Triple) -> Double {
         (cell as usize, at - Double::of(cell))
     };
     let ((i, a), (j, b)) = (place(0, x), place(1, z));
-    let height = |i: usize, j: usize| {
-        Double::of(f64::from(field.heights[j * (field.cells[0] + 1) + i]))
-    };
+    let height =
+        |i: usize, j: usize| Double::of(f64::from(field.heights[j * (field.cells[0] + 1) + i]));
     let one = Double::of(1.0);
     let surface = if (a + b - one).0 <= 0.0 {
         let corner = height(i, j);
         corner + a * (height(i + 1, j) - corner) + b * (height(i, j + 1) - corner)
     } else {
         let corner = height(i + 1, j + 1);
-        corner
-            + (one - a) * (height(i, j + 1) - corner)
-            + (one - b) * (height(i + 1, j) - corner)
+        corner + (one - a) * (height(i, j + 1) - corner) + (one - b) * (height(i + 1, j) - corner)
     };
     greater(y - surface, walls)
 }
@@ -96,8 +93,7 @@ fn what_lies_under_the_water_is_not_seen_and_solid_all_the_same() {
     let field = HeightField::new(heights, 2, 0.0, false).expect("a landscape");
     let down = |z: f64| {
         let nearest = Vector::new(0.1, 0.0, z);
-        let ray =
-            LocalRay { nearest, direction: -Vector::Y, blur: 0.0, turn: 0.0, tolerance: 0.0 };
+        let ray = LocalRay { nearest, direction: -Vector::Y, blur: 0.0, turn: 0.0, tolerance: 0.0 };
         let mut found = Crossings::new();
         field.crossings(&ray, &mut found);
         found

@@ -241,7 +241,8 @@ fn a_line_along_a_patch_ends() {
         turn: 1e-15,
         tolerance: 0.0,
     };
-    for patch in [flat(|_, _| 0.0), flat(|x, y| x * y), flat(|x, _| x * x), flat(|x, _| x * x * x)] {
+    for patch in [flat(|_, _| 0.0), flat(|x, y| x * y), flat(|x, _| x * x), flat(|x, _| x * x * x)]
+    {
         for direction in [Vector::X, Vector::Y, Vector::new(1.0, 1e-9, 0.0), Vector::ONE] {
             let mut found = Default::default();
             patch.crossings(&ray(direction), &mut found);
