@@ -203,8 +203,14 @@ impl Local for HeightField {
         let (Some(&first), Some(&last)) = (own.first(), own.last()) else {
             // It passes above all of it, or below.
             if let Some([enter, leave]) = walls {
-                let [from, to] = [enter.t.max(-4.0), leave.t.min(4.0)];
-                let inside = self.above(ray.at(0.5 * (from + to))).is_some_and(|above| above < 0.0);
+                // Of a line along the walls, a place beside the end that there is.
+                let place = match (enter.t.is_finite(), leave.t.is_finite()) {
+                    (true, true) => 0.5 * (enter.t + leave.t),
+                    (true, false) => enter.t + 1.0,
+                    (false, true) => leave.t - 1.0,
+                    (false, false) => 0.0,
+                };
+                let inside = self.above(ray.at(place)).is_some_and(|above| above < 0.0);
                 let is_told = enter.t + enter.error < leave.t - leave.error;
                 if inside && is_told {
                     found.extend([enter, leave]);
@@ -216,7 +222,8 @@ impl Local for HeightField {
         let starts_inside = first.leaving;
         for (number, met) in own.iter_mut().enumerate() {
             met.leaving = (number % 2 == 0) == starts_inside;
-            if ray.at(met.t).y < self.water {
+            // What may as well be at the water's height is seen: also where that is the least of all.
+            if ray.at(met.t).y < self.water - met.error - 8.0 * U {
                 met.part = Met::UNSEEN;
             }
         }

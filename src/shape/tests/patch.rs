@@ -187,8 +187,9 @@ fn a_line_through_a_place_of_a_patch_meets_it_there_even_on_its_edges_and_tips()
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };
         let local = placed.placement.local_direction(ray.direction).normalize();
-        // A line along the surface may miss it.
-        if local.dot(normal).abs() < 1e-4 {
+        // A line along the surface may miss it: one at the angle θ is within θ² of a tangent.
+        let grazing = (256.0 * blur(&placed, &ray)).sqrt().max(1e-4);
+        if local.dot(normal).abs() < grazing {
             continue;
         }
         aslant += 1;
