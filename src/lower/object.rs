@@ -10,8 +10,7 @@ use super::place::next;
 use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, blob, body, outline, shape, sweep};
-use super::{Fault, Lowering, NO_SIZE, body, outline, patch, shape};
+use super::{Fault, Lowering, NO_SIZE, blob, body, outline, patch, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -306,9 +305,7 @@ impl<'s> Lowering<'s, '_> {
                         Ok(())
                     }
                 }
-            Solid::Text { ref text } => {
-                self.place_stored(id, || patch::text(text), here, site)
-            },
+            }
             Solid::Text { ref text } => self.place_stored(id, || patch::text(text), here, site),
             Solid::BicubicPatch { ref points } => {
                 self.place_made(patch::bicubic(points)?, here, site)

@@ -4,15 +4,13 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::blob::Blob;
-use super::mesh::Triangles;
-use super::outline::{Point, Spline};
-use super::sweep::Sweep;
-use crate::function::Closed;
 use super::height_field::HeightField;
 use super::mesh::Triangles;
 use super::outline::{Point, Spline};
 use super::polygon::Polygon;
+use super::sweep::Sweep;
 use super::text::Text;
+use crate::function::Closed;
 use crate::math::Vector;
 use crate::math::vector::written;
 use crate::vocabulary::Word;
@@ -290,6 +288,7 @@ impl fmt::Display for Solid {
                     " of {operations} operations, <{}, {}> <{}, {}>, {container}",
                     a[0], a[1], b[0], b[1]
                 )
+            }
             Self::Text { text } => {
                 let Text { string, letters, thickness } = &**text;
                 write!(f, " {string:?} of {} letters, {thickness} thick", letters.len())

@@ -56,7 +56,7 @@ fn a_landscape_is_crossed_where_exact_arithmetic_crosses_it() {
         let ray = ray_at_placed(&mut random, &placed);
         crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, above);
     }
-    assert!(crossed > tries() / 2, "{crossed}");
+    assert!(crossed > tries() / 4, "{crossed}");
 }
 
 /// From above to below a line through an edge or a corner of the grid enters once more than it leaves.
