@@ -120,7 +120,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("stacker", &["evaluate/"]),
     ("gif", &["picture"]),
     ("image", &["picture"]),
-    ("ttf_parser", &["font.rs"]),
+    ("ttf_parser", &["font/"]),
     ("png", &["picture"]),
     ("rayon", &["trace/"]),
     ("clap", &["cli/", "main.rs"]),

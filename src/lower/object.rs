@@ -10,7 +10,7 @@ use super::place::next;
 use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, blob, body, outline, patch, shape, sweep};
+use super::{Fault, Lowering, NO_SIZE, blob, body, outline, points, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -306,15 +306,15 @@ impl<'s> Lowering<'s, '_> {
                     }
                 }
             }
-            Solid::Text { ref text } => self.place_stored(id, || patch::text(text), here, site),
-            Solid::BicubicPatch { ref points } => {
-                self.place_made(patch::bicubic(points)?, here, site)
+            Solid::Text { ref text } => self.place_stored(id, || points::text(text), here, site),
+            Solid::BicubicPatch { points: ref net } => {
+                self.place_stored(id, || points::bicubic_patch(net).map(Some), here, site)
             }
             Solid::HeightField { ref field } => {
-                self.place_stored(id, || Ok(patch::height_field(field)), here, site)
+                self.place_stored(id, || Ok(points::height_field(field)), here, site)
             }
             Solid::Polygon { ref polygon } => {
-                self.place_stored(id, || patch::polygon(polygon), here, site)
+                self.place_stored(id, || points::polygon(polygon), here, site)
             }
             Solid::Cone { ends, radii, open } => {
                 self.place_made(body::cone(ends, radii, open)?, here, site)

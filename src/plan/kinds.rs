@@ -49,7 +49,7 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Parametric(_) => {
                     "a map and bounds of its three functions a part a ray may meet"
                 }
-                Body::Patch(_) => {
+                Body::BicubicPatch(_) => {
                     "a map, and parts of the patch until each crossing stands alone, a ray"
                 }
                 Body::HeightField(_) => "a map and a walk over the grid below a ray",

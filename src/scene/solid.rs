@@ -206,10 +206,9 @@ impl Solid {
     }
 
     /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
-    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a polynomial that is a
-    /// number.
-    /// without length or width, a disc that is all hole, a ring of no thickness, a prism without height, a
-    /// curve that is a point, a polynomial that is a number, points in a line, a text that shows nothing.
+    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a
+    /// prism without height, a curve that is a point, a polynomial that is a number, points in a line, a text
+    /// that shows nothing, a landscape under water.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::BicubicPatch { points } => {

@@ -7,6 +7,7 @@
 use smallvec::SmallVec;
 
 use super::algebraic::Algebraic;
+use super::bicubic_patch::BicubicPatch;
 use super::blob::Blob;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
@@ -17,7 +18,6 @@ use super::lathe::Lathe;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::parametric::Parametric;
-use super::patch::Patch;
 use super::polygon::Polygon;
 use super::prism::Prism;
 use super::sor::Sor;
@@ -224,6 +224,7 @@ macro_rules! bodies {
 
 bodies! {
     Algebraic "polynomial"
+    BicubicPatch "bicubic_patch"
     Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
@@ -234,7 +235,6 @@ bodies! {
     Mesh "mesh"
     Ovus "ovus"
     Parametric "parametric"
-    Patch "bicubic_patch"
     Polygon "polygon"
     Prism "prism"
     Sor "sor"

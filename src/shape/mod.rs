@@ -4,6 +4,7 @@
 //! (0, ∞): there is no least and no greatest distance, each crossing carries its own error bound instead.
 
 pub mod algebraic;
+pub mod bicubic_patch;
 pub mod blob;
 pub mod body;
 pub mod box_;
@@ -19,7 +20,6 @@ pub mod lathe;
 pub mod mesh;
 pub mod ovus;
 pub mod parametric;
-pub mod patch;
 pub mod placed;
 pub mod plane;
 pub mod polygon;
@@ -33,6 +33,7 @@ pub mod torus;
 mod tree;
 
 pub use algebraic::Algebraic;
+pub use bicubic_patch::BicubicPatch;
 pub use blob::Blob;
 pub use body::Body;
 pub use box_::Box_;
@@ -46,7 +47,6 @@ pub use lathe::Lathe;
 pub use mesh::Mesh;
 pub use ovus::Ovus;
 pub use parametric::Parametric;
-pub use patch::Patch;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use polygon::Polygon;

@@ -9,15 +9,15 @@ use leave::assert_leaves_for_good;
 
 mod algebraic;
 mod blob;
+mod height_field;
 mod isosurface;
-mod landscape;
 mod leave;
 mod mesh;
 mod outline;
 mod ovus;
 mod parametric;
-mod patch;
 mod placed;
+mod sheets;
 mod superellipsoid;
 mod sweep;
 

@@ -2,33 +2,35 @@
 
 use std::sync::Arc;
 
+use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::heights::{self, Heights};
 use crate::scene::Solid;
 use crate::scene::height_field::HeightField;
 use crate::vocabulary::Word;
 
+use super::super::file::NamedFile;
 use super::super::function::{Functions, ParameterName, outside_id};
 use super::super::include::missing_file;
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::Token;
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use crate::function::Outside;
 
-/// The words for types of pictures.
-const TYPES: [Word; 12] = [
-    Word::Exr,
-    Word::Gif,
-    Word::Hdr,
-    Word::Iff,
-    Word::Jpeg,
-    Word::Pgm,
-    Word::Png,
-    Word::Pot,
-    Word::Ppm,
-    Word::Sys,
-    Word::Tga,
-    Word::Tiff,
+/// The words for types of pictures, and the endings of their files.
+const TYPES: [(Word, &[&str]); 12] = [
+    (Word::Exr, &[".exr", ".EXR"]),
+    (Word::Gif, &[".gif", ".GIF"]),
+    (Word::Hdr, &[".hdr", ".HDR"]),
+    (Word::Iff, &[".iff", ".IFF"]),
+    (Word::Jpeg, &[".jpg", ".JPG", ".jpeg", ".JPEG"]),
+    (Word::Pgm, &[".pgm", ".PGM"]),
+    (Word::Png, &[".png", ".PNG"]),
+    (Word::Pot, &[".pot", ".POT"]),
+    (Word::Ppm, &[".ppm", ".PPM"]),
+    (Word::Sys, &[".bmp", ".BMP"]),
+    (Word::Tga, &[".tga", ".TGA"]),
+    (Word::Tiff, &[".tif", ".TIF", ".tiff", ".TIFF"]),
 ];
 
 /// The most heights of a function along a side.
@@ -72,46 +74,35 @@ impl Evaluator<'_> {
     }
 
     fn heights_of_picture(&mut self, token: &Token) -> Outcome<(String, Heights)> {
-        let kind = TYPES.into_iter().find(|word| self.take_word(*word).is_some());
-        self.skip_commas();
-        let (name, here, span) = match self.peek().cloned() {
-            Some(Token { kind: TokenKind::Expression(id), here, span }) => {
-                self.next();
-                (self.path(&here, id)?, here, span)
-            }
-            _ => {
-                let wanted = "the name of a picture's file, or a function";
-                let given = self.given(token, wanted)?;
-                let Value::String(name) = &given.value else {
-                    return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
-                };
-                (name.to_string(), given.here.clone(), given.span)
-            }
-        };
-        // How light was encoded is no matter of heights, as long as nothing is said.
+        let kind = TYPES.into_iter().find(|(word, _)| self.take_word(*word).is_some());
+        let file = self.named_file(token, "the name of a picture's file, or a function")?;
+        let mut gamma = Gamma::LINEAR;
         if let Some(word) = self.take_word(Word::GammaWord) {
-            let site = word.here.site(word.span);
-            self.skip_arguments(Word::GammaWord);
-            self.set_poison(super::super::value::Poison { word: Word::GammaWord, site });
+            gamma = match self.take_word(Word::Srgb) {
+                Some(_) => Gamma::Srgb,
+                None => Gamma::Power(self.number_of(&word, Word::GammaWord)?.value),
+            };
         }
         if let Some(word) = self.take_word(Word::Premultiplied) {
             self.optional_flag(&word)?;
         }
-        let from = self.sources.get(span.file).name.clone();
-        let found = match self.files.read(&name, &from) {
+        let endings = kind.map_or(&[][..], |(_, endings)| endings);
+        let NamedFile { name, here, span } = &file;
+        let found = match self.read_named(&file, endings) {
             Ok(found) => found,
             Err(error) => {
-                let diagnostic = missing_file(&name, span, error);
-                return Err(self.report(&here, diagnostic));
+                let diagnostic = missing_file(name, *span, error);
+                return Err(self.report(here, diagnostic));
             }
         };
-        match heights::read(&found.bytes, kind == Some(Word::Tga)) {
-            Ok(heights) => Ok((name, heights)),
+        let is_tga = matches!(kind, Some((Word::Tga, _)));
+        match heights::read(&found.bytes, is_tga, gamma) {
+            Ok(heights) => Ok((file.name, heights)),
             Err(reason) => {
                 let message = format!("`{name}` cannot be read as a picture: {reason}");
                 let diagnostic = Diagnostic::new(Code::UnreadableFile, message)
-                    .at(span, "expected a PNG, GIF, JPEG, TGA, TIFF, PPM, PGM, BMP, HDR or EXR");
-                Err(self.report(&here, diagnostic))
+                    .at(*span, "expected a PNG, GIF, JPEG, TGA, TIFF, PPM, PGM, BMP, HDR or EXR");
+                Err(self.report(here, diagnostic))
             }
         }
     }

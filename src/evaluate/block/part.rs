@@ -140,7 +140,11 @@ impl Evaluator<'_> {
     }
 
     /// The value after `after`.
-    pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
+    pub(in crate::evaluate) fn given(
+        &mut self,
+        after: &Token,
+        wanted: &str,
+    ) -> Outcome<Given<Value>> {
         let token = self.value_token(after, wanted)?;
         self.given_by(token)
     }

@@ -7,13 +7,14 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::font::{BUILT_IN, Font, POV_RAYS};
 use crate::scene::Solid;
 use crate::scene::text::Text;
-use crate::source::{FileError, FileId, Span};
+use crate::source::{FileError, FileId};
 use crate::vocabulary::Word;
 
+use super::super::file::NamedFile;
 use super::super::include::missing_file;
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::Token;
 use super::super::value::Value;
-use super::super::{Evaluator, Here, Outcome};
+use super::super::{Evaluator, Outcome};
 
 /// Fonts that were read, by their names and the files that named them.
 pub(in crate::evaluate) type Fonts = HashMap<(String, FileId), Arc<[u8]>>;
@@ -64,70 +65,60 @@ impl Evaluator<'_> {
             return self.internal_font(&internal);
         }
         let Some(ttf) = self.take_word(Word::Ttf) else { return Ok(BUILT_IN.into()) };
-        self.skip_commas();
-        let (name, here, span) = match self.peek().cloned() {
-            Some(Token { kind: TokenKind::Expression(id), here, span }) => {
-                self.next();
-                (self.path(&here, id)?, here, span)
-            }
-            _ => {
-                let wanted = "the name of a font's file";
-                let given = self.given(&ttf, wanted)?;
-                let Value::String(name) = &given.value else {
-                    return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
-                };
-                (name.to_string(), given.here.clone(), given.span)
-            }
-        };
-        self.font_of(&name, &here, span)
+        let file = self.named_file(&ttf, "the name of a font's file")?;
+        self.font_of(&file)
     }
 
     fn internal_font(&mut self, internal: &Token) -> Outcome<Arc<[u8]>> {
         let number = self.number_after(internal, "the number of a font, 0 to 3")?;
-        let name = POV_RAYS.get(number.value as usize).filter(|_| number.value >= 0.0);
-        match name {
-            Some(name) => self.font_of(name, &number.here, number.span),
-            None => {
-                let message =
-                    format!("there is no font {}: the built-in one is used", number.value);
-                let diagnostic = Diagnostic::new(Code::StandInFont, message)
-                    .at(number.span, "expected 0 to 3")
-                    .help("0 is povlogo.ttf, 1 timrom.ttf, 2 cyrvetic.ttf, 3 crystal.ttf");
-                self.report(&number.here, diagnostic);
-                Ok(BUILT_IN.into())
-            }
+        let font = POV_RAYS.get(number.value as usize).filter(|_| number.value >= 0.0);
+        if font.is_none() {
+            let message = format!("there is no font {}: font 0 is used", number.value);
+            let diagnostic = Diagnostic::new(Code::StandInFont, message)
+                .at(number.span, "expected 0 to 3")
+                .help("0 is povlogo.ttf, 1 timrom.ttf, 2 cyrvetic.ttf, 3 crystal.ttf");
+            self.report(&number.here, diagnostic);
         }
+        let name = (*font.unwrap_or(&POV_RAYS[0])).to_owned();
+        self.font_of(&NamedFile { name, here: number.here, span: number.span })
     }
 
-    fn font_of(&mut self, name: &str, here: &Here, span: Span) -> Outcome<Arc<[u8]>> {
-        let key = (name.to_owned(), span.file);
+    fn font_of(&mut self, file: &NamedFile) -> Outcome<Arc<[u8]>> {
+        let NamedFile { name, here, span } = file;
+        let key = (name.clone(), span.file);
         if let Some(known) = self.fonts.get(&key) {
             return Ok(known.clone());
         }
-        let from = self.sources.get(span.file).name.clone();
-        let bytes: Arc<[u8]> = match self.files.read(name, &from) {
+        let bytes: Arc<[u8]> = match self.read_named(file, &[".ttf", ".TTF"]) {
             Ok(found) => found.bytes.into(),
-            Err(FileError::NotFound { .. }) if POV_RAYS.contains(&name) => {
+            Err(FileError::NotFound { .. })
+                if POV_RAYS.iter().any(|font| font.strip_suffix(".ttf") == Some(stem(name))) =>
+            {
                 let message = format!("`{name}` is not found: the built-in font is used");
                 let diagnostic = Diagnostic::new(Code::StandInFont, message)
-                    .at(span, "its letters are not as wide")
+                    .at(*span, "its letters are not as wide")
                     .help("it comes with POV-Ray (Debian: povray-includes); `-I FOLDER` adds a folder to search");
                 self.report(here, diagnostic);
                 BUILT_IN.into()
             }
             Err(error) => {
-                let diagnostic = missing_file(name, span, error);
+                let diagnostic = missing_file(name, *span, error);
                 return Err(self.report(here, diagnostic));
             }
         };
         if let Err(reason) = Font::parse(&bytes) {
             let message = format!("`{name}` is no font that can be read: {reason}");
             let diagnostic = Diagnostic::new(Code::UnreadableFile, message)
-                .at(span, "expected a TrueType or OpenType font");
+                .at(*span, "expected a TrueType or OpenType font");
             return Err(self.report(here, diagnostic));
         }
         self.stored += bytes.len() as u64;
         self.fonts.insert(key, bytes.clone());
         Ok(bytes)
     }
+}
+
+/// A font's name without its ending.
+fn stem(name: &str) -> &str {
+    name.strip_suffix(".ttf").unwrap_or(name)
 }

@@ -13,7 +13,7 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder, PlatformId};
 use crate::scene::text::{Contour, Letter};
 
 /// The font that comes with the program: DejaVu Serif.
-pub const BUILT_IN: &[u8] = include_bytes!("../fonts/DejaVuSerif.ttf");
+pub const BUILT_IN: &[u8] = include_bytes!("DejaVuSerif.ttf");
 
 /// Fonts that come with POV-Ray.
 pub const POV_RAYS: [&str; 4] = ["povlogo.ttf", "timrom.ttf", "cyrvetic.ttf", "crystal.ttf"];

@@ -86,15 +86,15 @@ fn a_line_through_an_edge_or_a_corner_of_a_polygon_meets_it() {
 }
 
 /// z over the square from −0.75 to 0.75 as a polynomial: what the corners are is exact.
-fn hill(random: &mut Random) -> Patch {
+fn hill(random: &mut Random) -> BicubicPatch {
     let steepness = [0.0, 1.0, random.size(-9.0, 0.0)][random.below(3)];
-    Patch::new(std::array::from_fn(|i| {
+    BicubicPatch::new(std::array::from_fn(|i| {
         let place = |i: usize| (i as f64 - 1.5) * 0.5;
         Vector::new(place(i % 4), place(i / 4), random.number(-0.5, 0.5) * steepness)
     }))
 }
 
-fn place_in(patch: &Patch, [x, y, z]: Triple) -> (Double, Double, Double) {
+fn place_in(patch: &BicubicPatch, [x, y, z]: Triple) -> (Double, Double, Double) {
     let place = |x: Double| (x + Double::of(0.75)) / Double::of(1.5);
     let (u, v) = (place(x), place(y));
     let weights = |t: Double| {
@@ -110,7 +110,7 @@ fn place_in(patch: &Patch, [x, y, z]: Triple) -> (Double, Double, Double) {
 }
 
 fn over_hill(body: &Body, point: Triple) -> Double {
-    let Body::Patch(patch) = body else { panic!("{body:?}") };
+    let Body::BicubicPatch(patch) = body else { panic!("{body:?}") };
     // Its normal is v × u, which points down.
     -place_in(patch, point).2
 }
@@ -121,7 +121,7 @@ fn a_patch_is_met_where_exact_arithmetic_meets_it_and_as_often() {
     let (mut met, mut looked) = (0, 0);
     for _ in 0..tries() {
         let patch = hill(&mut random);
-        let placed = placed(&mut random, Body::Patch(patch));
+        let placed = placed(&mut random, Body::BicubicPatch(patch));
         let ray = ray_at_placed(&mut random, &placed);
         met += assert_crossed_where_it_is(&mut random, &placed, &ray, over_hill);
         // Of the line's part above and below the square, each hand of each crossing is told by the ones
@@ -161,10 +161,10 @@ fn a_patch_is_met_where_exact_arithmetic_meets_it_and_as_often() {
     assert!(met > tries() / 4 && looked > tries() / 4, "{met} {looked}");
 }
 
-fn any_patch(random: &mut Random) -> Patch {
+fn any_patch(random: &mut Random) -> BicubicPatch {
     let tip = random.direction().get();
     let has_tip = random.below(3) == 0;
-    Patch::new(std::array::from_fn(|i| {
+    BicubicPatch::new(std::array::from_fn(|i| {
         let flat = Vector::new((i % 4) as f64 - 1.5, (i / 4) as f64 - 1.5, 0.0) * 0.5;
         if has_tip && i < 4 { tip } else { flat + random.direction().get() * 0.4 }
     }))
@@ -177,8 +177,8 @@ fn a_line_through_a_place_of_a_patch_meets_it_there_even_on_its_edges_and_tips()
     let mut aslant = 0;
     for _ in 0..tries() {
         let patch = any_patch(&mut random);
-        let placed = at_the_origin(placed(&mut random, Body::Patch(patch)));
-        let Body::Patch(patch) = &*placed.body else { panic!() };
+        let placed = at_the_origin(placed(&mut random, Body::BicubicPatch(patch)));
+        let Body::BicubicPatch(patch) = &*placed.body else { panic!() };
         let place = |random: &mut Random| [0.0, 1.0, 0.5, random.number(0.0, 1.0)][random.below(4)];
         let (u, v) = (place(&mut random), place(&mut random));
         let (point, normal) = patch.at(u, v);
@@ -230,7 +230,7 @@ fn the_bounds_of_a_patch_are_tight_and_hold_it() {
 #[test]
 fn a_line_along_a_patch_ends() {
     let flat = |f: fn(f64, f64) -> f64| {
-        Patch::new(std::array::from_fn(|i| {
+        BicubicPatch::new(std::array::from_fn(|i| {
             let (x, y) = ((i % 4) as f64 - 1.5, (i / 4) as f64 - 1.5);
             Vector::new(x, y, f(x, y)) * 0.5
         }))

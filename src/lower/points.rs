@@ -12,7 +12,7 @@ use crate::scene::height_field::HeightField;
 use crate::scene::polygon::Polygon;
 use crate::scene::text::Text;
 use crate::shape::curve::{Outline, Piece};
-use crate::shape::{self, Body, Patch, Prism};
+use crate::shape::{self, BicubicPatch, Body, Prism};
 
 /// A body and the map to it from its own space.
 pub type Made = Option<(Body, Affine)>;
@@ -51,10 +51,10 @@ impl Middle {
 }
 
 /// A surface of 16 points.
-pub fn bicubic(points: &[Vector; 16]) -> Result<(Body, Affine), Fault> {
+pub fn bicubic_patch(points: &[Vector; 16]) -> Result<(Body, Affine), Fault> {
     let middle = Middle::of(points.iter(), "this patch")?;
-    let patch = Patch::new(points.map(|point| middle.local(point)));
-    Ok((Body::Patch(patch), middle.frame([0, 1, 2].map(DoubleVector::axis))))
+    let patch = BicubicPatch::new(points.map(|point| middle.local(point)));
+    Ok((Body::BicubicPatch(patch), middle.frame([0, 1, 2].map(DoubleVector::axis))))
 }
 
 /// A figure in the plane of its corners, with z along the normal.

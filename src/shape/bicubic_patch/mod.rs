@@ -1,4 +1,4 @@
-//! Patch: a Bézier surface of degree 3 both ways, in a space of its own. It is a sheet.
+//! BicubicPatch: a Bézier surface of degree 3 both ways, in a space of its own. It is a sheet.
 //!
 //! A line meets it where two polynomials in u and v are zero at once: the distances of the point of the
 //! surface from the line, along two ways across it. Pieces whose net is beside the line are dropped; one on
@@ -31,7 +31,7 @@ const STEPS: f64 = (1 << 15) as f64 - 1.0;
 
 /// A part is where on the surface it is: u in the upper half, v in the lower, in [`STEPS`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Patch {
+pub struct BicubicPatch {
     net: Net,
     /// Which edges are points: u = 0, u = 1, v = 0, v = 1.
     tips: [bool; 4],
@@ -69,7 +69,7 @@ struct Root {
     off: [f64; 2],
 }
 
-impl Patch {
+impl BicubicPatch {
     /// Of finite points.
     pub fn new(points: [Vector; 16]) -> Self {
         let net = Net(points);
@@ -251,7 +251,7 @@ fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
     inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
 }
 
-impl Local for Patch {
+impl Local for BicubicPatch {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let whole = self.seen_along(ray);
         // What the view rounds points by, what halving does and what a value does, generously.
@@ -320,7 +320,7 @@ impl Local for Patch {
     }
 }
 
-impl Patch {
+impl BicubicPatch {
     fn at_tip(&self, ray: &LocalRay, piece: &Piece, off: f64) -> Root {
         let place = [0, 1].map(|i| piece.start[i] + 0.5 * piece.size[i]);
         let (low, high) = piece.net.bounds();
@@ -332,7 +332,7 @@ impl Patch {
 }
 
 #[cfg(test)]
-impl Patch {
+impl BicubicPatch {
     pub(super) fn points(&self) -> &[Vector; 16] {
         &self.net.0
     }
