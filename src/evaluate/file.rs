@@ -9,12 +9,9 @@
 
 mod bytes;
 mod data;
-mod named;
 mod open;
 mod read;
 mod write;
-
-pub(super) use named::NamedFile;
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Site, Span};

@@ -26,29 +26,30 @@ pub struct Heights {
 /// More heights than can be numbered are none.
 const MOST: u64 = 1 << 30;
 
+/// The height of what is from 0 to 1.
+pub fn height(share: f64) -> f32 {
+    (share * (65535.0 / 65536.0)) as f32
+}
+
 /// How the components of a picture, 0 to 1, count.
 #[derive(Clone, Copy)]
 struct Scale(Gamma);
 
 impl Scale {
-    fn height(share: f64) -> f32 {
-        (share * (65535.0 / 65536.0)) as f32
-    }
-
     fn grey(self, share: f64) -> f32 {
-        Self::height(self.0.linear(share).min(1.0))
+        height(self.0.linear(share).min(1.0))
     }
 
     /// Red is worth 256 times as much as green.
     fn pair(self, red: f64, green: f64) -> f32 {
         let [red, green] = [red, green].map(|share| self.0.linear(share).min(1.0));
-        Self::height((256.0 * red + green) / 257.0)
+        height((256.0 * red + green) / 257.0)
     }
 
     /// As light as it is.
     fn light(self, components: [f64; 3]) -> f32 {
         let [red, green, blue] = components.map(|share| self.0.linear(share).min(1.0));
-        Self::height(Rgb { red, green, blue }.brightness())
+        height(Rgb { red, green, blue }.brightness())
     }
 }
 
@@ -62,7 +63,7 @@ fn eight(component: u8) -> f64 {
 }
 
 fn sixteen(component: u16) -> f64 {
-    f64::from(component) / 65535.0
+    f64::from(component) / f64::from(u16::MAX)
 }
 
 /// Reads a picture; one of type `tga` tells so by nothing but the word for it.

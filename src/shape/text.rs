@@ -4,42 +4,51 @@
 
 use smallvec::SmallVec;
 
-use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::prism::Prism;
+use super::tree::Tree;
+use super::{Bounds, U};
 use crate::math::Vector;
 
 /// A letter, and what of the parts is its own.
 #[derive(Debug, Clone, PartialEq)]
 struct Letter {
     prism: Prism,
-    low: Vector,
-    high: Vector,
     first_part: u32,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
+    /// In the order of the tree.
     letters: Vec<Letter>,
+    tree: Tree,
     reach: f64,
 }
 
 impl Text {
     /// `None` of no letters, or of more than can be numbered.
     pub fn new(prisms: Vec<Prism>) -> Option<Self> {
-        let mut first_part = 0u32;
-        let mut letters = Vec::with_capacity(prisms.len());
-        for prism in prisms {
+        if prisms.is_empty() {
+            return None;
+        }
+        let bounds = |prism: &Prism| {
             let extents = [Vector::X, Vector::Y, Vector::Z].map(|axis| prism.extent(axis));
             let low = Vector::from_array(extents.map(|(low, _)| low));
             let high = Vector::from_array(extents.map(|(_, high)| high));
+            Bounds { low, high }
+        };
+        let (tree, order) = Tree::of_costly(&prisms.iter().map(bounds).collect::<Vec<_>>());
+        let mut first_part = 0u32;
+        let mut letters = Vec::with_capacity(prisms.len());
+        for number in order {
+            let prism = prisms[number as usize].clone();
             // Its two ends, and both sides of each piece.
             let parts = 3 + 2 * u32::try_from(prism.outline.pieces.len()).ok()?;
-            letters.push(Letter { prism, low, high, first_part });
+            letters.push(Letter { prism, first_part });
             first_part = first_part.checked_add(parts).filter(|part| *part < Met::UNSEEN)?;
         }
         let reach = letters.iter().map(|letter| letter.prism.reach()).fold(0.0, f64::max);
-        (!letters.is_empty()).then_some(Self { letters, reach })
+        Some(Self { letters, tree, reach })
     }
 
     /// The letter that a part is of, and what it calls it.
@@ -50,40 +59,20 @@ impl Text {
     }
 }
 
-impl Letter {
-    /// Whether a line goes through its box, as far as rounding tells.
-    fn is_near(&self, ray: &LocalRay) -> bool {
-        // Nothing goes farther than √2.
-        let off = ray.blur_at(2.0) + 16.0 * U;
-        let (mut first, mut last) = (-2.0_f64, 2.0_f64);
-        for axis in 0..3 {
-            let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
-            let (low, high) = (self.low[axis] - off, self.high[axis] + off);
-            let ends = ((low - place) / speed, (high - place) / speed);
-            if ends.0.is_finite() && ends.1.is_finite() {
-                first = first.max(ends.0.min(ends.1));
-                last = last.min(ends.0.max(ends.1));
-            } else if place < low || place > high {
-                return false;
-            }
-        }
-        // Rounding moves each of these by less than the box was made wider, unless the line is nearly along
-        // a side: then by no more than this.
-        first <= last + 1e-9
-    }
-}
-
 impl Local for Text {
     /// Spans of letters that overlap or touch, as far as rounding tells, become one.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let mut spans: SmallVec<[(Met, Met); 4]> = SmallVec::new();
         let mut own = Crossings::new();
-        for letter in self.letters.iter().filter(|letter| letter.is_near(ray)) {
-            own.clear();
-            letter.prism.crossings(ray, &mut own);
-            let named = |met: Met| Met { part: met.part + letter.first_part, ..met };
-            spans.extend(own.chunks_exact(2).map(|pair| (named(pair[0]), named(pair[1]))));
-        }
+        // Nothing goes farther than √2.
+        self.tree.along(ray, ray.blur_at(2.0) + 16.0 * U, |run| {
+            for letter in &self.letters[run] {
+                own.clear();
+                letter.prism.crossings(ray, &mut own);
+                let named = |met: Met| Met { part: met.part + letter.first_part, ..met };
+                spans.extend(own.chunks_exact(2).map(|pair| (named(pair[0]), named(pair[1]))));
+            }
+        });
         spans.sort_by(|a, b| a.0.t.total_cmp(&b.0.t));
         let mut spans = spans.into_iter();
         let Some((mut enter, mut leave)) = spans.next() else { return };

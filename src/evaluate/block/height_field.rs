@@ -9,12 +9,12 @@ use crate::scene::Solid;
 use crate::scene::height_field::HeightField;
 use crate::vocabulary::Word;
 
-use super::super::file::NamedFile;
 use super::super::function::{Functions, ParameterName, outside_id};
 use super::super::include::missing_file;
 use super::super::stream::Token;
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
+use super::named::NamedFile;
 use crate::function::Outside;
 
 /// The words for types of pictures, and the endings of their files.
@@ -155,7 +155,7 @@ impl Evaluator<'_> {
                 }
                 let within =
                     if (0.0..=1.0).contains(&value) { value } else { value - value.floor() };
-                heights.push((within * (65535.0 / 65536.0)) as f32);
+                heights.push(heights::height(within));
             }
         }
         if let Some((x, y)) = stray {

@@ -16,6 +16,7 @@ mod isosurface;
 mod light;
 mod mesh;
 mod modifier;
+mod named;
 mod object;
 mod outline;
 mod part;

@@ -140,11 +140,7 @@ impl Evaluator<'_> {
     }
 
     /// The value after `after`.
-    pub(in crate::evaluate) fn given(
-        &mut self,
-        after: &Token,
-        wanted: &str,
-    ) -> Outcome<Given<Value>> {
+    pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
         let token = self.value_token(after, wanted)?;
         self.given_by(token)
     }

@@ -10,11 +10,11 @@ use crate::scene::text::Text;
 use crate::source::{FileError, FileId};
 use crate::vocabulary::Word;
 
-use super::super::file::NamedFile;
 use super::super::include::missing_file;
 use super::super::stream::Token;
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
+use super::named::NamedFile;
 
 /// Fonts that were read, by their names and the files that named them.
 pub(in crate::evaluate) type Fonts = HashMap<(String, FileId), Arc<[u8]>>;

@@ -1,8 +1,9 @@
 //! BicubicPatch: a Bézier surface of degree 3 both ways, in a space of its own. It is a sheet.
 //!
 //! A line meets it where two polynomials in u and v are zero at once: the distances of the point of the
-//! surface from the line, along two ways across it. Pieces whose net is beside the line are dropped; one on
-//! which the map is so nearly linear that it is one to one is left to Newton's steps; others are halved.
+//! surface from the line, along two ways across it. A tree finds the pieces that are near the line. Those
+//! whose net is beside it are dropped; one on which the map is so nearly linear that it is one to one is left
+//! to Newton's steps; others are halved.
 //!
 //! **Invariant:** its edges belong to it, as those of a polygon: nothing shows between two patches that
 //! share one.
@@ -13,8 +14,9 @@
 
 mod net;
 
-use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::tree::Tree;
+use super::{Bounds, U};
 use crate::math::Vector;
 use net::{Net, Place, bounds};
 use smallvec::SmallVec;
@@ -26,6 +28,9 @@ const MOST_PIECES: usize = 1 << 14;
 /// at the one root.
 const NEARLY_LINEAR: f64 = 0.3;
 
+/// How much of u and v a piece has that is not halved beforehand, however bent it is.
+const SMALLEST: f64 = 1.0 / 64.0;
+
 /// Places along u and along v that a part tells apart: [`Local::height`] starts from there.
 const STEPS: f64 = (1 << 15) as f64 - 1.0;
 
@@ -33,13 +38,16 @@ const STEPS: f64 = (1 << 15) as f64 - 1.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BicubicPatch {
     net: Net,
+    /// All of it, as it is, in the order of the tree.
+    pieces: Vec<Piece>,
+    tree: Tree,
     /// Which edges are points: u = 0, u = 1, v = 0, v = 1.
     tips: [bool; 4],
     reach: f64,
 }
 
-/// A part of the surface as seen along the line: x and y across it, z along it.
-#[derive(Debug, Clone, Copy)]
+/// A part of the surface; as seen along a line, x and y go across that, and z along it.
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     net: Net,
     /// Where it begins in u and v.
@@ -73,22 +81,27 @@ impl BicubicPatch {
     /// Of finite points.
     pub fn new(points: [Vector; 16]) -> Self {
         let net = Net(points);
+        let mut pieces = Vec::new();
+        let mut bent = vec![Piece { net, start: [0.0; 2], size: [1.0; 2] }];
+        while let Some(piece) = bent.pop() {
+            match piece.size[0] * piece.size[1] > SMALLEST && piece.is_bent() {
+                true => bent.extend(piece.halves(Vector::length)),
+                false => pieces.push(piece),
+            }
+        }
+        let boxes = pieces.iter().map(|piece: &Piece| {
+            let (low, high) = piece.net.bounds();
+            Bounds { low, high }
+        });
+        let boxes: Vec<Bounds> = boxes.collect();
+        let (tree, order) = Tree::of_costly(&boxes);
+        let pieces = order.iter().map(|&piece| pieces[piece as usize]).collect();
         let reach = points.iter().map(|point| point.length()).fold(0.0, f64::max);
         let tips = [0, 1, 2, 3].map(|edge| {
             let (low, high) = bounds(&net.edge(edge));
             low == high
         });
-        Self { net, tips, reach: reach * (1.0 + 4.0 * U) }
-    }
-
-    /// The surface as seen along a line.
-    fn seen_along(&self, ray: &LocalRay) -> Net {
-        let LocalRay { nearest, direction, .. } = *ray;
-        let (aside, across) = direction.any_orthonormal_pair();
-        self.net.map(|point| {
-            let from = point - nearest;
-            Vector::new(from.dot(aside), from.dot(across), from.dot(direction))
-        })
+        Self { net, pieces, tree, tips, reach: reach * (1.0 + 4.0 * U) }
     }
 
     /// Whether a piece ends in a tip, and in which.
@@ -134,6 +147,16 @@ impl BicubicPatch {
 }
 
 impl Piece {
+    /// Whether lines that meet its box are likely to ask for its halves.
+    fn is_bent(&self) -> bool {
+        let off = |steps: [Vector; 12]| {
+            let mean = steps.iter().copied().sum::<Vector>() / 12.0;
+            let farthest = steps.iter().map(|step| (*step - mean).length()).fold(0.0, f64::max);
+            farthest > NEARLY_LINEAR * mean.length()
+        };
+        off(self.net.steps_along_u()) || off(self.net.steps_along_v())
+    }
+
     /// What can be told of it, where what is less than `off` is nothing.
     fn look(&self, off: f64) -> Seen {
         let (low, high) = self.net.bounds();
@@ -167,11 +190,9 @@ impl Piece {
         if bend <= NEARLY_LINEAR { Seen::Linear(inverse, bend) } else { Seen::Bent }
     }
 
-    /// Two halves, across the way along which it is seen to be longer.
-    fn halves(&self) -> [Self; 2] {
-        let length = |steps: [Vector; 12]| -> f64 {
-            steps.iter().map(|step| step.x.abs().max(step.y.abs())).sum()
-        };
+    /// Two halves, across the way along which it is longer.
+    fn halves(&self, length: impl Fn(Vector) -> f64) -> [Self; 2] {
+        let length = |steps: [Vector; 12]| steps.into_iter().map(&length).sum::<f64>();
         let is_along_u = length(self.net.steps_along_u()) >= length(self.net.steps_along_v());
         let (first, second) =
             if is_along_u { self.net.halves_along_u() } else { self.net.halves_along_v() };
@@ -253,16 +274,30 @@ fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
 
 impl Local for BicubicPatch {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let whole = self.seen_along(ray);
         // What the view rounds points by, what halving does and what a value does, generously.
         let size = self.reach + ray.nearest.length();
         let off = ray.blur_at(size) + 128.0 * U * size;
         let mut roots: SmallVec<[Root; 4]> = SmallVec::new();
         let mut tips = [false; 4];
+        let mut near: SmallVec<[usize; 16]> = SmallVec::new();
+        self.tree.along(ray, off, |run| near.extend(run));
+        if near.is_empty() {
+            return;
+        }
+        let LocalRay { nearest, direction, .. } = *ray;
+        let (aside, across) = direction.any_orthonormal_pair();
+        let seen = |point: Vector| {
+            let from = point - nearest;
+            Vector::new(from.dot(aside), from.dot(across), from.dot(direction))
+        };
+        let whole = self.net.map(seen);
         let mut pieces: SmallVec<[Piece; 16]> = SmallVec::new();
-        pieces.push(Piece { net: whole, start: [0.0; 2], size: [1.0; 2] });
         let mut count = 0;
-        while let Some(piece) = pieces.pop() {
+        let placed = |number: usize| {
+            let piece = &self.pieces[number];
+            Piece { net: piece.net.map(seen), ..*piece }
+        };
+        while let Some(piece) = pieces.pop().or_else(|| near.pop().map(&placed)) {
             count += 1;
             if count > MOST_PIECES {
                 break;
@@ -274,7 +309,9 @@ impl Local for BicubicPatch {
                     let new = root.filter(|root| !roots.iter().any(|other| other.is(root)));
                     roots.extend(new);
                 }
-                Seen::Bent => pieces.extend(piece.halves()),
+                Seen::Bent => {
+                    pieces.extend(piece.halves(|step| step.x.abs().max(step.y.abs())));
+                }
                 // It is grazed, or met at a tip.
                 Seen::Point => {
                     if let Some(edge) = self.tip_of(&piece)

@@ -6,7 +6,7 @@ use super::super::{Evaluator, Here, Outcome};
 use crate::source::{FileError, Found, Span};
 
 /// The name of a file, and where it is written.
-pub(in crate::evaluate) struct NamedFile {
+pub(super) struct NamedFile {
     pub name: String,
     pub here: Here,
     pub span: Span,
@@ -14,11 +14,7 @@ pub(in crate::evaluate) struct NamedFile {
 
 impl Evaluator<'_> {
     /// The name that comes next; `wanted` says of what.
-    pub(in crate::evaluate) fn named_file(
-        &mut self,
-        token: &Token,
-        wanted: &str,
-    ) -> Outcome<NamedFile> {
+    pub(super) fn named_file(&mut self, token: &Token, wanted: &str) -> Outcome<NamedFile> {
         self.skip_commas();
         if let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned() {
             self.next();
@@ -34,7 +30,7 @@ impl Evaluator<'_> {
 
     /// The file of this name; if there is none and the name has no ending, of the name with one of these, as
     /// POV-Ray looks for it.
-    pub(in crate::evaluate) fn read_named(
+    pub(super) fn read_named(
         &self,
         NamedFile { name, span, .. }: &NamedFile,
         endings: &[&str],
