@@ -12,7 +12,7 @@ use crate::scene::height_field::HeightField;
 use crate::scene::polygon::Polygon;
 use crate::scene::text::Text;
 use crate::shape::curve::{Outline, Piece};
-use crate::shape::{self, BicubicPatch, Body, Prism};
+use crate::shape::{self, BicubicPatch, Body};
 
 /// A body and the map to it from its own space.
 pub type Made = Option<(Body, Affine)>;
@@ -98,7 +98,7 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
         let local = middle.local(Vector::new(x, y, 0.0)) * 0.5;
         [local.x, local.y]
     };
-    let prisms = text.letters.iter().filter_map(|letter| {
+    let outlines = text.letters.iter().map(|letter| {
         let mut outline = Outline::default();
         for contour in &letter.contours {
             let pieces =
@@ -113,9 +113,10 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
             }
             outline.add(pieces);
         }
-        let prism = Prism { outline, conic: false, heights: [-1.0, 1.0], open: false };
-        (!prism.outline.pieces.is_empty()).then_some(prism)
+        outline
     });
+    let outlines = outlines.filter(|outline| !outline.pieces.is_empty()).collect();
+    let is_flat = text.thickness == 0.0;
     let half = Double::from(text.thickness) * Double::from(0.5);
     let width = Double::from(2.0 / middle.inverse_size);
     let [x, y, z] = [0, 1, 2].map(DoubleVector::axis);
@@ -123,8 +124,9 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
     if !half.is_finite() {
         return Err(Fault::not_finite(what));
     }
-    let frame = Affine::from_columns([x * width, y * width, z * half.abs()], centre);
-    Ok(shape::Text::new(prisms.collect()).map(|text| (Body::Text(text), frame)))
+    let up = if is_flat { width } else { half.abs() };
+    let frame = Affine::from_columns([x * width, y * width, z * up], centre);
+    Ok(shape::Text::new(outlines, is_flat).map(|text| (Body::Text(text), frame)))
 }
 
 /// The unit cube about the origin.

@@ -40,7 +40,7 @@ impl Letter {
     }
 }
 
-/// Letters from z = 0 to `thickness`.
+/// Letters from z = 0 to `thickness`; of thickness 0 they are a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
     /// What was written.
@@ -52,6 +52,6 @@ pub struct Text {
 
 impl Text {
     pub fn is_nothing(&self) -> bool {
-        self.thickness == 0.0 || self.letters.is_empty()
+        self.letters.is_empty()
     }
 }

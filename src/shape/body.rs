@@ -146,6 +146,33 @@ impl Met {
 /// Crossings in order. Most bodies have few, and need no allocation.
 pub type Crossings = SmallVec<[Met; 6]>;
 
+/// Where a line enters something solid, and where it leaves that.
+pub(super) type Span = (Met, Met);
+
+/// Adds where the line enters and leaves all of what it goes through, in any order: spans that overlap or
+/// touch, as far as rounding tells, are one, and what is seen is told where as much ends there unseen.
+pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
+    spans.sort_by(|a, b| a.0.t.total_cmp(&b.0.t));
+    let Some((&(mut enter, mut leave), rest)) = spans.split_first() else { return };
+    let is_there = |met: &Met, seen: &Met| {
+        !met.is_seen() && seen.is_seen() && (met.t - seen.t).abs() <= met.error + seen.error
+    };
+    for &(next, end) in rest {
+        if next.t - next.error > leave.t + leave.error {
+            found.extend([enter, leave]);
+            (enter, leave) = (next, end);
+            continue;
+        }
+        if is_there(&enter, &next) {
+            enter = next;
+        }
+        if is_there(&leave, &end) || (end.t > leave.t && !is_there(&end, &leave)) {
+            leave = end;
+        }
+    }
+    found.extend([enter, leave]);
+}
+
 /// Declares the closed set of bodies, each in a file of its own.
 macro_rules! bodies {
     ($($kind:ident $word:literal)*) => {

@@ -65,27 +65,29 @@ impl Polygon {
     }
 }
 
+/// Where a line crosses z = 0, and how far that may be off in the plane; `None` where it goes so nearly along
+/// the plane that this is more than `reach`.
+pub(super) fn on_the_plane(ray: &LocalRay, reach: f64) -> Option<(Met, f64)> {
+    let (place, speed) = (ray.nearest.z, ray.direction.z);
+    let t = -place / speed;
+    let certain = speed.abs() - ray.turn;
+    if !(t.is_finite() && certain > 0.0) {
+        return None;
+    }
+    let off = ray.blur_at(t) + 2.0 * U * place.abs();
+    let error = off / certain + 4.0 * U * t.abs();
+    // Along the line, and across it.
+    let Vector { x, y, .. } = ray.direction;
+    let drift = error * (x * x + y * y).sqrt() + off + 2.0 * U * t.abs();
+    (drift <= reach).then_some((Met { t, error, leaving: speed > 0.0, part: 0 }, drift))
+}
+
 impl Local for Polygon {
     /// The crossing with the plane z = 0, where the polygon is there. **Error:** as of a disc.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let (place, speed) = (ray.nearest.z, ray.direction.z);
-        let t = -place / speed;
-        let certain = speed.abs() - ray.turn;
-        if !(t.is_finite() && certain > 0.0) {
-            return;
-        }
-        let off = ray.blur_at(t) + 2.0 * U * place.abs();
-        let error = off / certain + 4.0 * U * t.abs();
-        // In the plane: along the line, and across it.
-        let Vector { x, y, .. } = ray.direction;
-        let drift = error * (x * x + y * y).sqrt() + off + 2.0 * U * t.abs();
-        // So nearly along the plane that rounding moves the crossing by more than all of it.
-        if drift > self.reach {
-            return;
-        }
-        let point = ray.at(t).with_z(0.0);
-        if self.around(point, drift) != Around::Outside {
-            found.push(Met { t, error, leaving: speed > 0.0, part: 0 });
+        let Some((met, drift)) = on_the_plane(ray, self.reach) else { return };
+        if self.around(ray.at(met.t).with_z(0.0), drift) != Around::Outside {
+            found.push(met);
         }
     }
 

@@ -47,11 +47,7 @@ impl Evaluator<'_> {
         };
         let text = Text { string, letters, thickness: thickness.value };
         self.stored += text.letters.iter().map(|letter| letter.bytes()).sum::<u64>();
-        if text.thickness == 0.0 {
-            let diagnostic = Diagnostic::new(self.sizeless(), "a text of thickness 0 is nothing")
-                .at(thickness.span, "expected a number other than 0");
-            self.nothing(token, &thickness.here, diagnostic)?;
-        } else if text.letters.is_empty() && text.string.is_empty() {
+        if text.string.is_empty() {
             let diagnostic = Diagnostic::new(self.sizeless(), "a text of no letters is nothing")
                 .at(given.span, "expected what is to be written");
             self.nothing(token, &given.here, diagnostic)?;

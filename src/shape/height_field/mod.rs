@@ -1,6 +1,6 @@
-//! Height field: all that lies under two triangles in each cell of a grid, over the unit square about the
-//! origin of its own space; y goes up, and nothing ends it below. Of its surface the triangles are seen, as
-//! far as they are above the water; its walls are not.
+//! Height field: all that lies under two triangles in each cell of a grid, or under the water, over the unit
+//! square about the origin of its own space; y goes up, and nothing ends it below. Of its surface the triangles
+//! are seen, as far as they are above the water; the water and the walls are not.
 //!
 //! **Invariant:** watertight, as a mesh is; the triangles are made as they are asked for.
 //!
@@ -10,10 +10,11 @@
 mod walk;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::body::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::mesh::Flat;
 use super::mesh::pierce::{self, View};
 use crate::math::Vector;
+use smallvec::SmallVec;
 use walk::{Cells, Track};
 
 /// Cells along a side of a block, whose least and greatest heights are known.
@@ -25,8 +26,8 @@ pub struct HeightField {
     pub(super) heights: Vec<f32>,
     /// How many cells there are along x and z: one less than heights.
     pub(super) cells: [usize; 2],
-    /// What of the surface is lower is not seen.
-    water: f64,
+    /// What is lower is solid, and not seen.
+    pub(super) water: f64,
     smooth: bool,
     /// The least and the greatest heights of each block.
     blocks: Vec<[f32; 2]>,
@@ -154,8 +155,62 @@ impl HeightField {
         (enter.t < leave.t).then_some([enter, leave])
     }
 
-    /// How far a point is above the surface, and the triangle there; `None` beside the square.
-    fn above(&self, point: Vector) -> Option<f64> {
+    /// What of a line lies under the triangles. They are entered and left in turn; what is inside where the
+    /// line begins or ends between the walls is entered and left there.
+    fn under_ground(&self, ray: &LocalRay, [enter, leave]: [Met; 2]) -> SmallVec<[Span; 4]> {
+        let mut own = Crossings::new();
+        self.pierced(ray, |met| own.push(met));
+        own.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
+        let (Some(&first), Some(&last)) = (own.first(), own.last()) else {
+            // It passes above all of it, or below. Of a line along the walls, a place beside the end that
+            // there is.
+            let place = match (enter.t.is_finite(), leave.t.is_finite()) {
+                (true, true) => 0.5 * (enter.t + leave.t),
+                (true, false) => enter.t + 1.0,
+                (false, true) => leave.t - 1.0,
+                (false, false) => 0.0,
+            };
+            let point = ray.at(place);
+            let inside = self.ground(point).is_some_and(|ground| point.y < ground);
+            let is_told = enter.t + enter.error < leave.t - leave.error;
+            return (inside && is_told).then_some((enter, leave)).into_iter().collect();
+        };
+        // Within the walls, however rounding has it.
+        let starts_inside = first.leaving;
+        for (number, met) in own.iter_mut().enumerate() {
+            met.leaving = (number % 2 == 0) == starts_inside;
+        }
+        let wall = |met: Met, leaving| Met { leaving, part: Met::UNSEEN, ..met };
+        if starts_inside {
+            let enter = enter.earlier(wall(first, false));
+            own.insert(0, Met { part: Met::UNSEEN, ..enter });
+        }
+        if own.len() % 2 == 1 {
+            let leave = leave.later(wall(last, true));
+            own.push(Met { part: Met::UNSEEN, ..leave });
+        }
+        own.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// What of a line lies under the water, of which nothing is seen.
+    fn under_water(&self, ray: &LocalRay, [enter, leave]: [Met; 2]) -> Option<Span> {
+        let (place, speed) = (ray.nearest.y, ray.direction.y);
+        let t = (self.water - place) / speed;
+        let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
+        let error = off / speed.abs() + 2.0 * U * t.abs();
+        let (enter, leave) = if speed.abs() > ray.turn && error.is_finite() {
+            let met = Met { t, error, leaving: speed > 0.0, part: Met::UNSEEN };
+            if met.leaving { (enter, leave.earlier(met)) } else { (enter.later(met), leave) }
+        } else if place < self.water {
+            (enter, leave)
+        } else {
+            return None;
+        };
+        (enter.t + enter.error < leave.t - leave.error).then_some((enter, leave))
+    }
+
+    /// How high the triangles are at a place; `None` beside the square.
+    fn ground(&self, point: Vector) -> Option<f64> {
         if !(point.x.abs() < 0.5 && point.z.abs() < 0.5) {
             return None;
         }
@@ -166,7 +221,7 @@ impl HeightField {
         };
         let ((i, x), (j, z)) = (place(0, point.x), place(1, point.z));
         let height = |i, j| self.height_of([i, j]);
-        let surface = if x + z <= 1.0 {
+        Some(if x + z <= 1.0 {
             let corner = height(i, j);
             corner + x * (height(i + 1, j) - corner) + z * (height(i, j + 1) - corner)
         } else {
@@ -174,8 +229,7 @@ impl HeightField {
             corner
                 + (1.0 - x) * (height(i, j + 1) - corner)
                 + (1.0 - z) * (height(i + 1, j) - corner)
-        };
-        Some(point.y - surface)
+        })
     }
 
     /// The normal at a corner of the grid, by the heights beside it.
@@ -192,56 +246,16 @@ impl HeightField {
 }
 
 impl Local for HeightField {
-    /// The triangles are entered and left in turn; what is inside where the line begins or ends between the
-    /// walls is entered and left there.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let begin = found.len();
-        self.pierced(ray, |met| found.push(met));
-        let own = &mut found[begin..];
-        own.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
-        let walls = self.between_walls(ray);
-        let (Some(&first), Some(&last)) = (own.first(), own.last()) else {
-            // It passes above all of it, or below.
-            if let Some([enter, leave]) = walls {
-                // Of a line along the walls, a place beside the end that there is.
-                let place = match (enter.t.is_finite(), leave.t.is_finite()) {
-                    (true, true) => 0.5 * (enter.t + leave.t),
-                    (true, false) => enter.t + 1.0,
-                    (false, true) => leave.t - 1.0,
-                    (false, false) => 0.0,
-                };
-                let inside = self.above(ray.at(place)).is_some_and(|above| above < 0.0);
-                let is_told = enter.t + enter.error < leave.t - leave.error;
-                if inside && is_told {
-                    found.extend([enter, leave]);
-                }
-            }
-            return;
-        };
-        // Within the walls, however rounding has it.
-        let starts_inside = first.leaving;
-        for (number, met) in own.iter_mut().enumerate() {
-            met.leaving = (number % 2 == 0) == starts_inside;
-            // What may as well be at the water's height is seen: also where that is the least of all.
-            if ray.at(met.t).y < self.water - met.error - 8.0 * U {
-                met.part = Met::UNSEEN;
-            }
+        let Some(walls) = self.between_walls(ray) else { return };
+        let mut spans = self.under_ground(ray, walls);
+        if self.water > self.range[0] {
+            spans.extend(self.under_water(ray, walls));
         }
-        let ends_inside = !own.last().is_some_and(|last| last.leaving);
-        let wall = |met: Met, leaving| Met { leaving, part: Met::UNSEEN, ..met };
-        if starts_inside {
-            let enter =
-                walls.map_or(wall(first, false), |[enter, _]| enter.earlier(wall(first, false)));
-            if enter.t.is_finite() {
-                found.insert(begin, Met { part: Met::UNSEEN, ..enter });
-            }
-        }
-        if ends_inside {
-            let leave = walls.map_or(wall(last, true), |[_, leave]| leave.later(wall(last, true)));
-            if leave.t.is_finite() {
-                found.push(Met { part: Met::UNSEEN, ..leave });
-            }
-        }
+        let mut all = Crossings::new();
+        unite(&mut spans, &mut all);
+        // What has no end is not crossed there.
+        found.extend(all.into_iter().filter(|met| met.t.is_finite()));
     }
 
     /// Over the plane of the triangle, measured from its corner.
@@ -295,7 +309,7 @@ impl Local for HeightField {
     }
 
     fn contains(&self, point: Vector) -> bool {
-        self.above(point).is_some_and(|above| above < 0.0)
+        self.ground(point).is_some_and(|ground| point.y < ground.max(self.water))
     }
 
     fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {

@@ -1,6 +1,6 @@
 //! Height fields and text: heights over a grid, and boxes side by side, in exact arithmetic.
 
-use super::placed::{assert_crossed_where_it_is, placed, ray_at_placed};
+use super::placed::{assert_crossed_where_it_is, blur, local_at, placed, ray_at_placed};
 use super::*;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::curve::{Outline, Piece};
@@ -10,8 +10,8 @@ fn greater(a: Double, b: Double) -> Double {
     if (a - b).0 < 0.0 { b } else { a }
 }
 
-/// Hills, steps, or all of one height; no more cells than a power of two, so that the grid is exact.
-fn any_field(random: &mut Random) -> HeightField {
+/// Hills, steps, or all of one height; as many cells as a power of two, so that the grid is exact.
+fn any_field(random: &mut Random, water: f64) -> HeightField {
     let cells = [0; 2].map(|_| [1, 2, 8, 32, 64][random.below(5)]);
     let kind = random.below(3);
     let heights = (0..(cells[0] + 1) * (cells[1] + 1)).map(|_| match kind {
@@ -19,10 +19,13 @@ fn any_field(random: &mut Random) -> HeightField {
         1 => [-0.5, 0.0, 0.4375][random.below(3)],
         _ => 0.25,
     });
-    HeightField::new(heights.collect(), cells[0] + 1, -0.5, false).expect("a landscape")
+    let mut heights: Vec<f32> = heights.collect();
+    // Not all of it lies under water.
+    heights[0] = heights[0].max(water as f32);
+    HeightField::new(heights, cells[0] + 1, water, false).expect("a landscape")
 }
 
-/// How far above the triangles, or outside of the walls.
+/// How far above the triangles and the water, or outside of the walls.
 fn above(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::HeightField(field) = body else { panic!("{body:?}") };
     let half = Double::of(0.5);
@@ -43,7 +46,8 @@ fn above(body: &Body, [x, y, z]: Triple) -> Double {
         let corner = height(i + 1, j + 1);
         corner + (one - a) * (height(i, j + 1) - corner) + (one - b) * (height(i + 1, j) - corner)
     };
-    greater(y - surface, walls)
+    let water = Double::of(field.water);
+    greater(y - greater(surface, water), walls)
 }
 
 #[test]
@@ -51,7 +55,8 @@ fn a_landscape_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(101);
     let mut crossed = 0;
     for _ in 0..tries() {
-        let field = any_field(&mut random);
+        let water = [-0.5, 0.0, 0.125][random.below(3)];
+        let field = any_field(&mut random, water);
         let placed = placed(&mut random, Body::HeightField(field));
         let ray = ray_at_placed(&mut random, &placed);
         crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, above);
@@ -64,7 +69,7 @@ fn a_landscape_is_crossed_where_exact_arithmetic_crosses_it() {
 fn no_line_slips_through_between_cells() {
     let mut random = Random(102);
     for _ in 0..tries() {
-        let field = any_field(&mut random);
+        let field = any_field(&mut random, -0.5);
         let grid = |random: &mut Random, axis: usize| match random.below(2) {
             0 => random.below(field.cells[axis] + 1) as f64 / field.cells[axis] as f64 - 0.5,
             _ => random.number(-0.5, 0.5),
@@ -101,6 +106,8 @@ fn what_lies_under_the_water_is_not_seen_and_solid_all_the_same() {
     assert!(!down(-0.25)[0].is_seen());
     assert!(down(0.4)[0].is_seen());
     assert!(field.contains(Vector::new(0.0, -2.0, 0.0)));
+    // Over the ground, and under water.
+    assert!(field.contains(Vector::new(0.0, -0.1, -0.4)) && down(-0.25).len() == 1);
     let (low, high) = field.extent(Vector::Y);
     assert!((low - 0.0).abs() < 1e-9 && (high - 0.25).abs() < 1e-9, "{low} {high}");
     assert!(HeightField::new(vec![-0.5; 4], 2, 0.0, false).is_none());
@@ -124,14 +131,14 @@ const BOXES: [[f64; 4]; 4] = [
 ];
 
 /// Letters that are boxes.
-fn boxes() -> Text {
-    let prism = |[left, low, right, high]: [f64; 4]| {
+fn boxes(is_flat: bool) -> Text {
+    let outline = |[left, low, right, high]: [f64; 4]| {
         let corners = [[left, low], [right, low], [right, high], [left, high]];
         let mut outline = Outline::default();
         outline.add((0..4).map(|i| Piece::line(corners[i], corners[(i + 1) % 4])));
-        Prism { outline, conic: false, heights: [-1.0, 1.0], open: false }
+        outline
     };
-    Text::new(BOXES.map(prism).to_vec()).expect("a text")
+    Text::new(BOXES.map(outline).to_vec(), is_flat).expect("a text")
 }
 
 fn outside_of_boxes(_: &Body, [x, y, z]: Triple) -> Double {
@@ -152,9 +159,35 @@ fn letters_are_crossed_where_exact_arithmetic_crosses_them_and_are_one_where_the
     let mut random = Random(103);
     let mut crossed = 0;
     for _ in 0..tries() {
-        let placed = placed(&mut random, Body::Text(boxes()));
+        let placed = placed(&mut random, Body::Text(boxes(false)));
         let ray = ray_at_placed(&mut random, &placed);
         crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, outside_of_boxes);
     }
     assert!(crossed > tries() / 2, "{crossed}");
+}
+
+#[test]
+fn flat_letters_are_met_where_exact_arithmetic_is_inside_of_them() {
+    let mut random = Random(104);
+    let (mut met, mut missed) = (0, 0);
+    for _ in 0..tries() {
+        let placed = placed(&mut random, Body::Text(boxes(true)));
+        let ray = ray_at_placed(&mut random, &placed);
+        met += assert_crossed_where_it_is(&mut random, &placed, &ray, |_, [_, _, z]| z);
+        let start = placed.placement.local_point(ray.origin);
+        let step = placed.placement.local_direction(ray.direction);
+        let t = -start.z / step.z;
+        let off = 64.0 * blur(&placed, &ray) * step.length() / step.z.abs();
+        if !(t.is_finite() && off.is_finite()) {
+            continue;
+        }
+        let [x, y, _] = local_at(&placed, &ray, t, 0.0);
+        let outside = outside_of_boxes(&placed.body, [x, y, Double::of(0.0)]).0;
+        if outside.abs() > off {
+            let found = placed.crossings(&ray);
+            assert_eq!(found.len(), usize::from(outside < 0.0), "{found:?} {placed:?} {ray:?}");
+            missed += usize::from(outside > 0.0);
+        }
+    }
+    assert!(met > tries() / 20 && missed > tries() / 8, "{met} {missed}");
 }

@@ -2,7 +2,7 @@
 
 use lucarne::math::Vector;
 use lucarne::shape::curve::{Outline, Piece};
-use lucarne::shape::{BicubicPatch, Body, HeightField, Polygon, Prism, Text};
+use lucarne::shape::{BicubicPatch, Body, HeightField, Polygon, Text};
 
 use crate::bodies::{Form, NEAR, pierced};
 use crate::naive::{V32, V64, double, single};
@@ -219,8 +219,7 @@ impl Form for Letter {
         let all = pieces();
         let parts = all.chunks_exact(4);
         parts.for_each(|run| outline.add(run.iter().filter_map(|points| Piece::bezier(points))));
-        let prism = Prism { outline, conic: false, heights: [-1.0, 1.0], open: false };
-        Text::new(vec![prism]).map(Body::Text)
+        Text::new(vec![outline], false).map(Body::Text)
     }
     fn single(f: V32, d: V32) -> Option<f32> {
         single::letter(f, d, &pieces())
