@@ -111,6 +111,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("scene/polygon.rs", "let narrow", "relative: of a polygon's size"),
     ("shape/bicubic_patch/mod.rs", "if normal.length()", "relative: of a patch's size"),
     ("shape/bicubic_patch/mod.rs", "inward * 100.0", "of u and v, which are 0 to 1"),
+    ("shape/height_field/mod.rs", "const STRETCHED", "heights of 16 bits, of which one is a step"),
     ("shape/bicubic_patch/net.rs", "let enough", "relative: how tight a patch's bounds are"),
     ("evaluate/block/isosurface.rs", "0.001", "the manual's default, which the author sets"),
     ("function/slope.rs", "whole.fract()", "whole numbers up to it are exact"),

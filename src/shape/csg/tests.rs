@@ -81,7 +81,7 @@ fn what_is_not_there_to_be_seen_hides_nothing_that_lies_in_it() {
     for nodes in [INTERSECTION, MERGE, UNION] {
         assert_eq!((kept(&nodes, A), kept(&nodes, B)), (vec![B, B], vec![A, A]), "{nodes:?}");
     }
-    assert_eq!(kept(&DIFFERENCE, A), []);
+    assert!(kept(&DIFFERENCE, A).is_empty());
 }
 
 #[test]
