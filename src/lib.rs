@@ -15,6 +15,7 @@ pub mod color;
 pub mod diagnostic;
 pub mod evaluate;
 pub mod film;
+pub mod font;
 pub mod function;
 pub mod geometry;
 pub mod lower;

@@ -3,6 +3,8 @@
 //! **In:** an [`Image`]. **Out:** the bytes of a file. **Invariant:** the bytes depend on the image
 //! alone: no date, no name, no order of threads.
 
+pub mod heights;
+
 use std::io::Cursor;
 
 use image::{ExtendedColorType, ImageEncoder};

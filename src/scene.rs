@@ -5,12 +5,15 @@
 //! is an index, shared and never copied, and stands before its parents.
 
 pub mod blob;
+pub mod height_field;
 pub mod light;
 pub mod mesh;
 pub mod outline;
+pub mod polygon;
 pub mod print;
 pub mod solid;
 pub mod sweep;
+pub mod text;
 
 use std::sync::Arc;
 

@@ -35,6 +35,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("picture", &["color", "film"]),
     // verbs
     ("mesh_file", &["color", "math", "scene"]),
+    ("font", &["scene"]),
     ("syntax", &["color", "source", "vocabulary", "diagnostic"]),
     (
         "lower",
@@ -62,11 +63,14 @@ const ROOMS: &[(&str, &[&str])] = &[
             "mesh_file",
             "noise",
             "pattern",
+            // Heights are read from pictures.
+            "picture",
             "scene",
             "source",
             "standard",
             "syntax",
             "vocabulary",
+            "font",
             "function",
             "spline",
             // `trace()`, `inside()`, `min_extent()` and `max_extent()` look at what was declared.
@@ -116,7 +120,9 @@ const DOORS: &[(&str, &[&str])] = &[
     ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
     ("stacker", &["evaluate/"]),
+    ("gif", &["picture"]),
     ("image", &["picture"]),
+    ("ttf_parser", &["font/"]),
     ("png", &["picture"]),
     ("gltf", &["mesh_file/gltf2.rs"]),
     ("ply_rs_bw", &["mesh_file/ply.rs"]),

@@ -52,8 +52,8 @@ fn formatted(name: &str, text: &str) -> Option<String> {
     Some(once)
 }
 
-/// Includes, laid out once.
-static LAID_OUT: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+/// Includes, laid out once; fonts, pictures and broken texts as they are.
+static LAID_OUT: Mutex<BTreeMap<String, Vec<u8>>> = Mutex::new(BTreeMap::new());
 
 /// The folder of a scene and POV-Ray's own; every file comes as it is, or laid out.
 struct Disk {
@@ -75,11 +75,12 @@ impl Files for Disk {
             return Ok(Found { name, bytes });
         }
         let mut known = LAID_OUT.lock().expect("no test fails while it holds this");
-        let text = known.entry(name.clone()).or_insert_with(|| {
-            let text = decode(bytes).0;
-            formatted(&name, &text).unwrap_or(text)
+        let laid_out = known.entry(name.clone()).or_insert_with(|| {
+            let is_text = !bytes.contains(&0);
+            let text = is_text.then(|| formatted(&name, &decode(bytes.clone()).0)).flatten();
+            text.map_or(bytes, String::into_bytes)
         });
-        let bytes = text.clone().into_bytes();
+        let bytes = laid_out.clone();
         Ok(Found { name, bytes })
     }
 }

@@ -225,13 +225,8 @@ light_source {{ <4, 8, 6>, rgb 1 }} light_source {{ 5, rgb 0 }} light_source {{ 
 sphere {{ 0, 1 scale <1, 2, 1> finish {{ reflection 0.5 }} }} #declare Unused = 1;
 {flat}
 #macro Dark(P) light_source {{ P, rgb 0 }} #end Dark(1) Dark(2)
-<<<<<<< HEAD
 torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, -1, 1>, 0, 0, -1 }}
-difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} disc {{ 0, y, 2 }}
-=======
-torus {{ 1e9, 1 }} cylinder {{ -2*y, 2*y, 0.6 }} quadric {{ <1, 1, 1>, 0, 0, -1 }}
 difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{ 0, 1 }} }} disc {{ 0, y, 2 }}
->>>>>>> 9218f7b (Faces that parts of one solid have in common are named; solids a hundred thousand operations deep)
 "
     );
     std::fs::write(&hard, text).expect("written");

@@ -27,6 +27,9 @@ const WELL_KNOWN: &[&str] = &[
     "/opt/local/share/povray-3.7/include",
 ];
 
+/// Where Debian keeps POV-Ray's fonts: its include folder only has links that lead there.
+const FONTS: &str = "/usr/share/fonts/truetype/povray";
+
 /// The folders one scene may read.
 pub struct DiskFiles {
     /// In the order they are searched, after the including file's own: as named, and in truth.
@@ -47,7 +50,7 @@ impl DiskFiles {
         };
         let named = std::iter::once(own)
             .chain(include.iter().cloned())
-            .chain(WELL_KNOWN.iter().map(PathBuf::from));
+            .chain(WELL_KNOWN.iter().chain([&FONTS]).map(PathBuf::from));
         let folders = named
             .filter_map(|folder| fs::canonicalize(&folder).ok().map(|truth| (folder, truth)))
             .filter(|(_, truth)| truth.is_dir())

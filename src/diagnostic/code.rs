@@ -144,6 +144,7 @@ codes! {
     MalformedMesh "malformed-mesh" error "a mesh's file is not what its format says, or of no format that is read";
     IncompleteMesh "incomplete-mesh" lint "a mesh's file asks for what is not there, or not read";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
+    StandInFont "stand-in-font" lint "a font of POV-Ray's is not there, and the built-in one is used";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";

@@ -53,11 +53,20 @@ impl Evaluator<'_> {
             let site = token.here.site(token.span);
             return Ok(Value::Poison(Poison { word: Word::Function, site }));
         };
+        self.function_of(token, &parameters)
+    }
+
+    /// The block of a function of these parameters.
+    pub(super) fn function_of(
+        &mut self,
+        token: &Token,
+        parameters: &[ParameterName],
+    ) -> Outcome<Value> {
         self.block(token, Word::Function, |evaluator| {
             let Some(first) = evaluator.next() else {
                 return Err(evaluator.expected("a formula", None, (&token.here, token.span)));
             };
-            let value = evaluator.function_body(token, &first, &parameters);
+            let value = evaluator.function_body(token, &first, parameters);
             if let Some(extra) = evaluator.next() {
                 let message = "a function is one formula, and there is more";
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)

@@ -19,8 +19,8 @@ mod file;
 mod formula;
 mod function;
 mod include;
-mod limits;
 mod lint;
+mod options;
 mod probe;
 mod remembered;
 mod report;
@@ -44,53 +44,23 @@ use crate::color::Color;
 use crate::diagnostic::{Diagnostics, suggest};
 use crate::noise::NoiseGenerator;
 use crate::scene::{
-    ClassicFinish, Dialect, Finish, FinishId, ObjectId, Pigment, PigmentId, PigmentKind, Scene,
-    Texture, TextureId,
+    ClassicFinish, Finish, FinishId, ObjectId, Pigment, PigmentId, PigmentKind, Scene, Texture,
+    TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
 use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, NameId};
 
 use crate::vocabulary::PREDECLARED;
 
+pub use options::{EvaluateOptions, Limits};
+
 use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
-pub use limits::Limits;
 use remembered::Remembered;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Hold, Silent, Token};
 use value::{Poison, Value};
-
-/// What the caller sets.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EvaluateOptions {
-    pub dialect: Dialect,
-    /// `image_width` and `image_height`.
-    pub width: u32,
-    pub height: u32,
-    /// `-D name=value`, in order.
-    pub declares: Vec<(String, f64)>,
-    pub clock: f64,
-    /// Days since the beginning of the year 2000, UTC: `now`.
-    pub now: f64,
-    pub frame_number: f64,
-    pub limits: Limits,
-}
-
-impl Default for EvaluateOptions {
-    fn default() -> Self {
-        Self {
-            dialect: Dialect::Scene,
-            width: 640,
-            height: 480,
-            declares: Vec::new(),
-            clock: 0.0,
-            now: 0.0,
-            frame_number: 0.0,
-            limits: Limits::default(),
-        }
-    }
-}
 
 /// Runs `main`, which is gone then: of a big scene it is the larger half. Whatever is wrong goes to `diagnostics`.
 pub fn evaluate(
@@ -211,6 +181,8 @@ struct Evaluator<'a> {
     found: HashMap<(String, FileId), String>,
     /// What meshes were read from files.
     meshes: block::MeshFiles,
+    /// Fonts that were read.
+    fonts: block::Fonts,
     /// The names of the files that include each other now.
     including: Vec<String>,
     default_texture: TextureId,
@@ -336,6 +308,7 @@ impl<'a> Evaluator<'a> {
             parsed: HashMap::new(),
             found: HashMap::new(),
             meshes: block::MeshFiles::default(),
+            fonts: block::Fonts::new(),
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,

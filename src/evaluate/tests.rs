@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::road::{Options, Road};
+use crate::scene::Dialect;
 use crate::source::{FileError, Found};
 
 /// The one file there is to include.

@@ -18,6 +18,7 @@ mod modifier;
 mod object;
 mod outline;
 mod place;
+mod points;
 mod shape;
 mod sweep;
 mod texture;

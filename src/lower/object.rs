@@ -10,7 +10,7 @@ use super::place::next;
 use super::shape::{Round, no_size};
 use super::texture::Surface;
 use super::transform::Affine;
-use super::{Fault, Lowering, NO_SIZE, blob, body, outline, shape, sweep};
+use super::{Fault, Lowering, NO_SIZE, blob, body, outline, points, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
@@ -255,8 +255,10 @@ impl<'s> Lowering<'s, '_> {
         if here.unseen {
             return Ok(());
         }
-        // Told where it is written, and left out.
-        if self.scene.dialect == Dialect::Pov && solid.is_sizeless() {
+        // Told where it is written, and left out; a blank need not be told.
+        let may_be_nothing =
+            self.scene.dialect == Dialect::Pov || matches!(solid, Solid::Text { .. });
+        if may_be_nothing && solid.is_sizeless() {
             self.nothing(here.flags.inverse);
             return Ok(());
         }
@@ -305,6 +307,16 @@ impl<'s> Lowering<'s, '_> {
                         Ok(())
                     }
                 }
+            }
+            Solid::Text { ref text } => self.place_stored(id, || points::text(text), here, site),
+            Solid::BicubicPatch { points: ref net } => {
+                self.place_stored(id, || points::bicubic_patch(net).map(Some), here, site)
+            }
+            Solid::HeightField { ref field } => {
+                self.place_stored(id, || Ok(points::height_field(field)), here, site)
+            }
+            Solid::Polygon { ref polygon } => {
+                self.place_stored(id, || points::polygon(polygon), here, site)
             }
             Solid::Cone { ends, radii, open } => {
                 self.place_made(body::cone(ends, radii, open)?, here, site)

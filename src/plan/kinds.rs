@@ -33,7 +33,7 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
             let body = &*world.placed[at as usize].body;
             let cost = match body {
                 Body::Cylinder(_) | Body::Cone(_) => "a map and a square root a ray",
-                Body::Disc(_) => "a map and a division a ray",
+                Body::Disc(_) | Body::Polygon(_) => "a map and a division a ray",
                 Body::Torus(_) => "a map and up to four roots by steps a ray",
                 Body::Algebraic(_)
                 | Body::Blob(_)
@@ -49,6 +49,11 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Parametric(_) => {
                     "a map and bounds of its three functions a part a ray may meet"
                 }
+                Body::BicubicPatch(_) => {
+                    "a map, and parts of the patch until each crossing stands alone, a ray"
+                }
+                Body::HeightField(_) => "a map and a walk over the grid below a ray",
+                Body::Text(_) => "a map and the outlines of the letters a ray may meet",
                 Body::Mesh(_) => "a map and a tree of triangles a ray",
             };
             let word = match body {

@@ -4,9 +4,12 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::blob::Blob;
+use super::height_field::HeightField;
 use super::mesh::Triangles;
 use super::outline::{Point, Spline};
+use super::polygon::Polygon;
 use super::sweep::Sweep;
+use super::text::Text;
 use crate::function::Closed;
 use crate::math::Vector;
 use crate::math::vector::written;
@@ -14,6 +17,15 @@ use crate::vocabulary::Word;
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
+    /// A Bézier surface of degree 3 both ways.
+    BicubicPatch {
+        /// Four rows of four.
+        points: [Vector; 16],
+    },
+    /// A landscape. Stored once, however often it is used.
+    HeightField {
+        field: Arc<HeightField>,
+    },
     Sphere {
         centre: Vector,
         radius: f64,
@@ -112,6 +124,10 @@ pub enum Solid {
         /// Its ends are not seen.
         open: bool,
     },
+    /// A flat figure.
+    Polygon {
+        polygon: Polygon,
+    },
     /// Where a polynomial in x, y and z is 0 or less.
     Polynomial {
         /// The word it is written with.
@@ -120,6 +136,10 @@ pub enum Solid {
         degree: usize,
         /// All coefficients, in the order of [`crate::math::terms::exponents`].
         terms: Vec<f64>,
+    },
+    /// Letters. Stored once, however often they are used.
+    Text {
+        text: Arc<Text>,
     },
     /// A lone triangle or a mesh. Stored once, however often it is used.
     Triangles {
@@ -160,6 +180,9 @@ impl Solid {
     /// The word that opens it.
     pub fn word(&self) -> Word {
         match self {
+            Self::BicubicPatch { .. } => Word::BicubicPatch,
+            Self::HeightField { .. } => Word::HeightField,
+            Self::Polygon { .. } => Word::Polygon,
             Self::Sphere { .. } => Word::Sphere,
             Self::Plane { .. } => Word::Plane,
             Self::Box { .. } => Word::Box,
@@ -172,6 +195,7 @@ impl Solid {
             Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Isosurface { .. } => Word::Isosurface,
             Self::Parametric { .. } => Word::Parametric,
+            Self::Text { .. } => Word::Text,
             Self::Torus { .. } => Word::Torus,
             Self::Lathe { .. } => Word::Lathe,
             Self::Prism { .. } => Word::Prism,
@@ -182,12 +206,16 @@ impl Solid {
     }
 
     /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
-    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a polynomial that is a
-    /// number.
-    /// without length or width, a disc that is all hole, a ring of no thickness, a prism without height, a
-    /// curve that is a point, a polynomial that is a number.
+    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a
+    /// prism without height, a curve that is a point, a polynomial that is a number, points in a line, a text
+    /// that shows nothing, a landscape under water.
     pub fn is_sizeless(&self) -> bool {
         match self {
+            Self::BicubicPatch { points } => {
+                Polygon { lines: vec![points.to_vec()] }.plane().is_none()
+            }
+            Self::HeightField { field } => field.is_nothing(),
+            Self::Polygon { polygon } => polygon.plane().is_none(),
             Self::Sphere { radius, .. } => *radius == 0.0,
             Self::Plane { .. } | Self::Superellipsoid { .. } => false,
             Self::Box { corners: [first, second] } => {
@@ -203,6 +231,7 @@ impl Solid {
             Self::Parametric { corners: [a, b], container, .. } => {
                 a[0] == b[0] || a[1] == b[1] || container.is_sizeless()
             }
+            Self::Text { text } => text.is_nothing(),
             Self::Torus { minor, .. } => *minor == 0.0,
             Self::Lathe { points, .. } => points.iter().all(|point| *point == points[0]),
             Self::Prism { heights: [low, high], points, .. } => {
@@ -259,6 +288,10 @@ impl fmt::Display for Solid {
                     a[0], a[1], b[0], b[1]
                 )
             }
+            Self::Text { text } => {
+                let Text { string, letters, thickness } = &**text;
+                write!(f, " {string:?} of {} letters, {thickness} thick", letters.len())
+            }
             Self::Torus { major, minor } => write!(f, " {major} {minor}"),
             Self::Lathe { spline, points } => {
                 write!(f, " {}", spline.word().name())?;
@@ -273,6 +306,19 @@ impl fmt::Display for Solid {
             Self::Sor { points, open: is_open } => {
                 write_points(f, points)?;
                 write!(f, "{}", open(*is_open))
+            }
+            Self::BicubicPatch { points } => {
+                points.iter().try_for_each(|point| write!(f, " {}", written(*point)))
+            }
+            Self::HeightField { field } => {
+                let HeightField { from, heights, width, water, smooth } = &**field;
+                let rows = heights.len() / width;
+                let smooth = if *smooth { ", smooth" } else { "" };
+                write!(f, " of {from}, {width}×{rows}, water_level {water}{smooth}")
+            }
+            Self::Polygon { polygon } => {
+                let lines = polygon.lines.len();
+                write!(f, " of {} points, {lines} line{}", polygon.count(), plural(lines))
             }
             Self::Polynomial { degree, terms, .. } => {
                 write!(f, " {degree}")?;
@@ -292,4 +338,8 @@ impl fmt::Display for Solid {
 
 fn write_points(f: &mut fmt::Formatter, points: &[Point]) -> fmt::Result {
     points.iter().try_for_each(|[a, b]| write!(f, " <{a}, {b}>"))
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
 }

@@ -7,19 +7,23 @@
 use smallvec::SmallVec;
 
 use super::algebraic::Algebraic;
+use super::bicubic_patch::BicubicPatch;
 use super::blob::Blob;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
+use super::height_field::HeightField;
 use super::isosurface::Isosurface;
 use super::lathe::Lathe;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::parametric::Parametric;
+use super::polygon::Polygon;
 use super::prism::Prism;
 use super::sor::Sor;
 use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
+use super::text::Text;
 use super::torus::Torus;
 use super::{Crossing, Ray, U};
 use crate::math::Vector;
@@ -142,6 +146,33 @@ impl Met {
 /// Crossings in order. Most bodies have few, and need no allocation.
 pub type Crossings = SmallVec<[Met; 6]>;
 
+/// Where a line enters something solid, and where it leaves that.
+pub(super) type Span = (Met, Met);
+
+/// Adds where the line enters and leaves all of what it goes through, in any order: spans that overlap or
+/// touch, as far as rounding tells, are one, and what is seen is told where as much ends there unseen.
+pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
+    spans.sort_by(|a, b| a.0.t.total_cmp(&b.0.t));
+    let Some((&(mut enter, mut leave), rest)) = spans.split_first() else { return };
+    let is_there = |met: &Met, seen: &Met| {
+        !met.is_seen() && seen.is_seen() && (met.t - seen.t).abs() <= met.error + seen.error
+    };
+    for &(next, end) in rest {
+        if next.t - next.error > leave.t + leave.error {
+            found.extend([enter, leave]);
+            (enter, leave) = (next, end);
+            continue;
+        }
+        if is_there(&enter, &next) {
+            enter = next;
+        }
+        if is_there(&leave, &end) || (end.t > leave.t && !is_there(&end, &leave)) {
+            leave = end;
+        }
+    }
+    found.extend([enter, leave]);
+}
+
 /// Declares the closed set of bodies, each in a file of its own.
 macro_rules! bodies {
     ($($kind:ident $word:literal)*) => {
@@ -223,19 +254,23 @@ macro_rules! bodies {
 
 bodies! {
     Algebraic "polynomial"
+    BicubicPatch "bicubic_patch"
     Blob "blob"
     Cone "cone"
     Cylinder "cylinder"
     Disc "disc"
+    HeightField "height_field"
     Isosurface "isosurface"
     Lathe "lathe"
     Mesh "mesh"
     Ovus "ovus"
     Parametric "parametric"
+    Polygon "polygon"
     Prism "prism"
     Sor "sor"
     SphereSweep "sphere_sweep"
     Superellipsoid "superellipsoid"
+    Text "text"
     Torus "torus"
 }
 

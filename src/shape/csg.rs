@@ -56,8 +56,9 @@ struct State {
     before: bool,
     /// The place right behind does.
     after: bool,
-    /// The event whose surface is the node's here: its leaf, and its place in the list.
-    shown: Option<(u32, usize)>,
+    /// The event whose surface is the node's here: whether it is not there to be seen, which hides nothing
+    /// that is; its leaf, and its place in the list.
+    shown: Option<(bool, u32, usize)>,
 }
 
 impl State {
@@ -164,7 +165,7 @@ impl Tree {
             let state = State {
                 before: inside(event.met.leaving),
                 after: inside(!event.met.leaving),
-                shown: Some((event.leaf, number)),
+                shown: Some((!event.met.is_seen(), event.leaf, number)),
             };
             match self.operations.is_empty() {
                 true => whole = state.shown,
@@ -192,7 +193,7 @@ impl Tree {
                 Some(_) => {}
             }
         }
-        whole.map(|(_, number)| number)
+        whole.map(|(_, _, number)| number)
     }
 }
 

@@ -4,6 +4,7 @@
 //! (0, ∞): there is no least and no greatest distance, each crossing carries its own error bound instead.
 
 pub mod algebraic;
+pub mod bicubic_patch;
 pub mod blob;
 pub mod body;
 pub mod box_;
@@ -13,6 +14,7 @@ pub mod curve;
 pub mod cylinder;
 pub mod disc;
 pub mod ellipsoid;
+pub mod height_field;
 pub mod isosurface;
 pub mod lathe;
 pub mod mesh;
@@ -20,15 +22,18 @@ pub mod ovus;
 pub mod parametric;
 pub mod placed;
 pub mod plane;
+pub mod polygon;
 pub mod prism;
 pub mod sor;
 pub mod sphere;
 pub mod superellipsoid;
 pub mod sweep;
+pub mod text;
 pub mod torus;
 mod tree;
 
 pub use algebraic::Algebraic;
+pub use bicubic_patch::BicubicPatch;
 pub use blob::Blob;
 pub use body::Body;
 pub use box_::Box_;
@@ -36,6 +41,7 @@ pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use ellipsoid::Ellipsoid;
+pub use height_field::HeightField;
 pub use isosurface::Isosurface;
 pub use lathe::Lathe;
 pub use mesh::Mesh;
@@ -43,11 +49,13 @@ pub use ovus::Ovus;
 pub use parametric::Parametric;
 pub use placed::Placed;
 pub use plane::Plane;
+pub use polygon::Polygon;
 pub use prism::Prism;
 pub use sor::Sor;
 pub use sphere::Sphere;
 pub use superellipsoid::Superellipsoid;
 pub use sweep::SphereSweep;
+pub use text::Text;
 pub use torus::Torus;
 
 use crate::math::{Real, Vector, Vector3};

@@ -9,6 +9,7 @@ use leave::assert_leaves_for_good;
 
 mod algebraic;
 mod blob;
+mod height_field;
 mod isosurface;
 mod leave;
 mod mesh;
@@ -16,6 +17,7 @@ mod outline;
 mod ovus;
 mod parametric;
 mod placed;
+mod sheets;
 mod superellipsoid;
 mod sweep;
 

@@ -15,7 +15,7 @@ use super::body::LocalRay;
 use crate::math::Vector;
 
 const BINS: usize = 16;
-/// No more pieces in a leaf, unless they cannot be told apart.
+/// No more pieces in a leaf, unless they cannot be told apart or each costs much.
 const LEAF: usize = 4;
 /// From here on splits are by halves.
 const DEPTH: usize = 40;
@@ -42,6 +42,15 @@ const NOWHERE: Bounds = Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINI
 impl Tree {
     /// Of finite bounds, at least one.
     pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
+        Self::with_leaves(bounds, LEAF)
+    }
+
+    /// Over pieces of which each costs more than its box.
+    pub fn of_costly(bounds: &[Bounds]) -> (Self, Vec<u32>) {
+        Self::with_leaves(bounds, 1)
+    }
+
+    fn with_leaves(bounds: &[Bounds], most: usize) -> (Self, Vec<u32>) {
         let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
         let all = |pieces: &[u32]| {
             pieces.iter().fold(NOWHERE, |all, &piece| all.union(&bounds[piece as usize]))
@@ -52,7 +61,7 @@ impl Tree {
             let Node { first, count, .. }: Node = nodes[index];
             let range = first as usize..(first + count) as usize;
             let pieces = &mut order[range.clone()];
-            let Some(middle) = split(bounds, pieces, depth) else { continue };
+            let Some(middle) = split(bounds, pieces, most, depth) else { continue };
             let children = nodes.len();
             nodes[index] = Node { first: children as u32, count: 0, ..nodes[index] };
             for part in [range.start..range.start + middle, range.start + middle..range.end] {
@@ -142,8 +151,8 @@ fn centre(Bounds { low, high }: &Bounds) -> Vector {
 }
 
 /// Sorts some pieces into two parts, and returns how many are in the first; `None` for a leaf.
-fn split(bounds: &[Bounds], pieces: &mut [u32], depth: usize) -> Option<usize> {
-    if pieces.len() <= LEAF {
+fn split(bounds: &[Bounds], pieces: &mut [u32], most: usize, depth: usize) -> Option<usize> {
+    if pieces.len() <= most {
         return None;
     }
     let place = |piece: u32| centre(&bounds[piece as usize]);

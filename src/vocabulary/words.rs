@@ -37,14 +37,14 @@ vocabulary! {
         Append "append" statement built "opens a file to write at its end";
     }
     Shape {
-        BicubicPatch "bicubic_patch" statement later "a surface of 16 Bézier control points";
+        BicubicPatch "bicubic_patch" statement built "`bicubic_patch { <16 points> }`: a Bézier surface of degree 3, met exactly; a sheet";
         Blob "blob" statement built "spheres and cylinders, each with a strength, that melt into one surface";
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a block along the axes";
         Cone "cone" statement built "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
         Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round bar";
         Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; to other solids, all that is behind it";
-        HeightField "height_field" statement later "a landscape from a picture or a function";
+        HeightField "height_field" statement built "`height_field { png \"file\" }` or `height_field { function W, H { … } }`: a landscape over the unit square, as high as a picture is light";
         Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: where a function of space is less than a number";
         JuliaFractal "julia_fractal" statement later "a fractal of quaternions";
         Lathe "lathe" statement built "`lathe { SPLINE count, points }`: a curve turned about the y axis";
@@ -54,7 +54,7 @@ vocabulary! {
         Parametric "parametric" statement built "`parametric { function { … } function { … } function { … } <u1, v1>, <u2, v2> }`: a surface of three functions of u and v";
         Plane "plane" statement built "`plane { <normal>, distance }`: everything on the far side of the normal";
         Poly "poly" statement built "`poly { order, <numbers> }`: a polynomial surface of degree 2 to 15";
-        Polygon "polygon" statement later "a flat figure of several corners";
+        Polygon "polygon" statement built "`polygon { count, <corner>, … }`: a flat figure; a corner that is its line's first closes it, and lines within others are holes";
         Polynomial "polynomial" statement built "`polynomial { order, xyz(i, j, k): number … }`: a polynomial surface by its terms";
         Prism "prism" statement built "`prism { SPLINE SWEEP low, high, count, points }`: a flat outline drawn up along y";
         Quadric "quadric" statement built "`quadric { <A, B, C>, <D, E, F>, <G, H, I>, J }`: a polynomial surface of degree 2";
@@ -64,7 +64,7 @@ vocabulary! {
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement built "`sphere_sweep { linear_spline count, <centre>, radius, … }`: a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
-        Text "text" statement later "letters of a font as a solid";
+        Text "text" statement built "`text { ttf \"file\" \"string\" thickness, offset }`: letters of a font as a solid; without `ttf`, of the font that is built in";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
         Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }
@@ -81,7 +81,7 @@ vocabulary! {
         Evaluate "evaluate" statement inert "lets an isosurface learn its slope; it is known here";
         FaceIndices "face_indices" statement built "the triangles of a mesh2, as indices of vertices";
         File "file" statement built in Mesh "`file \"name\"`: a mesh that is a `.ply`, `.obj`, `.stl`, `.gltf` or `.glb` file";
-        Flatness "flatness" statement later "how flat a patch must be to stop dividing it";
+        Flatness "flatness" statement inert "how flat the triangles of a bicubic_patch must be; it is met as it is";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement later "the algebra of a julia_fractal";
         InsideVector "inside_vector" statement built "gives a mesh an inside";
@@ -101,21 +101,21 @@ vocabulary! {
         QuadraticSpline "quadratic_spline" statement built "a spline of parabolas";
         Quaternion "quaternion" statement later "the algebra of a julia_fractal";
         Slice "slice" statement later "the three-dimensional cut of a julia_fractal";
-        Smooth "smooth" statement later "rounds a height_field by its normals";
+        Smooth "smooth" statement built "a height_field is lit as if it were round";
         Spline "spline" statement built "a curve through points at given times";
         Strength "strength" statement built "how strongly a part of a blob pulls";
         Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
         TextureList "texture_list" statement later "the textures of a mesh2";
         Threshold "threshold" statement built "the value at which a blob or isosurface ends";
         Tolerance "tolerance" statement inert "how exactly a sphere_sweep is found; every crossing has its error bound";
-        Ttf "ttf" statement later "a TrueType font";
-        Type "type" statement later "the method by which a patch is drawn";
-        USteps "u_steps" statement later "how often a patch is divided along u";
+        Ttf "ttf" statement built "`ttf \"file\"`: a TrueType or OpenType font";
+        Type "type" statement inert "0 or 1: whether the triangles of a bicubic_patch are kept; it has none";
+        USteps "u_steps" statement inert "how many triangles a bicubic_patch has along u; it has none";
         UvIndices "uv_indices" statement built "the uv coordinates of each face of a mesh2";
         UvVectors "uv_vectors" statement built "the uv coordinates of a mesh or patch";
-        VSteps "v_steps" statement later "how often a patch is divided along v";
+        VSteps "v_steps" statement inert "how many triangles a bicubic_patch has along v; it has none";
         VertexVectors "vertex_vectors" statement built "the vertices of a mesh2";
-        WaterLevel "water_level" statement later "cuts off the low part of a height_field";
+        WaterLevel "water_level" statement built "`water_level n`: of a height_field nothing lower is seen";
         Xyz "xyz" function built "`xyz(i, j, k): number` in a `polynomial`: what x to the i, y to the j and z to the k is times";
     }
     Csg {
@@ -222,7 +222,7 @@ vocabulary! {
         Flip "flip" statement later "mirrors every other copy of a warp";
         Form "form" statement later "which of its three forms `crackle` takes";
         Frequency "frequency" statement later "how often a pattern runs through its map";
-        GammaWord "gamma" statement later "the gamma of a picture file";
+        GammaWord "gamma" statement built "`gamma 2.2` or `gamma srgb`: how the numbers of a picture stand for light; without it, of a height_field, they are heights";
         Interpolate "interpolate" statement later "how a picture is read between its pixels";
         Lambda "lambda" statement later "how fast turbulence grows finer";
         MapType "map_type" statement later "how a picture is laid round an object";
@@ -522,23 +522,23 @@ vocabulary! {
     FileKind {
         Ascii "ascii" statement later "text of 7 bits";
         Df3 "df3" statement later "a grid of densities";
-        Exr "exr" statement later "an OpenEXR picture";
-        Gif "gif" statement later "a GIF picture";
-        Hdr "hdr" statement later "a Radiance picture";
+        Exr "exr" statement built "an OpenEXR picture";
+        Gif "gif" statement built "a GIF picture";
+        Hdr "hdr" statement built "a Radiance picture";
         Iff "iff" statement later "an IFF picture";
-        Jpeg "jpeg" statement later "a JPEG picture";
-        Pgm "pgm" statement later "a PGM picture";
-        Png "png" statement later "a PNG picture";
+        Jpeg "jpeg" statement built "a JPEG picture";
+        Pgm "pgm" statement built "a PGM picture";
+        Png "png" statement built "a PNG picture";
         Pot "pot" statement later "a POT picture";
-        Ppm "ppm" statement later "a PPM picture";
+        Ppm "ppm" statement built "a PPM picture";
         Sint16be "sint16be" statement built "whole numbers of 16 bits with sign, high byte first";
         Sint16le "sint16le" statement built "whole numbers of 16 bits with sign, low byte first";
         Sint32be "sint32be" statement built "whole numbers of 32 bits with sign, high byte first";
         Sint32le "sint32le" statement built "whole numbers of 32 bits with sign, low byte first";
         Sint8 "sint8" statement built "whole numbers of 8 bits with sign";
         Sys "sys" statement later "the picture format of the system";
-        Tga "tga" statement later "a Targa picture";
-        Tiff "tiff" statement later "a TIFF picture";
+        Tga "tga" statement built "a Targa picture";
+        Tiff "tiff" statement built "a TIFF picture";
         Uint16be "uint16be" statement built "whole numbers of 16 bits, high byte first";
         Uint16le "uint16le" statement built "whole numbers of 16 bits, low byte first";
         Uint8 "uint8" statement built "whole numbers of 8 bits";

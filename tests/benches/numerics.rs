@@ -13,6 +13,8 @@ mod bodies;
 mod dice;
 #[path = "numerics/naive.rs"]
 mod naive;
+#[path = "numerics/points.rs"]
+mod points;
 #[path = "numerics/rows.rs"]
 mod rows;
 #[path = "numerics/sturm.rs"]
@@ -32,6 +34,7 @@ use lucarne::shape::{Crossing, Ray};
 
 use bodies::{Bar, Quadric, Ring, Stands, Stump, Triangle};
 use dice::Dice;
+use points::{Hill, Landscape, Letter, Star};
 use subjects::{Answer, Ball, Block, Egg, Floor, Planet, Rounded, Single, Subject};
 use wide::Wide;
 
@@ -175,6 +178,10 @@ fn main() {
                 rows::TORUS => shape::<Stands<Ring>>(name, far),
                 rows::QUADRIC => shape::<Stands<Quadric>>(name, far),
                 rows::TRIANGLE => shape::<Stands<Triangle>>(name, far),
+                rows::POLYGON => shape::<Stands<Star>>(name, far),
+                rows::BICUBIC_PATCH => shape::<Stands<Hill>>(name, far),
+                rows::HEIGHT_FIELD => shape::<Stands<Landscape>>(name, far),
+                rows::TEXT => shape::<Stands<Letter>>(name, far),
                 rows::SPHERE_SINGLE => shape::<Single<Ball>>(name, far),
                 rows::PLANE_SINGLE => shape::<Single<Floor>>(name, far),
                 rows::BOX_SINGLE => shape::<Single<Block>>(name, far),

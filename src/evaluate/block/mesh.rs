@@ -197,7 +197,7 @@ impl Evaluator<'_> {
     }
 
     /// A point of a texture, of two numbers.
-    fn uv_after(&mut self, token: &Token, name: &str) -> Outcome<()> {
+    pub(super) fn uv_after(&mut self, token: &Token, name: &str) -> Outcome<()> {
         let wanted = format!("a vector of two numbers for the {name} corner");
         let given = self.given(token, &wanted)?;
         match given.value.numbers() {

@@ -74,7 +74,7 @@ impl Evaluator<'_> {
     }
 
     /// The name of a file. As in POV-Ray, backslashes of a literal stay as they are.
-    fn path(&mut self, here: &Here, file: ExpressionId) -> Outcome<String> {
+    pub(in crate::evaluate) fn path(&mut self, here: &Here, file: ExpressionId) -> Outcome<String> {
         match here.unit.expression(file).kind {
             ExpressionKind::String => {
                 self.whole_string(here.unit.expression(file).span).ok_or(Reported)

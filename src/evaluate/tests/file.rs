@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use super::super::*;
 use crate::diagnostic::Severity;
 use crate::road::{Options, Road};
+use crate::scene::Dialect;
 use crate::source::{FileError, Found, WriteError};
 
 /// Files in memory, all of which may be written.

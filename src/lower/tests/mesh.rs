@@ -86,10 +86,14 @@ fn the_colours_of_a_file_give_way_to_a_pigment_and_keep_a_finish() {
 }
 
 #[test]
-fn a_blob_or_a_sweep_placed_ten_thousand_times_is_stored_once() {
+fn whatever_is_made_of_many_numbers_and_placed_ten_thousand_times_is_stored_once() {
     for shape in [
         "blob { sphere { 0, 1, 2 } cylinder { 0, x, 1, 3 rotate 30*z } }",
         "sphere_sweep { b_spline 4, 0, 1, x, 2, y, 1, z, 1 }",
+        "height_field { function 9, 5 { x*y } }",
+        "bicubic_patch { #for (I, 0, 15) <mod(I, 4), I, I*I/9>, #end }",
+        "polygon { 4, 0, x, x + y, y }",
+        "text { \"many\" 1, 0 }",
     ] {
         let scene = format!("#declare M = {shape} #for (I, 1, 10000) object {{ M scale I }} #end");
         let (world, _) = world(&scene);

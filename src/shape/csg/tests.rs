@@ -65,6 +65,26 @@ fn solids_that_touch_merge_without_a_wall_and_share_nothing() {
 }
 
 #[test]
+fn what_is_not_there_to_be_seen_hides_nothing_that_lies_in_it() {
+    let kept = |nodes: &[Node], hidden: u32| {
+        let event = |leaf, t, leaving| {
+            let part = if leaf == hidden { Met::UNSEEN } else { 0 };
+            Event { met: Met { t, error: 1e-3, leaving, part }, leaf, sheet: false, last: None }
+        };
+        let mut events: Events =
+            [event(A, 0.0, false), event(B, 0.0, false), event(A, 1.0, true), event(B, 1.0, true)]
+                .into_iter()
+                .collect();
+        Tree::new(nodes).keep(&mut events);
+        events.iter().map(|event| event.leaf).collect::<Vec<_>>()
+    };
+    for nodes in [INTERSECTION, MERGE, UNION] {
+        assert_eq!((kept(&nodes, A), kept(&nodes, B)), (vec![B, B], vec![A, A]), "{nodes:?}");
+    }
+    assert!(kept(&DIFFERENCE, A).is_empty());
+}
+
+#[test]
 fn what_both_begin_with_is_shown_once() {
     assert_eq!(of_two(&INTERSECTION, 2.0, (0.0, 1.0)), [(A, 0.0), (B, 1.0)]);
     assert_eq!(of_two(&MERGE, 2.0, (0.0, 1.0)), [(A, 0.0), (A, 2.0)]);

@@ -3,7 +3,7 @@
 //! **Invariant:** watertight: a line through a shared edge or corner meets one of the triangles there, and
 //! of a closed mesh an even number of them.
 
-mod pierce;
+pub(super) mod pierce;
 mod skin;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -127,11 +127,11 @@ impl Mesh {
 }
 
 /// The plane of a triangle.
-struct Flat {
+pub(super) struct Flat {
     /// Of length about 1.
-    normal: Vector,
+    pub normal: Vector,
     /// How far rounding may have turned the normal.
-    turn: f64,
+    pub turn: f64,
 }
 
 impl Flat {
@@ -139,7 +139,7 @@ impl Flat {
     ///
     /// The edges are brought near 1 first, so nothing underflows. Their cross product is off by
     /// 8u·|e|·|f|.
-    fn through([a, b, c]: [Vector; 3]) -> Option<Self> {
+    pub fn through([a, b, c]: [Vector; 3]) -> Option<Self> {
         let unit = |edge: Vector| edge * reciprocal_power_of_two(edge.abs().max_element());
         let (e, f) = (unit(b - a), unit(c - a));
         let normal = f.cross(e);

@@ -14,7 +14,7 @@ use crate::math::Vector;
 use crate::math::double::Double;
 
 /// Looks along a line: the corners as seen across it.
-pub(super) struct View {
+pub(in super::super) struct View {
     start: Vector,
     /// The axis that the line is nearest to, and the other two in turn.
     axes: [usize; 3],
@@ -88,7 +88,7 @@ fn turns_left_exactly(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
 /// may be off there, with what rounding adds to A − start and to s·d; and how far the normal's own error may
 /// turn the plane about A at P, over |n·d|. The crossing is no farther off than the triangle's ends along
 /// the line.
-pub(super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
+pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
     let LocalRay { nearest, direction, .. } = *ray;
     let depths = corners.map(|corner| (corner - nearest).dot(direction));
     let low = depths.into_iter().fold(f64::INFINITY, f64::min);

@@ -43,7 +43,8 @@ impl<F: Form> Subject for Stands<F> {
         self.placed.placement.world_point(dice.direction() * reach)
     }
     fn ours(&self, ray: &Ray) -> Option<Crossing> {
-        self.placed.crossings(ray).first().map(|met| met.crossing())
+        let crossings = self.placed.crossings(ray);
+        crossings.iter().find(|met| met.is_seen()).map(|met| met.crossing())
     }
     fn single(&self, ray: &Rounded) -> Option<f32> {
         let rows = self.rows.map(|row| row.map(|c| c as f32));
@@ -61,7 +62,7 @@ impl<F: Form> Subject for Stands<F> {
 }
 
 /// So near to a decision, of lengths of about 1, that either is right.
-const NEAR: f64 = 1e-6;
+pub const NEAR: f64 = 1e-6;
 
 pub struct Bar;
 
@@ -247,21 +248,25 @@ impl Form for Triangle {
         double::triangle(f, d, &CORNERS)
     }
     fn exact(f: &WideVector, d: &WideVector) -> Answer {
-        let corners = CORNERS.map(|corner| WideVector::of(corner).minus(f));
-        let [a, b, c] = &corners;
-        let way = d.unit();
-        let sides = [(a, b), (b, c), (c, a)]
-            .map(|(from, to)| (way.dot(&from.cross(to)) / &to.minus(from).length()).to_f64());
-        let normal = b.minus(a).cross(&c.minus(a));
-        let slope = normal.unit().dot(&way).to_f64();
-        let outside =
-            sides.iter().fold(f64::INFINITY, |least, side| side.copysign(side * slope).min(least));
-        if outside.abs() < NEAR || slope.abs() < 1e-3 {
-            Answer::Either
-        } else if outside < 0.0 {
-            Answer::Misses
-        } else {
-            Answer::Enters(normal.dot(a) / &normal.dot(d))
-        }
+        pierced(f, d, &CORNERS)
+    }
+}
+
+pub fn pierced(f: &WideVector, d: &WideVector, corners: &[[f64; 3]; 3]) -> Answer {
+    let corners = corners.map(|corner| WideVector::of(corner).minus(f));
+    let [a, b, c] = &corners;
+    let way = d.unit();
+    let sides = [(a, b), (b, c), (c, a)]
+        .map(|(from, to)| (way.dot(&from.cross(to)) / &to.minus(from).length()).to_f64());
+    let normal = b.minus(a).cross(&c.minus(a));
+    let slope = normal.unit().dot(&way).to_f64();
+    let outside =
+        sides.iter().fold(f64::INFINITY, |least, side| side.copysign(side * slope).min(least));
+    if outside.abs() < NEAR || slope.abs() < 1e-3 {
+        Answer::Either
+    } else if outside < 0.0 {
+        Answer::Misses
+    } else {
+        Answer::Enters(normal.dot(a) / &normal.dot(d))
     }
 }

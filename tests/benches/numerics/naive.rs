@@ -180,6 +180,122 @@ macro_rules! naive {
                 let is_in = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
                 if is_in { Some(dot(other, up) * over) } else { None }
             }
+
+            fn least(found: impl Iterator<Item = $real>) -> Option<$real> {
+                found.filter(|t| t.is_finite()).reduce($real::min)
+            }
+
+            /// A flat figure in the plane z = 0.
+            pub fn polygon(f: $vector, d: $vector, corners: &[[f64; 2]]) -> Option<$real> {
+                let t = -f[2] / d[2];
+                let (x, y) = (f[0] + t * d[0], f[1] + t * d[1]);
+                let mut odd = false;
+                for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                    let [ax, ay, bx, by] = [from[0], from[1], to[0], to[1]].map(|x| x as $real);
+                    odd ^= (ay > y) != (by > y) && x < ax + (y - ay) * (bx - ax) / (by - ay);
+                }
+                if odd { Some(t) } else { None }
+            }
+
+            pub fn triangles(f: $vector, d: $vector, all: &[[[f64; 3]; 3]]) -> Option<$real> {
+                least(all.iter().filter_map(|corners| triangle(f, d, corners)))
+            }
+
+            /// Between z = −1 and 1, curves of degree 2 around it.
+            pub fn letter(f: $vector, d: $vector, pieces: &[[[f64; 2]; 3]]) -> Option<$real> {
+                let powers = |points: &[[f64; 2]; 3], axis: usize| {
+                    let [a, b, c] = points.map(|point| point[axis] as $real);
+                    [a, 2.0 * (b - a), a - 2.0 * b + c]
+                };
+                let roots = |[c, b, a]: [$real; 3]| -> [Option<$real>; 2] {
+                    let found = match quadratic(a, b, c) {
+                        _ if a == 0.0 => [Some(-c / b), None],
+                        Some((one, other)) => [Some(one), Some(other)],
+                        None => [None, None],
+                    };
+                    found.map(|root| root.filter(|t| (0.0..1.0).contains(t)))
+                };
+                let at = |[c, b, a]: [$real; 3], t: $real| (a * t + b) * t + c;
+                let mut found = Vec::new();
+                for points in pieces {
+                    let (x, y) = (powers(points, 0), powers(points, 1));
+                    let side = [0, 1, 2].map(|i| {
+                        let off = if i == 0 { (x[0] - f[0], y[0] - f[1]) } else { (x[i], y[i]) };
+                        off.0 * d[1] - off.1 * d[0]
+                    });
+                    for t in roots(side).into_iter().flatten() {
+                        let along = (at(x, t) - f[0]) * d[0] + (at(y, t) - f[1]) * d[1];
+                        let s = along / (d[0] * d[0] + d[1] * d[1]);
+                        if (f[2] + s * d[2]).abs() <= 1.0 {
+                            found.push(s);
+                        }
+                    }
+                }
+                for end in [-1.0, 1.0] {
+                    let s = (end - f[2]) / d[2];
+                    let (px, py) = (f[0] + s * d[0], f[1] + s * d[1]);
+                    let mut odd = false;
+                    for points in pieces {
+                        let (x, mut y) = (powers(points, 0), powers(points, 1));
+                        y[0] -= py;
+                        for t in roots(y).into_iter().flatten() {
+                            odd ^= at(x, t) > px;
+                        }
+                    }
+                    if odd {
+                        found.push(s);
+                    }
+                }
+                least(found.into_iter())
+            }
+
+            /// Newton's steps in u and v from nine places of a surface of degree 3.
+            pub fn patch(f: $vector, d: $vector, net: &[[f64; 3]; 16]) -> Option<$real> {
+                let away = if d[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+                let aside = cross(d, away);
+                let across = cross(d, aside);
+                let weights = |t: $real| {
+                    let r = 1.0 - t;
+                    let values = [r * r * r, 3.0 * r * r * t, 3.0 * r * t * t, t * t * t];
+                    let slopes = [
+                        -3.0 * r * r,
+                        3.0 * r * (r - 2.0 * t),
+                        3.0 * t * (2.0 * r - t),
+                        3.0 * t * t,
+                    ];
+                    (values, slopes)
+                };
+                let mut found = Vec::new();
+                for start in 0..9 {
+                    let [mut u, mut v] = [start % 3, start / 3].map(|i| 0.25 * (1 + i) as $real);
+                    let (mut step, mut point) = (1.0, f);
+                    for _ in 0..8 {
+                        let ((one, rise), (other, climb)) = (weights(u), weights(v));
+                        let mut ways = [[0.0; 3]; 3];
+                        for (i, corner) in net.iter().enumerate() {
+                            let (a, b) = (i % 4, i / 4);
+                            let shares = [one[a] * other[b], rise[a] * other[b], one[a] * climb[b]];
+                            for (way, share) in ways.iter_mut().zip(shares) {
+                                (0..3).for_each(|axis| way[axis] += share * corner[axis] as $real);
+                            }
+                        }
+                        point = ways[0];
+                        let off = minus(point, f);
+                        let (p, q) = (dot(off, aside), dot(off, across));
+                        let [a, b] = [dot(ways[1], aside), dot(ways[2], aside)];
+                        let [c, e] = [dot(ways[1], across), dot(ways[2], across)];
+                        let over = 1.0 / (a * e - b * c);
+                        let (du, dv) = ((p * e - q * b) * over, (q * a - p * c) * over);
+                        (u, v) = (u - du, v - dv);
+                        step = du.abs().max(dv.abs());
+                    }
+                    let within = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
+                    if step < 1e-3 && within {
+                        found.push(dot(minus(point, f), d) / dot(d, d));
+                    }
+                }
+                least(found.into_iter())
+            }
         }
     };
 }

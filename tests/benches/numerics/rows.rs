@@ -4,7 +4,7 @@
 pub const HEADER: &str = "| what | distance | f32: wrong | error | ns | f64: wrong | error | ns | ours: wrong | error | bound | share | ns | × |";
 
 /// Each kernel, and the distances from which it is tried.
-pub const ROWS: [(&str, &[f64]); 14] = [
+pub const ROWS: [(&str, &[f64]); 18] = [
     (SPHERE, FAR),
     (PLANET, &[1e4, 1e6, 1e8, 1e10, 1e12]),
     (PLANE, FAR),
@@ -15,6 +15,10 @@ pub const ROWS: [(&str, &[f64]); 14] = [
     (TORUS, FAR),
     (QUADRIC, FAR),
     (TRIANGLE, FAR),
+    (POLYGON, FAR),
+    (BICUBIC_PATCH, FAR),
+    (HEIGHT_FIELD, FAR),
+    (TEXT, FAR),
     (SPHERE_SINGLE, NEAR),
     (PLANE_SINGLE, NEAR),
     (BOX_SINGLE, NEAR),
@@ -31,6 +35,10 @@ pub const CONE: &str = "cone";
 pub const TORUS: &str = "torus";
 pub const QUADRIC: &str = "quadric";
 pub const TRIANGLE: &str = "triangle";
+pub const POLYGON: &str = "polygon";
+pub const BICUBIC_PATCH: &str = "bicubic_patch";
+pub const HEIGHT_FIELD: &str = "height_field";
+pub const TEXT: &str = "text";
 pub const SPHERE_SINGLE: &str = "sphere, single";
 pub const PLANE_SINGLE: &str = "plane, single";
 pub const BOX_SINGLE: &str = "box, single";

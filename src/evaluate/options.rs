@@ -1,4 +1,38 @@
-//! Limits: what stops a scene that would never end.
+//! What the caller sets: the dialect, the picture's size, declarations, the clock, and what stops a scene that
+//! would never end.
+
+use crate::scene::Dialect;
+
+/// What the caller sets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvaluateOptions {
+    pub dialect: Dialect,
+    /// `image_width` and `image_height`.
+    pub width: u32,
+    pub height: u32,
+    /// `-D name=value`, in order.
+    pub declares: Vec<(String, f64)>,
+    pub clock: f64,
+    /// Days since the beginning of the year 2000, UTC: `now`.
+    pub now: f64,
+    pub frame_number: f64,
+    pub limits: Limits,
+}
+
+impl Default for EvaluateOptions {
+    fn default() -> Self {
+        Self {
+            dialect: Dialect::Scene,
+            width: 640,
+            height: 480,
+            declares: Vec::new(),
+            clock: 0.0,
+            now: 0.0,
+            frame_number: 0.0,
+            limits: Limits::default(),
+        }
+    }
+}
 
 /// What stops a scene that would never end, or not in this machine's memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

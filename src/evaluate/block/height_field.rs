@@ -1,0 +1,169 @@
+//! `height_field`: a landscape from a picture or a function.
+
+use std::sync::Arc;
+
+use crate::color::Gamma;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::picture::heights::{self, Heights};
+use crate::scene::Solid;
+use crate::scene::height_field::HeightField;
+use crate::vocabulary::Word;
+
+use super::super::function::{Functions, ParameterName, outside_id};
+use super::super::include::missing_file;
+use super::super::stream::Token;
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome, Reported};
+use super::named::NamedFile;
+use crate::function::Outside;
+
+/// The words for types of pictures, and the endings of their files.
+const TYPES: [(Word, &[&str]); 12] = [
+    (Word::Exr, &[".exr", ".EXR"]),
+    (Word::Gif, &[".gif", ".GIF"]),
+    (Word::Hdr, &[".hdr", ".HDR"]),
+    (Word::Iff, &[".iff", ".IFF"]),
+    (Word::Jpeg, &[".jpg", ".JPG", ".jpeg", ".JPEG"]),
+    (Word::Pgm, &[".pgm", ".PGM"]),
+    (Word::Png, &[".png", ".PNG"]),
+    (Word::Pot, &[".pot", ".POT"]),
+    (Word::Ppm, &[".ppm", ".PPM"]),
+    (Word::Sys, &[".bmp", ".BMP"]),
+    (Word::Tga, &[".tga", ".TGA"]),
+    (Word::Tiff, &[".tif", ".TIF", ".tiff", ".TIFF"]),
+];
+
+/// The most heights of a function along a side.
+const MOST: f64 = (1 << 15) as f64;
+
+impl Evaluator<'_> {
+    /// `height_field { [png] "file" | function W, H { … } [smooth] [water_level n] }`.
+    ///
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field". The uppermost row of a picture is at z = 1; a
+    /// function is asked at x and 1 − z, and of its value counts what follows the point (measured).
+    pub(super) fn height_field(&mut self, token: &Token) -> Outcome<Solid> {
+        let function = self.take_word(Word::Function);
+        let (from, Heights { width, heights: upper_first }) = match &function {
+            Some(function) => self.heights_of_function(function)?,
+            None => self.heights_of_picture(token)?,
+        };
+        let mut heights = Vec::with_capacity(upper_first.len());
+        upper_first.chunks_exact(width).rev().for_each(|row| heights.extend_from_slice(row));
+        self.stored += size_of_val(&heights[..]) as u64;
+        let mut field = HeightField { from, heights, width, water: 0.0, smooth: false };
+        let mut water = None;
+        loop {
+            self.skip_commas();
+            if self.take_word(Word::Smooth).is_some() {
+                field.smooth = self.optional_flag(token)?;
+            } else if let Some(word) = self.take_word(Word::WaterLevel) {
+                let level = self.number_after(&word, "a number for the height of the water")?;
+                field.water = level.value;
+                water = Some(level);
+            } else {
+                break;
+            }
+        }
+        if let Some(level) = water.filter(|_| field.is_nothing()) {
+            let message = "nothing of this landscape is above the water";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(level.span, "expected less than its greatest height, which is 1 or less");
+            self.nothing(token, &level.here, diagnostic)?;
+        }
+        Ok(Solid::HeightField { field: Arc::new(field) })
+    }
+
+    fn heights_of_picture(&mut self, token: &Token) -> Outcome<(String, Heights)> {
+        let kind = TYPES.into_iter().find(|(word, _)| self.take_word(*word).is_some());
+        let file = self.named_file(token, "the name of a picture's file, or a function")?;
+        let mut gamma = Gamma::LINEAR;
+        if let Some(word) = self.take_word(Word::GammaWord) {
+            gamma = match self.take_word(Word::Srgb) {
+                Some(_) => Gamma::Srgb,
+                None => Gamma::Power(self.number_of(&word, Word::GammaWord)?.value),
+            };
+        }
+        if let Some(word) = self.take_word(Word::Premultiplied) {
+            self.optional_flag(&word)?;
+        }
+        let endings = kind.map_or(&[][..], |(_, endings)| endings);
+        let NamedFile { name, here, span } = &file;
+        let found = match self.read_named(&file, endings) {
+            Ok(found) => found,
+            Err(error) => {
+                let diagnostic = missing_file(name, *span, error);
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        let is_tga = matches!(kind, Some((Word::Tga, _)));
+        match heights::read(&found.bytes, is_tga, gamma) {
+            Ok(heights) => Ok((file.name, heights)),
+            Err(reason) => {
+                let message = format!("`{name}` cannot be read as a picture: {reason}");
+                let diagnostic = Diagnostic::new(Code::UnreadableFile, message)
+                    .at(*span, "expected a PNG, GIF, JPEG, TGA, TIFF, PPM, PGM, BMP, HDR or EXR");
+                Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    /// `function W, H { … }`, after its word.
+    fn heights_of_function(&mut self, word: &Token) -> Outcome<(String, Heights)> {
+        let mut size = |name: &str| -> Outcome<usize> {
+            let given = self.number_after(word, &format!("how many heights {name}"))?;
+            let count = given.value.trunc();
+            if (2.0..=MOST).contains(&count) {
+                return Ok(count as usize);
+            }
+            let message = format!("a landscape of {count} heights {name}");
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(given.span, format!("expected 2 to {MOST}"));
+            Err(self.report(&given.here, diagnostic))
+        };
+        let (width, rows) = (size("along x")?, size("along z")?);
+        if !self.has_memory(2 * (width * rows * size_of::<f32>()) as u64) {
+            return Err(self.too_much_memory(&word.here, word.span));
+        }
+        let parameters = [0, 1, 2].map(ParameterName::Axis);
+        let id = match self.function_of(word, &parameters)? {
+            Value::Function(id) => id,
+            Value::Poison(poison) => {
+                self.set_poison(poison);
+                return Err(Reported);
+            }
+            _ => return Err(Reported),
+        };
+        let function = &self.functions[id.0 as usize];
+        if function.compound() == Some("a vector") {
+            let message = "the value of this function is a vector, and no height";
+            let diagnostic = Diagnostic::new(Code::WrongType, message)
+                .at(word.span, "expected a formula, a pattern or a pigment");
+            return Err(self.report(&word.here, diagnostic));
+        }
+        // Of a colour, red.
+        let id = outside_id(id, 0);
+        let functions = Functions { all: &self.functions, noise: self.noise };
+        let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
+        let mut heights = Vec::with_capacity(width * rows);
+        let mut stray = None;
+        for row in 0..rows {
+            for column in 0..width {
+                let (x, y) = (place(column, width), place(row, rows));
+                let value = functions.value(id, &[x, y, 0.0]);
+                if !value.is_finite() {
+                    stray.get_or_insert((x, y));
+                }
+                let within =
+                    if (0.0..=1.0).contains(&value) { value } else { value - value.floor() };
+                heights.push(heights::height(within));
+            }
+        }
+        if let Some((x, y)) = stray {
+            let message = format!("this function has no finite value at x = {x}, y = {y}");
+            let diagnostic =
+                Diagnostic::new(Code::NotANumber, message).at(word.span, "of this landscape");
+            return Err(self.report(&word.here, diagnostic));
+        }
+        Ok(("a function".to_owned(), Heights { width, heights }))
+    }
+}

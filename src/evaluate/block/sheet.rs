@@ -1,0 +1,139 @@
+//! Sheets by their points: polygons and Bézier patches.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::scene::Solid;
+use crate::scene::polygon::Polygon;
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Outcome};
+use super::Given;
+
+/// How far a polygon's points may be from its plane, over its size: as much as numbers of six digits may.
+const FLAT_ENOUGH: f64 = 1e-5;
+
+impl Evaluator<'_> {
+    /// `polygon { count, <…>, … }`: a point that is its line's first closes it, and the next begins another.
+    ///
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.5 "Polygon".
+    pub(super) fn polygon(&mut self, token: &Token) -> Outcome<Solid> {
+        let count = self.number_after(token, "how many points there are")?;
+        if count.value < 3.0 {
+            let message = "a polygon has three points or more";
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(count.span, format!("expected 3 or more, found {}", count.value));
+            return Err(self.report(&count.here, diagnostic));
+        }
+        // A count beyond all memory is told by what is missing.
+        let wanted = count.value as u32;
+        let mut polygon = Polygon::default();
+        let mut line: Vec<Vector> = Vec::new();
+        let (mut last, mut points) = (count.with(Vector::ZERO), 0u64);
+        for number in 1..=wanted {
+            let name = format!("a vector for point {number} of {wanted}");
+            let given = self.given(token, &name)?;
+            let point = self.as_vector(given, &name)?;
+            if line.first() == Some(&point.value) {
+                polygon.lines.push(std::mem::take(&mut line));
+            } else {
+                line.push(point.value);
+            }
+            points += 1;
+            if !self.has_memory(points * size_of::<Vector>() as u64) {
+                return Err(self.too_much_memory(&token.here, token.span));
+            }
+            last = point;
+        }
+        if !line.is_empty() {
+            polygon.lines.push(line);
+        }
+        self.stored += points * size_of::<Vector>() as u64;
+        self.check_flat(token, &polygon, &last)?;
+        Ok(Solid::Polygon { polygon })
+    }
+
+    /// A polygon in a line is nothing; one that is not flat is an error, which POV-Ray overlooks.
+    fn check_flat(
+        &mut self,
+        token: &Token,
+        polygon: &Polygon,
+        last: &Given<Vector>,
+    ) -> Outcome<()> {
+        let Some(plane) = polygon.plane() else {
+            let message = "a polygon whose points lie in a line is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(last.span, "expected a point beside the line through the others");
+            return self.nothing(token, &last.here, diagnostic);
+        };
+        let points = || polygon.lines.iter().flatten();
+        let farthest = points().max_by(|a, b| plane.off(**a).total_cmp(&plane.off(**b)));
+        let Some(point) = farthest.filter(|point| plane.off(**point) > FLAT_ENOUGH) else {
+            return Ok(());
+        };
+        let point = crate::math::vector::written(*point);
+        let message = format!("this polygon is not flat: {point} lies beside the plane of others");
+        let code = match self.sizeless() {
+            Code::DegenerateShape => Code::DegenerateShape,
+            _ => Code::OutOfRange,
+        };
+        let diagnostic = Diagnostic::new(code, message)
+            .at(token.span, "all points must lie in one plane")
+            .help("a `mesh` may be bent");
+        let reported = self.report(&token.here, diagnostic);
+        if code == Code::DegenerateShape { Ok(()) } else { Err(reported) }
+    }
+
+    /// `bicubic_patch { type 0 u_steps 3 v_steps 3 flatness 0 <…> }`, 16 points in four rows. The patch is
+    /// met where it is: how it would be divided changes nothing.
+    ///
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.1 "Bicubic Patch".
+    pub(super) fn bicubic_patch(&mut self, token: &Token) -> Outcome<Solid> {
+        loop {
+            self.skip_commas();
+            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
+            let word = *word;
+            let is_item = matches!(
+                word,
+                Word::Type | Word::USteps | Word::VSteps | Word::Flatness | Word::UvVectors
+            );
+            if !is_item {
+                break;
+            }
+            let Some(item) = self.next() else { break };
+            match word {
+                Word::UvVectors => {
+                    for name in ["first", "second", "third", "fourth"] {
+                        self.uv_after(&item, name)?;
+                    }
+                }
+                Word::Type => {
+                    let kind = self.number_after(&item, "0 or 1")?;
+                    if ![0.0, 1.0].contains(&kind.value) {
+                        return Err(self.out_of_range(&kind, word, "0 or 1"));
+                    }
+                }
+                _ => {
+                    self.at_least_zero(&item, word)?;
+                }
+            }
+        }
+        let mut points = [Vector::ZERO; 16];
+        let mut last = None;
+        for (i, place) in points.iter_mut().enumerate() {
+            let wanted = format!("a vector for point {} of 16", i + 1);
+            let given = self.given(token, &wanted)?;
+            let point = self.as_vector(given, &wanted)?;
+            *place = point.value;
+            last = Some(point);
+        }
+        let solid = Solid::BicubicPatch { points };
+        if let Some(last) = last.filter(|_| solid.is_sizeless()) {
+            let message = "a patch whose points lie in a line is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(last.span, "expected a point beside the line through the others");
+            self.nothing(token, &last.here, diagnostic)?;
+        }
+        Ok(solid)
+    }
+}

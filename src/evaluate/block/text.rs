@@ -1,0 +1,120 @@
+//! `text`: a font, a string, how thick the letters are, and how far apart.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::font::{BUILT_IN, Font, POV_RAYS};
+use crate::scene::Solid;
+use crate::scene::text::Text;
+use crate::source::{FileError, FileId};
+use crate::vocabulary::Word;
+
+use super::super::include::missing_file;
+use super::super::stream::Token;
+use super::super::value::Value;
+use super::super::{Evaluator, Outcome};
+use super::named::NamedFile;
+
+/// Fonts that were read, by their names and the files that named them.
+pub(in crate::evaluate) type Fonts = HashMap<(String, FileId), Arc<[u8]>>;
+
+impl Evaluator<'_> {
+    /// `text { ttf "file" "string" thickness, offset }`, or `internal n` instead of the file, or neither.
+    ///
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.16 "Text"; the numbers of its fonts and what an offset along z
+    /// does, nothing, were measured.
+    pub(super) fn text(&mut self, token: &Token) -> Outcome<Solid> {
+        let font = self.font()?;
+        let wanted = "a string: what is written";
+        let given = self.given(token, wanted)?;
+        let Value::String(string) = &given.value else {
+            return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
+        };
+        let string = string.to_string();
+        let thickness = self.number_after(token, "a number for the thickness")?;
+        let wanted = "a vector for the offset of each letter";
+        let offset = self.given(token, wanted)?;
+        let offset = self.as_vector(offset, wanted)?.value;
+        let fits = |bytes: u64| self.has_memory(bytes + string.len() as u64);
+        let letters = match Font::parse(&font) {
+            Ok(font) => font.set(&string, [offset.x, offset.y], fits),
+            // It was when it was read.
+            Err(_) => Some(Vec::new()),
+        };
+        let Some(letters) = letters else {
+            return Err(self.too_much_memory(&token.here, token.span));
+        };
+        let text = Text { string, letters, thickness: thickness.value };
+        self.stored += text.letters.iter().map(|letter| letter.bytes()).sum::<u64>();
+        if text.string.is_empty() {
+            let diagnostic = Diagnostic::new(self.sizeless(), "a text of no letters is nothing")
+                .at(given.span, "expected what is to be written");
+            self.nothing(token, &given.here, diagnostic)?;
+        }
+        Ok(Solid::Text { text: Arc::new(text) })
+    }
+
+    /// The bytes of the font that a text is written in: of one that can be parsed.
+    fn font(&mut self) -> Outcome<Arc<[u8]>> {
+        if let Some(internal) = self.take_word(Word::Internal) {
+            return self.internal_font(&internal);
+        }
+        let Some(ttf) = self.take_word(Word::Ttf) else { return Ok(BUILT_IN.into()) };
+        let file = self.named_file(&ttf, "the name of a font's file")?;
+        self.font_of(&file)
+    }
+
+    fn internal_font(&mut self, internal: &Token) -> Outcome<Arc<[u8]>> {
+        let number = self.number_after(internal, "the number of a font, 0 to 3")?;
+        let font = POV_RAYS.get(number.value as usize).filter(|_| number.value >= 0.0);
+        if font.is_none() {
+            let message = format!("there is no font {}: font 0 is used", number.value);
+            let diagnostic = Diagnostic::new(Code::StandInFont, message)
+                .at(number.span, "expected 0 to 3")
+                .help("0 is povlogo.ttf, 1 timrom.ttf, 2 cyrvetic.ttf, 3 crystal.ttf");
+            self.report(&number.here, diagnostic);
+        }
+        let name = (*font.unwrap_or(&POV_RAYS[0])).to_owned();
+        self.font_of(&NamedFile { name, here: number.here, span: number.span })
+    }
+
+    fn font_of(&mut self, file: &NamedFile) -> Outcome<Arc<[u8]>> {
+        let NamedFile { name, here, span } = file;
+        let key = (name.clone(), span.file);
+        if let Some(known) = self.fonts.get(&key) {
+            return Ok(known.clone());
+        }
+        let bytes: Arc<[u8]> = match self.read_named(file, &[".ttf", ".TTF"]) {
+            Ok(found) => found.bytes.into(),
+            Err(FileError::NotFound { .. })
+                if POV_RAYS.iter().any(|font| font.strip_suffix(".ttf") == Some(stem(name))) =>
+            {
+                let message = format!("`{name}` is not found: the built-in font is used");
+                let diagnostic = Diagnostic::new(Code::StandInFont, message)
+                    .at(*span, "its letters are not as wide")
+                    .help("it comes with POV-Ray (Debian: povray-includes); `-I FOLDER` adds a folder to search");
+                self.report(here, diagnostic);
+                BUILT_IN.into()
+            }
+            Err(error) => {
+                let diagnostic = missing_file(name, *span, error);
+                return Err(self.report(here, diagnostic));
+            }
+        };
+        if let Err(reason) = Font::parse(&bytes) {
+            let message = format!("`{name}` is no font that can be read: {reason}");
+            let diagnostic = Diagnostic::new(Code::UnreadableFile, message)
+                .at(*span, "expected a TrueType or OpenType font");
+            return Err(self.report(here, diagnostic));
+        }
+        self.stored += bytes.len() as u64;
+        self.fonts.insert(key, bytes.clone());
+        Ok(bytes)
+    }
+}
+
+/// A font's name without its ending.
+fn stem(name: &str) -> &str {
+    name.strip_suffix(".ttf").unwrap_or(name)
+}

@@ -1,0 +1,147 @@
+//! Nets: the 16 points that span a Bézier surface of degree 3 both ways, four rows of four.
+//!
+//! **Invariant:** the surface, each of its parts and each of its derivatives lies within the box of the net
+//! that spans it.
+//!
+//! **Source:** G. Farin, *Curves and Surfaces for CAGD*, 5th ed. (2002), ch. 5 and 14.
+
+use crate::math::Vector;
+
+/// `u` goes along the rows, `v` from row to row, both from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Net(pub [Vector; 16]);
+
+/// A place on the surface, and the ways along it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub point: Vector,
+    pub along_u: Vector,
+    pub along_v: Vector,
+}
+
+/// The values of the four polynomials that weigh points, and their slopes.
+fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
+    let r = 1.0 - t;
+    let values = [r * r * r, 3.0 * r * r * t, 3.0 * r * t * t, t * t * t];
+    let slopes = [-3.0 * r * r, 3.0 * r * (r - 2.0 * t), 3.0 * t * (2.0 * r - t), 3.0 * t * t];
+    (values, slopes)
+}
+
+fn halves([a, b, c, d]: [Vector; 4]) -> ([Vector; 4], [Vector; 4]) {
+    let half = |p: Vector, q: Vector| (p + q) * 0.5;
+    let (ab, bc, cd) = (half(a, b), half(b, c), half(c, d));
+    let (abc, bcd) = (half(ab, bc), half(bc, cd));
+    let middle = half(abc, bcd);
+    ([a, ab, abc, middle], [middle, bcd, cd, d])
+}
+
+impl Net {
+    pub fn at(&self, u: f64, v: f64) -> Place {
+        let ((across, slope_u), (down, slope_v)) = (weights(u), weights(v));
+        let mut place = Place { point: Vector::ZERO, along_u: Vector::ZERO, along_v: Vector::ZERO };
+        for (row, points) in self.0.chunks_exact(4).enumerate() {
+            let weighed = |weights: [f64; 4]| {
+                points[0] * weights[0]
+                    + points[1] * weights[1]
+                    + points[2] * weights[2]
+                    + points[3] * weights[3]
+            };
+            let point = weighed(across);
+            place.point += point * down[row];
+            place.along_u += weighed(slope_u) * down[row];
+            place.along_v += point * slope_v[row];
+        }
+        place
+    }
+
+    pub fn map(&self, f: impl Fn(Vector) -> Vector) -> Self {
+        Self(self.0.map(f))
+    }
+
+    /// The same with u and v exchanged.
+    pub fn turned(&self) -> Self {
+        Self(std::array::from_fn(|i| self.0[4 * (i % 4) + i / 4]))
+    }
+
+    /// The part for the lower half of u, and that for the upper.
+    pub fn halves_along_u(&self) -> (Self, Self) {
+        let (mut low, mut high) = (*self, *self);
+        for row in 0..4 {
+            let points = std::array::from_fn(|i| self.0[4 * row + i]);
+            let (first, second) = halves(points);
+            low.0[4 * row..4 * row + 4].copy_from_slice(&first);
+            high.0[4 * row..4 * row + 4].copy_from_slice(&second);
+        }
+        (low, high)
+    }
+
+    /// As [`Self::halves_along_u`].
+    pub fn halves_along_v(&self) -> (Self, Self) {
+        let (low, high) = self.turned().halves_along_u();
+        (low.turned(), high.turned())
+    }
+
+    /// What spans the derivative along u.
+    pub fn steps_along_u(&self) -> [Vector; 12] {
+        std::array::from_fn(|i| {
+            let at = 4 * (i / 3) + i % 3;
+            (self.0[at + 1] - self.0[at]) * 3.0
+        })
+    }
+
+    /// What spans the derivative along v.
+    pub fn steps_along_v(&self) -> [Vector; 12] {
+        std::array::from_fn(|i| (self.0[i + 4] - self.0[i]) * 3.0)
+    }
+
+    /// The corners of the box that holds it.
+    pub fn bounds(&self) -> (Vector, Vector) {
+        bounds(&self.0)
+    }
+
+    /// The points of an edge: u = 0, u = 1, v = 0, v = 1.
+    pub fn edge(&self, edge: usize) -> [Vector; 4] {
+        std::array::from_fn(|i| match edge {
+            0 => self.0[4 * i],
+            1 => self.0[4 * i + 3],
+            2 => self.0[i],
+            _ => self.0[12 + i],
+        })
+    }
+
+    /// The greatest `along`·P over the surface, no less and by no more than 2⁻¹² of its size too much.
+    pub fn greatest(&self, along: Vector) -> f64 {
+        /// More pieces than any surface needs that is not nearly flat across `along`.
+        const MOST: usize = 4096;
+        let value = |net: &Self| {
+            let heights = net.0.map(|point| point.dot(along));
+            let hull = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            let corners = [0, 3, 12, 15].map(|i| heights[i]);
+            (hull, corners.into_iter().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let (low, high) = self.bounds();
+        let enough = (high - low).length() * along.length() / 4096.0;
+        let (hull, mut found) = value(self);
+        let (mut pieces, mut greatest) = (vec![(*self, hull, 0)], f64::NEG_INFINITY);
+        let mut count = 0;
+        while let Some((net, hull, depth)) = pieces.pop() {
+            count += 1;
+            if hull <= found + enough || count > MOST {
+                greatest = greatest.max(hull);
+                continue;
+            }
+            let (a, b) = if depth % 2 == 0 { net.halves_along_u() } else { net.halves_along_v() };
+            for half in [a, b] {
+                let (hull, corner) = value(&half);
+                found = found.max(corner);
+                pieces.push((half, hull, depth + 1));
+            }
+        }
+        greatest.max(found)
+    }
+}
+
+pub(super) fn bounds(points: &[Vector]) -> (Vector, Vector) {
+    let all = (Vector::INFINITY, Vector::NEG_INFINITY);
+    points.iter().fold(all, |(low, high), point| (low.min(*point), high.max(*point)))
+}

@@ -1,0 +1,94 @@
+//! The cells of a grid under a line, in the order in which the line comes to their columns.
+//!
+//! **Invariant:** every cell that the line may pass over is told, once; rounding tells a few more.
+
+use super::super::body::LocalRay;
+use super::U;
+
+/// A line over the grid, between two places.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Track {
+    /// Where it is at s = 0, along x and z, in cells; and along y.
+    start: [f64; 3],
+    step: [f64; 3],
+    /// How far rounding may move each.
+    slack: [f64; 3],
+    /// The part of it that counts.
+    span: [f64; 2],
+}
+
+/// Cells from one to before another, along x and z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Cells {
+    pub from: [usize; 2],
+    pub to: [usize; 2],
+}
+
+impl Track {
+    /// What of a line lies over the unit square about the origin and between two heights. `None` where
+    /// nothing does.
+    pub fn new(ray: &LocalRay, cells: [usize; 2], [low, high]: [f64; 2]) -> Option<Self> {
+        let (n, d) = (ray.nearest, ray.direction);
+        let off = 64.0 * U * (2.0 + n.length());
+        let sizes = cells.map(|count| count as f64);
+        let mut track = Self {
+            start: [(n.x + 0.5) * sizes[0], (n.z + 0.5) * sizes[1], n.y],
+            step: [d.x * sizes[0], d.z * sizes[1], d.y],
+            slack: [off * sizes[0], off * sizes[1], off],
+            span: [-4.0, 4.0],
+        };
+        for (axis, [low, high]) in
+            [[0.0, sizes[0]], [0.0, sizes[1]], [low, high]].into_iter().enumerate()
+        {
+            track.span = track.within(axis, low, high)?;
+        }
+        Some(track)
+    }
+
+    /// The part of the span where a coordinate may be between two values.
+    fn within(&self, axis: usize, low: f64, high: f64) -> Option<[f64; 2]> {
+        let (start, step, slack) = (self.start[axis], self.step[axis], self.slack[axis]);
+        let (low, high) = (low - slack - start, high + slack - start);
+        let (a, b) = (low / step, high / step);
+        if !(a.is_finite() && b.is_finite()) {
+            return (low <= 0.0 && 0.0 <= high).then_some(self.span);
+        }
+        let [first, last] = self.span;
+        let span = [first.max(a.min(b)), last.min(a.max(b))];
+        (span[0] <= span[1]).then_some(span)
+    }
+
+    /// Between which values a coordinate may be in a part of the span.
+    fn range(&self, axis: usize, span: [f64; 2]) -> [f64; 2] {
+        let [a, b] = span.map(|s| self.start[axis] + self.step[axis] * s);
+        [a.min(b) - self.slack[axis], a.max(b) + self.slack[axis]]
+    }
+
+    /// Blocks of `size` cells of a region that the line may pass over, with the heights it has there.
+    pub fn blocks(&self, region: Cells, size: usize, mut found: impl FnMut(Cells, [f64; 2])) {
+        let main = usize::from(self.step[1].abs() > self.step[0].abs());
+        let other = 1 - main;
+        // The numbers of the blocks that hold a range of places along an axis.
+        let numbers = |axis: usize, [low, high]: [f64; 2]| {
+            let within = |place: f64| {
+                (place.max(region.from[axis] as f64) as usize).min(region.to[axis] - 1) / size
+            };
+            within(low)..=within(high)
+        };
+        let block = |axis: usize, number: usize| {
+            let from = (number * size).max(region.from[axis]);
+            (from, ((number + 1) * size).min(region.to[axis]))
+        };
+        for column in numbers(main, self.range(main, self.span)) {
+            let (from, to) = block(main, column);
+            let Some(span) = self.within(main, from as f64, to as f64) else { continue };
+            let heights = self.range(2, span);
+            for row in numbers(other, self.range(other, span)) {
+                let (begin, end) = block(other, row);
+                let (mut first, mut last) = ([0; 2], [0; 2]);
+                (first[main], last[main], first[other], last[other]) = (from, to, begin, end);
+                found(Cells { from: first, to: last }, heights);
+            }
+        }
+    }
+}
