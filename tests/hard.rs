@@ -6,9 +6,9 @@ mod alike;
 mod clear;
 #[path = "hard/coinciding.rs"]
 mod coinciding;
-mod dice;
 #[path = "hard/deep.rs"]
 mod deep;
+mod dice;
 #[path = "hard/exact.rs"]
 mod exact;
 #[path = "hard/frames.rs"]

@@ -88,8 +88,11 @@ fn row_29_quartics_and_polynomials_may_be_tori_of_any_size() {
     for (major, minor) in [(1.0, 0.25), (0.8, 0.5), (0.7, 0.7), (1.0, 0.02)] {
         for exponent in [-9, -4, 0, 6, 12] {
             let r = ten(exponent);
-            let camera =
-                Camera::LookAt { location: [0.5 * r, 2.0 * r, 3.0 * r], look_at: [0.0; 3], angle: 45.0 };
+            let camera = Camera::LookAt {
+                location: [0.5 * r, 2.0 * r, 3.0 * r],
+                look_at: [0.0; 3],
+                angle: 45.0,
+            };
             let lights = [Light { position: [4.0 * r, 5.0 * r, 3.0 * r], color: WHITE }];
             let ring = torus(major, minor).color(CLAY);
             let ring = ring.moved(Step::Rotate([20.0, 0.0, 10.0])).moved(Step::Scale([r; 3]));

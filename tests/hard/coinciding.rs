@@ -94,7 +94,8 @@ impl Carver {
                 Solid::Cone { ends: [a, b], radii: [base, cap] }
             }
             8 if self.dice.below(3) == 0 => {
-                let [major, minor] = [&[0.7, 1.0], &[0.3, 0.6]].map(|radii| self.dice.one_of(radii));
+                let [major, minor] =
+                    [&[0.7, 1.0], &[0.3, 0.6]].map(|radii| self.dice.one_of(radii));
                 Solid::Torus { major, minor }
             }
             8 => {
@@ -159,7 +160,9 @@ impl Carver {
             1 => format!("rotate <{x}, {y}, {z}> transform {{ rotate <{x}, {y}, {z}> inverse }}"),
             2 => "scale 3 scale 1/3".to_owned(),
             3 => "translate 0.1*x translate 0.2*x translate -0.3*x".to_owned(),
-            4 => format!("translate {far:e}*<1, 2, 3> rotate {x}*y rotate -{x}*y translate -{far:e}*<1, 2, 3>"),
+            4 => format!(
+                "translate {far:e}*<1, 2, 3> rotate {x}*y rotate -{x}*y translate -{far:e}*<1, 2, 3>"
+            ),
             5 => format!("scale <1, 0.7, 3> rotate {x}*z rotate -{x}*z scale <1, 1/0.7, 1/3>"),
             6 => "rotate 360*y rotate -720*x".to_owned(),
             _ => String::new(),
@@ -191,10 +194,10 @@ fn drawn(seed: u64) -> (Scene, String) {
     let operation = carver.operation();
     let parts = (0..parts).map(|_| carver.object(depth)).collect();
     // What has no end is of no size.
-    let all = whole(Operation::Intersection, vec![
-        whole(operation, parts),
-        Object { detour: String::new(), ..painted(carver.stuff) },
-    ]);
+    let all = whole(
+        Operation::Intersection,
+        vec![whole(operation, parts), Object { detour: String::new(), ..painted(carver.stuff) }],
+    );
     let ior = if let Stuff::Clear { ior } = stuff { ior } else { 1.0 };
     let mut objects = vec![Object { ior, ..all }];
     if matches!(stuff, Stuff::Clear { .. }) {
@@ -245,7 +248,8 @@ fn camera(dice: &mut Dice) -> Camera {
             up: [0.0, 0.7, 0.0],
         },
         _ => {
-            let location = [dice.between(-3.0, 3.0), dice.between(1.0, 4.0), dice.between(3.0, 5.0)];
+            let location =
+                [dice.between(-3.0, 3.0), dice.between(1.0, 4.0), dice.between(3.0, 5.0)];
             Camera::LookAt { location, look_at: [0.0; 3], angle: 40.0 }
         }
     }
@@ -288,7 +292,8 @@ fn respelt(text: &str, dice: &mut Dice) -> String {
     ];
     while let Some(at) = rest.find("e-1") {
         // A whole number of one digit, and no longer exponent.
-        let start = rest[..at].rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |i| i + 1);
+        let start =
+            rest[..at].rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |i| i + 1);
         let ends = !rest[at + 3..].starts_with(|c: char| c.is_ascii_digit());
         let known = SPELLINGS.iter().find(|(name, _)| *name == &rest[start..at + 3]);
         out += &rest[..start];

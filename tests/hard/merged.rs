@@ -50,9 +50,8 @@ fn glass(object: Object, ior: f64) -> Object {
 /// A solid, and what is the same of parts that touch.
 fn alike() -> Vec<(&'static str, Object, Object)> {
     let merge = |parts| whole(Operation::Merge, parts);
-    let half = |low, high| {
-        whole(Operation::Intersection, vec![sphere([0.0; 3], 1.0), cuboid(low, high)])
-    };
+    let half =
+        |low, high| whole(Operation::Intersection, vec![sphere([0.0; 3], 1.0), cuboid(low, high)]);
     let bar = |low: f64, high: f64| cone([[0.0, low, 0.0], [0.0, high, 0.0]], [0.7, 0.7]);
     vec![
         (
@@ -63,17 +62,25 @@ fn alike() -> Vec<(&'static str, Object, Object)> {
         (
             "a block of eight",
             cuboid([-1.0; 3], [1.0; 3]),
-            merge((0..8).map(|i| {
-                let end = |axis: usize| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
-                cuboid([0.1; 3], [end(0), end(1), end(2)])
-            }).collect()),
+            merge(
+                (0..8)
+                    .map(|i| {
+                        let end = |axis: usize| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
+                        cuboid([0.1; 3], [end(0), end(1), end(2)])
+                    })
+                    .collect(),
+            ),
         ),
         (
             "a block and another in its midst",
             cuboid([-1.0; 3], [1.0; 3]),
             merge(vec![cuboid([-1.0; 3], [1.0; 3]), cuboid([-1.0, -0.5, -0.5], [1.0, 0.5, 0.5])]),
         ),
-        ("a bar of three", bar(-1.0, 1.0), merge(vec![bar(-1.0, -0.3), bar(-0.3, 0.6), bar(0.6, 1.0)])),
+        (
+            "a bar of three",
+            bar(-1.0, 1.0),
+            merge(vec![bar(-1.0, -0.3), bar(-0.3, 0.6), bar(0.6, 1.0)]),
+        ),
         (
             "a ball of halves",
             sphere([0.0; 3], 1.0),
@@ -82,7 +89,10 @@ fn alike() -> Vec<(&'static str, Object, Object)> {
         (
             "a ball, and once more",
             sphere([0.0; 3], 1.0),
-            merge(vec![sphere([0.0; 3], 1.0), sphere([0.0; 3], 1.0).moved(Step::Rotate([10.0, 20.0, 30.0]))]),
+            merge(vec![
+                sphere([0.0; 3], 1.0),
+                sphere([0.0; 3], 1.0).moved(Step::Rotate([10.0, 20.0, 30.0])),
+            ]),
         ),
         (
             "a cone of two",
@@ -113,17 +123,16 @@ fn row_35_forty_solids_are_taken_from_one_another() {
         let shade = 0.3 + 0.6 * f64::from(i % 3) / 2.0;
         cuboid([-half, -half, -half], [half, half, 1.0]).color([shade, 0.8 - shade / 2.0, 0.5])
     };
-    let inward = (0..40).rev().fold(block(40), |inner, i| {
-        whole(Operation::Difference, vec![block(i), inner])
-    });
+    let inward = (0..40)
+        .rev()
+        .fold(block(40), |inner, i| whole(Operation::Difference, vec![block(i), inner]));
     hold_alike("A − (B − (C − …))", &seen(vec![inward.clone()]), &seen(vec![inward]));
     let slice = |i: u32| {
         let x = -1.0 + 0.05 * f64::from(i);
         cuboid([x, -1.0, 0.5], [x + 0.025, 1.0, 1.0]).color([0.2, 0.9, 0.3])
     };
-    let outward = (0..40).fold(block(0), |outer, i| {
-        whole(Operation::Difference, vec![outer, slice(i)])
-    });
+    let outward =
+        (0..40).fold(block(0), |outer, i| whole(Operation::Difference, vec![outer, slice(i)]));
     hold_alike("((A − B) − C) − …", &seen(vec![outward.clone()]), &seen(vec![outward]));
 }
 
@@ -131,11 +140,13 @@ fn row_35_forty_solids_are_taken_from_one_another() {
 fn row_35_a_ball_is_taken_from_one_that_it_touches() {
     let outer = || sphere([0.0; 3], 1.0);
     let inner = || sphere([0.4, 0.0, 0.0], 0.6).color([0.9, 0.3, 0.2]);
-    let cut = |part| {
-        whole(Operation::Difference, vec![part, cuboid([-2.0, 0.0, -2.0], [2.0; 3])])
-    };
+    let cut = |part| whole(Operation::Difference, vec![part, cuboid([-2.0, 0.0, -2.0], [2.0; 3])]);
     let hollow = || whole(Operation::Difference, vec![outer(), inner()]);
-    let both = [("hollow", hollow()), ("hollow and cut", cut(hollow())), ("of glass", glass(hollow(), 1.5))];
+    let both = [
+        ("hollow", hollow()),
+        ("hollow and cut", cut(hollow())),
+        ("of glass", glass(hollow(), 1.5)),
+    ];
     for (name, solid) in both {
         hold_alike(name, &seen(vec![solid.clone()]), &seen(vec![solid]));
     }

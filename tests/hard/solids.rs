@@ -151,7 +151,11 @@ impl Node {
 }
 
 /// What an object is, moved by what is around it; and how large its numbers are.
-fn node<'a>(object: &'a Object, outer: Option<&WideMap>, parts: &mut Vec<Part<'a>>) -> (Node, Wide) {
+fn node<'a>(
+    object: &'a Object,
+    outer: Option<&WideMap>,
+    parts: &mut Vec<Part<'a>>,
+) -> (Node, Wide) {
     let map = joined(outer, spent(&object.steps));
     if let Solid::Whole { operation, parts: held } = &object.solid {
         let nodes: Vec<_> = held.iter().map(|part| node(part, map.as_ref(), parts)).collect();
@@ -161,10 +165,9 @@ fn node<'a>(object: &'a Object, outer: Option<&WideMap>, parts: &mut Vec<Part<'a
     }
     let (origin, form, reach) = form(&object.solid);
     let size = match &map {
-        Some(map) => map
-            .rows
-            .iter()
-            .fold(map.offset.largest(), |size, row| size + &(row.largest() * &reach)),
+        Some(map) => {
+            map.rows.iter().fold(map.offset.largest(), |size, row| size + &(row.largest() * &reach))
+        }
         None => reach,
     };
     let world_from_paint = match &object.paint {
@@ -239,8 +242,7 @@ fn form(solid: &Solid) -> (WideVector, Form, Wide) {
             let line = axis.times(&(Wide::of(-2.0) * &base * &slope * &square));
             let constant = -&(base.clone() * &base * &square);
             let side = (axis.times(&slope), base.clone());
-            let mantle =
-                Limit::Round { matrix: [row(0), row(1), row(2)], line, constant, side };
+            let mantle = Limit::Round { matrix: [row(0), row(1), row(2)], line, constant, side };
             let ends = [
                 Limit::Flat { normal: axis.times(&Wide::of(-1.0)), distance: Wide::zero() },
                 Limit::Flat { normal: axis.clone(), distance: square },
@@ -329,9 +331,7 @@ fn torus(
     let (four, two) = (Wide::of(4.0), Wide::of(2.0));
     let ring = four * &(major.clone() * major);
     let k = major.clone() * major - &(minor.clone() * minor);
-    let level = |v: &WideVector| {
-        WideVector([v.0[0].clone(), Wide::zero(), v.0[2].clone()])
-    };
+    let level = |v: &WideVector| WideVector([v.0[0].clone(), Wide::zero(), v.0[2].clone()]);
     let across = (level(start), level(direction));
     // p² + k and x² + z² as polynomials of t.
     let (a, b) = (direction.square(), two.clone() * &start.dot(direction));
@@ -391,7 +391,11 @@ fn roots(polynomial: &[Wide], low: &Wide, high: &Wide) -> Vec<Wide> {
         // Newton's step where it stays between, else half.
         while &behind - &before > least {
             let value = at(polynomial, &place);
-            if value.is_positive() == rises { behind = place.clone() } else { before = place.clone() }
+            if value.is_positive() == rises {
+                behind = place.clone()
+            } else {
+                before = place.clone()
+            }
             let speed = at(&slope, &place);
             let step = if speed.is_zero() { high - low } else { value / &speed };
             let next = &place - &step;
@@ -408,12 +412,12 @@ fn roots(polynomial: &[Wide], low: &Wide, high: &Wide) -> Vec<Wide> {
 
 impl Chord {
     fn within(self, other: Self) -> Self {
-        let last = |a: Option<(Wide, WideVector)>, b: Option<(Wide, WideVector)>, less: bool| {
-            match (a, b) {
+        let last =
+            |a: Option<(Wide, WideVector)>, b: Option<(Wide, WideVector)>, less: bool| match (a, b)
+            {
                 (Some(a), Some(b)) => Some(if (b.0 < a.0) == less && b.0 != a.0 { b } else { a }),
                 (a, b) => a.or(b),
-            }
-        };
+            };
         Self {
             enter: last(self.enter, other.enter, false),
             leave: last(self.leave, other.leave, true),

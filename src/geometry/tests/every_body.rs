@@ -40,7 +40,12 @@ const SOLIDS: [&str; 27] = [
 ];
 
 fn number(random: &mut Random, size: f64) -> String {
-    format!("<{:e}, {:e}, {:e}>", random.number(-size, size), random.number(-size, size), random.number(-size, size))
+    format!(
+        "<{:e}, {:e}, {:e}>",
+        random.number(-size, size),
+        random.number(-size, size),
+        random.number(-size, size)
+    )
 }
 
 /// One of the solids, or several as one, in any place and size.
@@ -56,8 +61,7 @@ fn solid(random: &mut Random, reach: f64, depth: usize) -> String {
         return format!("{} {stretch} {place}", SOLIDS[random.below(SOLIDS.len())]);
     }
     let operation = ["union", "merge", "intersection", "difference"][random.below(4)];
-    let parts: String =
-        (0..random.below(3) + 2).map(|_| solid(random, 1.0, depth - 1)).collect();
+    let parts: String = (0..random.below(3) + 2).map(|_| solid(random, 1.0, depth - 1)).collect();
     // Crowded around the origin, so that they meet.
     let crowd = parts.replace(" translate <", " scale 3 translate 0.3*<");
     let clip = if random.below(4) == 0 { "clipped_by { sphere { 0.3*x, 0.8 } }" } else { "" };
