@@ -15,9 +15,17 @@ const ASIDE: f64 = 256.0;
 /// And so many before and behind it.
 const ACROSS: f64 = 64.0;
 
-/// The surface at a hit of a box that is a part of something.
+/// The surface at a hit of a box.
+#[inline(always)]
+pub(super) fn surface(world: &World, ray: &Ray, hit: &Hit, box_: &Box_) -> SurfacePoint {
+    match world.objects[hit.object as usize].whole {
+        None => box_.surface(ray, hit.t, hit.leaving),
+        Some(_) => surface_of_part(world, ray, hit, box_),
+    }
+}
+
 #[inline(never)]
-pub(super) fn surface_of_part(world: &World, ray: &Ray, hit: &Hit, box_: &Box_) -> SurfacePoint {
+fn surface_of_part(world: &World, ray: &Ray, hit: &Hit, box_: &Box_) -> SurfacePoint {
     let usual = box_.surface(ray, hit.t, hit.leaving);
     let faces: SmallVec<[u32; 3]> = box_.faces_at(&usual).collect();
     if faces.len() < 2 {

@@ -6,7 +6,7 @@
 
 mod balls;
 mod build;
-mod coinciding;
+pub mod coinciding;
 mod edge;
 mod extent;
 mod nearest;
@@ -18,7 +18,6 @@ mod tree;
 mod whole;
 mod work;
 
-pub use coinciding::coinciding_parts;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 pub use work::Work;
@@ -35,8 +34,7 @@ use extent::Extent;
 use tree::Tree;
 use whole::Whole;
 
-/// Fewer bounded objects than this need no tree, only [`Balls`]: faster, as measured by
-/// `cargo bench --bench intersect`.
+/// Fewer bounded objects need no tree, only [`Balls`] (measured: `cargo bench --bench intersect`).
 const TREE_FROM: usize = 8;
 
 /// A World's objects arranged for rays. The shapes are copied in the order in which the tree's
@@ -393,10 +391,7 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     match world.objects[object as usize].shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
-        Shape::Box(i) => match world.objects[object as usize].whole {
-            None => world.boxes[i as usize].surface(ray, t, leaving),
-            Some(_) => edge::surface_of_part(world, ray, hit, &world.boxes[i as usize]),
-        },
+        Shape::Box(i) => edge::surface(world, ray, hit, &world.boxes[i as usize]),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
         Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use super::Lowering;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::coinciding_parts;
+use crate::geometry::coinciding::coinciding_parts;
 use crate::world::Coinciding;
 
 impl Lowering<'_, '_> {
