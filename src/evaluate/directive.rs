@@ -66,6 +66,7 @@ impl Evaluator<'_> {
                     let own = (step_span != directive.head).then_some(step_span);
                     self.lint_never_runs(here, directive.head, spans, own);
                 }
+                self.lint_counted_twice(here, *name, *body);
                 let symbol = here.symbol(*name);
                 self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                 self.push_for(here, symbol, [from, to, step], *body, id);

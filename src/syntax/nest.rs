@@ -150,6 +150,9 @@ pub(super) fn nest<'a>(
     nest.ast
 }
 
+/// Quotes that no language of programs has, as word processors write them in some country.
+const QUOTES: [char; 10] = ['“', '”', '„', '‟', '«', '»', '‘', '’', '‚', '‛'];
+
 impl<'a> Nest<'a> {
     pub(super) fn span(&self, token: Token) -> Span {
         // A quote that was put in to close a string may lie behind the end.
@@ -329,11 +332,12 @@ impl<'a> Nest<'a> {
                     .fix(span, ""),
             );
         }
-        if text == "“"
-            && let Some(length) = self.text[span.end as usize..].find(['”', '\n'])
-            && self.text[span.end as usize + length..].starts_with('”')
+        if text.chars().all(|c| QUOTES.contains(&c))
+            && let Some(rest) = self.text.get(span.end as usize..)
+            && let Some(close) = rest.find(|c| c == '\n' || QUOTES.contains(&c))
+            && let Some(quote) = rest[close..].chars().next().filter(|quote| *quote != '\n')
         {
-            return self.curly_string(span, span.end as usize + length);
+            return self.curly_string(span, span.end as usize + close, quote);
         }
         let shown: String = text.chars().flat_map(char::escape_debug).collect();
         let diagnostic = Diagnostic::new(
@@ -355,12 +359,14 @@ impl<'a> Nest<'a> {
     }
 
     /// `“…”`, as word processors write it: one mistake, and taken as a string that is not known.
-    fn curly_string(&mut self, open: Span, close: usize) {
-        let close = Span::new(self.file, close, close + '”'.len_utf8());
+    fn curly_string(&mut self, open: Span, close: usize, quote: char) {
+        let close = Span::new(self.file, close, close + quote.len_utf8());
+        let opening = self.slice(open);
+        let label = format!("expected a straight quote instead of `{opening}`");
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
-                .at(open, "expected a straight quote instead of `“`")
-                .also(close, "and instead of `”`")
+                .at(open, label)
+                .also(close, format!("and instead of `{quote}`"))
                 .help("strings stand between straight quotes: `\"…\"`")
                 .fix(open, "\"")
                 .fix(close, "\""),

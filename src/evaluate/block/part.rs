@@ -98,6 +98,11 @@ impl Evaluator<'_> {
             if self.missing_at.replace(place) == Some(place) {
                 return Err(Reported);
             }
+            if let Some(next) = &next
+                && let Some(reported) = self.value_in_braces(after, next, wanted)
+            {
+                return Err(reported);
+            }
             let name = self.describe(after);
             let diagnostic = match next {
                 Some(ref found) => {
@@ -132,7 +137,10 @@ impl Evaluator<'_> {
                     self.next();
                     diagnostic.help(format!("did you mean `{name}`?")).fix(span, name)
                 }
-                None => diagnostic,
+                None => match next.and_then(|next| self.called_elsewhere(&next, wanted)) {
+                    Some(diagnostic) => diagnostic,
+                    None => diagnostic,
+                },
             };
             return Err(self.report(&after.here, diagnostic));
         }

@@ -9,6 +9,9 @@ use crate::vocabulary::{Role, Word};
 impl Reader<'_> {
     /// A directive with its `#`, and a head that is none.
     pub(super) fn head(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
+        if self.reads_as_comment(head) {
+            return self.hash_comment();
+        }
         match head {
             Head::For => self.counting(meant),
             Head::If
@@ -27,6 +30,17 @@ impl Reader<'_> {
             Head::Default => self.default_case(meant),
             _ => false,
         }
+    }
+
+    /// `# Declare the balls`: a sentence that begins with a word of the language.
+    fn reads_as_comment(&self, head: Head) -> bool {
+        let Some(word) = self.slice(0).strip_prefix('#') else { return false };
+        let prose = word.starts_with([' ', '\t'])
+            && word.trim_start().starts_with(char::is_uppercase)
+            && word.trim() != head.word();
+        let end = self.tokens[self.at].end as usize;
+        let line = self.text.get(end..).and_then(|rest| rest.split(['\n', '\r']).next());
+        prose && line.is_some_and(|line| !line.contains(['=', '(', '"', '{']))
     }
 
     /// `#default` in a `#switch`, where `#else` is meant.
@@ -158,6 +172,19 @@ impl Reader<'_> {
     /// `#if (A) then`, `#while (A):`.
     fn then(&mut self, meant: &mut Vec<Token>) -> bool {
         let Some(close) = self.closed(1, Bracket::Round) else { return false };
+        if close > 3 && self.slice_is(close - 1, "then") {
+            let span = self.span(close - 1, close - 1);
+            let before = self.span(close - 2, close - 2);
+            let diagnostic =
+                Diagnostic::new(Code::UnexpectedCharacter, "no `then` stands in a condition")
+                    .at(span, "a sign of another language")
+                    .help("the body begins right after the parenthesis")
+                    .fix(Span { start: before.end, ..span }, "");
+            self.diagnostics.push(diagnostic);
+            self.dropped.insert(self.at + close - 1, false);
+            self.take(meant);
+            return true;
+        }
         if !(self.is(close + 1, Mark::Colon) || self.slice_is(close + 1, "then")) {
             return false;
         }

@@ -180,6 +180,8 @@ impl Reader<'_> {
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
+            TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
+            TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
             }
