@@ -62,7 +62,8 @@ impl Evaluator<'_> {
                     .at(step_span, "expected a number other than zero");
                     return Err(self.report(here, diagnostic));
                 }
-                if (to - from) * step < 0.0 {
+                let named = self.sources.text(*name_span).starts_with(|c: char| !c.is_ascii_digit());
+                if (to - from) * step < 0.0 && named {
                     let own = (step_span != directive.head).then_some(step_span);
                     self.lint_never_runs(here, directive.head, spans, own);
                 }
@@ -158,6 +159,9 @@ impl Evaluator<'_> {
     }
 
     fn say(&mut self, here: &Here, code: Code, text: ExpressionId, head: Span) -> Outcome<()> {
+        if let Some(reported) = self.lacks_quotes(here, text) {
+            return Err(reported);
+        }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
             Value::Poison(_) => return Ok(()),

@@ -82,6 +82,9 @@ impl Evaluator<'_> {
         }
         let meant = match (found, wanted) {
             (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
+            (Value::Object(_), "a vector or a colour before the dot") => Some(format!(
+                "what moves or changes an object stands in its block: `object {{ {text} translate x }}`"
+            )),
             (Value::Vector(_), "a string") => {
                 Some(format!("write `vstr(3, {text}, \", \", 0, 3)` for it as a string"))
             }

@@ -95,7 +95,8 @@ impl Evaluator<'_> {
         }
         let text = &self.sources.get(token.span.file).text;
         let before = text.get(..token.span.start as usize).unwrap_or("").trim_end();
-        if before.ends_with([',', ';', '{']) {
+        let meant_as_comma = self.sources.text(token.span) != ",";
+        if meant_as_comma || before.ends_with([',', ';', '{']) {
             return;
         }
         let diagnostic =
@@ -105,7 +106,13 @@ impl Evaluator<'_> {
                 .fix(token.span, "");
         let statement = before.rsplit(['\n', '{']).next().unwrap_or("");
         let start = (before.len() - statement.len()) as u32;
-        self.warn_in_statement(token, start, diagnostic);
+        // A value behind it is a mistake of its own.
+        let value = |next: &Token| {
+            matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
+        };
+        if !self.peek_on().is_some_and(value) {
+            self.warn_in_statement(token, start, diagnostic);
+        }
     }
 
     /// Tells it, unless something of the statement that begins at `start` has been told.

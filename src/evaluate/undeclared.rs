@@ -144,6 +144,11 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
+        } else if let Some((owner, parameter)) = self.macro_with_parameter(symbol) {
+            diagnostic = diagnostic
+                .at(span, "not declared here")
+                .also(parameter, format!("a parameter of macro `{owner}`"))
+                .help("a parameter is known in the body of its macro only");
         } else if is_no_number(name) {
             diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
                 .at(span, "the program that wrote this had no number here");
@@ -166,6 +171,16 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.at(span, "not declared up to here");
         }
         Some(diagnostic)
+    }
+
+    /// A macro that has a parameter of this name, and the parameter's place.
+    fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
+        let found = self.macros.iter().rev().find_map(|declared| {
+            let names = declared.parameters.iter().map(|&(name, _)| name);
+            names.into_iter().any(|name| name == symbol).then_some(declared)
+        })?;
+        let owner = self.sources.text(found.defined).to_owned();
+        Some((owner, found.defined))
     }
 
     /// The standard include that declares `name`, where it was not read.

@@ -17,8 +17,7 @@ use super::expression::Stacks;
 use super::token::{Bracket, Head, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
-use crate::vocabulary::Dialect;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Family, Word};
 
 /// An open bracket or directive.
 pub(super) struct Frame {
@@ -275,10 +274,18 @@ impl<'a> Nest<'a> {
                 if let Some(&operator) = self.stacks.operators.last() {
                     let text = self.slice(operator.span);
                     let message = format!("expected a value after `{text}`");
-                    self.report(
-                        Diagnostic::new(Code::ExpectedExpression, message)
-                            .at(operator.span, "nothing it could be applied to follows"),
-                    );
+                    let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                        .at(operator.span, "nothing it could be applied to follows");
+                    let next = self.tokens.get(self.at).map(|token| token.kind);
+                    let of_objects = |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
+                    let diagnostic = match next {
+                        Some(TokenKind::Word(word)) if text == "-" && of_objects(word) => diagnostic
+                            .help("objects are taken from each other by `difference { A B }`"),
+                        Some(TokenKind::Word(word)) if text == "+" && of_objects(word) => diagnostic
+                            .help("objects are put together by `union { A B }`"),
+                        _ => diagnostic,
+                    };
+                    self.report(diagnostic);
                     self.operand(ExpressionKind::Missing, operator.span.after(), false);
                 }
             }

@@ -224,7 +224,8 @@ impl Evaluator<'_> {
         }
         let longer = || {
             let longer = |other: &&str| {
-                other.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
+                let rest = other.strip_prefix(name);
+                name.contains('_') && rest.is_some_and(|rest| rest.starts_with('_'))
             };
             let mut words = place.words(dialect).filter(longer);
             words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)

@@ -9,9 +9,6 @@ use crate::vocabulary::{Role, Word};
 impl Reader<'_> {
     /// A directive with its `#`, and a head that is none.
     pub(super) fn head(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
-        if self.reads_as_comment(head) {
-            return self.hash_comment();
-        }
         match head {
             Head::For => self.counting(meant),
             Head::If
@@ -30,17 +27,6 @@ impl Reader<'_> {
             Head::Default => self.default_case(meant),
             _ => false,
         }
-    }
-
-    /// `# Declare the balls`: a sentence that begins with a word of the language.
-    fn reads_as_comment(&self, head: Head) -> bool {
-        let Some(word) = self.slice(0).strip_prefix('#') else { return false };
-        let prose = word.starts_with([' ', '\t'])
-            && word.trim_start().starts_with(char::is_uppercase)
-            && word.trim() != head.word();
-        let end = self.tokens[self.at].end as usize;
-        let line = self.text.get(end..).and_then(|rest| rest.split(['\n', '\r']).next());
-        prose && line.is_some_and(|line| !line.contains(['=', '(', '"', '{']))
     }
 
     /// `#default` in a `#switch`, where `#else` is meant.
