@@ -62,7 +62,8 @@ impl Evaluator<'_> {
                     .at(step_span, "expected a number other than zero");
                     return Err(self.report(here, diagnostic));
                 }
-                let named = self.sources.text(*name_span).starts_with(|c: char| !c.is_ascii_digit());
+                let named =
+                    self.sources.text(*name_span).starts_with(|c: char| !c.is_ascii_digit());
                 if (to - from) * step < 0.0 && named {
                     let own = (step_span != directive.head).then_some(step_span);
                     self.lint_never_runs(here, directive.head, spans, own);

@@ -107,9 +107,8 @@ impl Evaluator<'_> {
         let statement = before.rsplit(['\n', '{']).next().unwrap_or("");
         let start = (before.len() - statement.len()) as u32;
         // A value behind it is a mistake of its own.
-        let value = |next: &Token| {
-            matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
-        };
+        let value =
+            |next: &Token| matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_));
         if !self.peek_on().is_some_and(value) {
             self.warn_in_statement(token, start, diagnostic);
         }

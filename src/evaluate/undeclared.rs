@@ -305,9 +305,9 @@ impl Evaluator<'_> {
                 None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
                 Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
                 // `length(x, y, z)`: of three numbers.
-                None if inner.matches(',').count() == 2 && !inner.contains('<') => {
-                    stays("the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`")
-                }
+                None if inner.matches(',').count() == 2 && !inner.contains('<') => stays(
+                    "the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`",
+                ),
                 _ if name.eq_ignore_ascii_case("length") => None,
                 _ => stays(
                     "`dimension_size(A, 1)` of an array, `strlen(S)` of a string, `vlength(V)` of a \
@@ -323,9 +323,9 @@ impl Evaluator<'_> {
                 stays("within two values: `min(max(A, low), high)`")
             }
             "distance" => stays("from one point to another: `vlength(B - A)`"),
-            "smoothstep" => stays(
-                "with `#local T = min(max((X - A)/(B - A), 0), 1);` it is `T*T*(3 - 2*T)`",
-            ),
+            "smoothstep" => {
+                stays("with `#local T = min(max((X - A)/(B - A), 0), 1);` it is `T*T*(3 - 2*T)`")
+            }
             "hypot" => stays("the length of a vector: `vlength(<A, B, 0>)`"),
             "fract" | "frac" => stays("what is behind the point: `mod(A, 1)`"),
             "cbrt" => stays("the third root: `pow(A, 1/3)`"),

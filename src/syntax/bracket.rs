@@ -240,10 +240,8 @@ impl<'a> Nest<'a> {
             if second.is_some() {
                 self.arguments.pop();
             }
-            let before = second.map_or(before, |second| Span {
-                end: second.span.start + 1,
-                ..second.span
-            });
+            let before =
+                second.map_or(before, |second| Span { end: second.span.start + 1, ..second.span });
             if !told {
                 told = true;
                 let last = self.arguments[frame.arguments..].last();

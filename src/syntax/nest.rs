@@ -277,12 +277,16 @@ impl<'a> Nest<'a> {
                     let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
                         .at(operator.span, "nothing it could be applied to follows");
                     let next = self.tokens.get(self.at).map(|token| token.kind);
-                    let of_objects = |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
+                    let of_objects =
+                        |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
                     let diagnostic = match next {
-                        Some(TokenKind::Word(word)) if text == "-" && of_objects(word) => diagnostic
-                            .help("objects are taken from each other by `difference { A B }`"),
-                        Some(TokenKind::Word(word)) if text == "+" && of_objects(word) => diagnostic
-                            .help("objects are put together by `union { A B }`"),
+                        Some(TokenKind::Word(word)) if text == "-" && of_objects(word) => {
+                            diagnostic
+                                .help("objects are taken from each other by `difference { A B }`")
+                        }
+                        Some(TokenKind::Word(word)) if text == "+" && of_objects(word) => {
+                            diagnostic.help("objects are put together by `union { A B }`")
+                        }
                         _ => diagnostic,
                     };
                     self.report(diagnostic);

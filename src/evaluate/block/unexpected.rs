@@ -195,10 +195,7 @@ impl Evaluator<'_> {
         let is_setting = place.word.is_none()
             && word.family() == Family::Setting
             && home(word).is_some_and(|home| home == Word::GlobalSettings && home != word);
-        if !is_setting
-            && place.holds(word)
-            && (!word.is_built() || place.others.contains(&word))
-        {
+        if !is_setting && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
             self.skip_arguments(word);
             self.set_poison(poison);
@@ -338,7 +335,9 @@ impl Evaluator<'_> {
             Word::Degrees => diagnostic
                 .help("leave it out: `rotate 45*y`")
                 .fix(Span { start: before.len() as u32, ..token.span }, ""),
-            _ => diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees"),
+            _ => {
+                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
+            }
         })
     }
 

@@ -21,9 +21,7 @@ impl Reader<'_> {
         }
         let open = usize::from(made);
         let bracket = match self.kind(open) {
-            Some(TokenKind::Mark(Mark::Open(bracket @ (Bracket::Round | Bracket::Square)))) => {
-                bracket
-            }
+            Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
             _ => return false,
         };
         let before = |back: usize| {
@@ -36,6 +34,12 @@ impl Reader<'_> {
             && matches!(before(2), Some(TokenKind::Word(_) | TokenKind::Name));
         let fits = match before(1) {
             _ if argument => true,
+            // `rgb {1, 0, 0}`; other braces hold parts, or rows of an array.
+            Some(TokenKind::Word(word)) if bracket == Bracket::Brace => {
+                word.role() == Role::Statement
+                    && matches!(word.family(), Family::Transform | Family::Color)
+            }
+            _ if bracket == Bracket::Brace => false,
             Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
             // `= [1, 2, 3]` is rather an array.
             Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
@@ -108,7 +112,8 @@ impl Reader<'_> {
     /// `and`, `or`, `not` inside parentheses.
     pub(super) fn logic(&mut self, meant: &mut Vec<Token>) -> bool {
         // `#declare A = not B;`
-        let after_equal = meant.last().is_some_and(|last| last.kind == TokenKind::Mark(Mark::Equal));
+        let after_equal =
+            meant.last().is_some_and(|last| last.kind == TokenKind::Mark(Mark::Equal));
         let begins = after_equal && self.slice(0).eq_ignore_ascii_case("not");
         if !begins && !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
             return false;
