@@ -13,6 +13,7 @@ use crate::source::{ExpansionKind, FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
 
+use super::expand::Macro;
 use super::stream::{Token, TokenKind};
 use super::value::Value;
 use super::{Evaluator, Here, Reported, Symbol};
@@ -175,10 +176,8 @@ impl Evaluator<'_> {
 
     /// A macro that has a parameter of this name, and the parameter's place.
     fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
-        let found = self.macros.iter().rev().find_map(|declared| {
-            let names = declared.parameters.iter().map(|&(name, _)| name);
-            names.into_iter().any(|name| name == symbol).then_some(declared)
-        })?;
+        let has = |declared: &&Macro| declared.parameters.iter().any(|&(name, _)| name == symbol);
+        let found = self.macros.iter().rev().find(has)?;
         let owner = self.sources.text(found.defined).to_owned();
         Some((owner, found.defined))
     }
