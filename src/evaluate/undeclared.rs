@@ -176,7 +176,8 @@ impl Evaluator<'_> {
 
     /// A macro that has a parameter of this name, and the parameter's place.
     fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
-        let has = |declared: &&Macro| declared.parameters.iter().any(|&(name, _)| name == symbol);
+        let has =
+            |declared: &&Rc<Macro>| declared.parameters.iter().any(|&(name, _)| name == symbol);
         let found = self.macros.iter().rev().find(has)?;
         let owner = self.sources.text(found.defined).to_owned();
         Some((owner, found.defined))
