@@ -53,6 +53,24 @@ impl Evaluator<'_> {
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
     }
 
+    /// A word where a value should stand: `size` for `Size`, which is declared, or what other languages call.
+    pub(super) fn meant_by_word(
+        &mut self,
+        diagnostic: Diagnostic,
+        next: Option<&Token>,
+        wanted: &str,
+    ) -> Diagnostic {
+        let Some(&Token { kind: TokenKind::Word(word), span, .. }) = next else {
+            return diagnostic;
+        };
+        let is_meant = |name: &&str| name.eq_ignore_ascii_case(word.name());
+        if let Some(name) = self.scopes.visible().find(is_meant).map(str::to_owned) {
+            self.next();
+            return diagnostic.help(format!("did you mean `{name}`?")).fix(span, name);
+        }
+        next.and_then(|next| self.called_elsewhere(next, wanted)).unwrap_or(diagnostic)
+    }
+
     /// `scale { 2 }`, `rgb {1, 0, 0}`: a value that stands in braces. Passes over it.
     pub(super) fn value_in_braces(
         &mut self,
