@@ -64,7 +64,8 @@ impl Evaluator<'_> {
             return diagnostic;
         };
         let is_meant = |name: &&str| name.eq_ignore_ascii_case(word.name());
-        if let Some(name) = self.scopes.visible().find(is_meant).map(str::to_owned) {
+        let declared = self.scopes.visible().find(is_meant).map(str::to_owned);
+        if let Some(name) = declared {
             self.next();
             return diagnostic.help(format!("did you mean `{name}`?")).fix(span, name);
         }
