@@ -130,6 +130,7 @@ codes! {
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";
+    CountedTwice "counted-twice" lint "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
     ShortFile "short-file" lint "a file of values ends in the middle of what `#read` reads together";
     ReplacedPigment "replaced-pigment" lint "an object has two pigments; the last one is used";
@@ -157,6 +158,7 @@ codes! {
     AuthorWarning "author-warning" warning "the scene's own `#warning`";
     AuthorDebug "author-debug" note "the scene's own `#debug`";
     SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
+    Comma "comma" warning "a comma stands where it parts no values";
     Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
     OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
 }

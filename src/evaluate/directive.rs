@@ -62,10 +62,13 @@ impl Evaluator<'_> {
                     .at(step_span, "expected a number other than zero");
                     return Err(self.report(here, diagnostic));
                 }
-                if (to - from) * step < 0.0 {
+                let named =
+                    self.sources.text(*name_span).starts_with(|c: char| !c.is_ascii_digit());
+                if (to - from) * step < 0.0 && named {
                     let own = (step_span != directive.head).then_some(step_span);
                     self.lint_never_runs(here, directive.head, spans, own);
                 }
+                self.lint_counted_twice(here, *name, *body);
                 let symbol = here.symbol(*name);
                 self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                 self.push_for(here, symbol, [from, to, step], *body, id);
@@ -157,6 +160,9 @@ impl Evaluator<'_> {
     }
 
     fn say(&mut self, here: &Here, code: Code, text: ExpressionId, head: Span) -> Outcome<()> {
+        if let Some(reported) = self.lacks_quotes(here, text) {
+            return Err(reported);
+        }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
             Value::Poison(_) => return Ok(()),

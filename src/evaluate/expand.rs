@@ -36,7 +36,7 @@ pub(super) struct Macro {
     body: MacroBody,
     unit: Rc<Unit>,
     /// Its name, where it is defined.
-    defined: Span,
+    pub defined: Span,
 }
 
 #[derive(Debug, Clone, Copy)]

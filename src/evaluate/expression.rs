@@ -349,6 +349,9 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn string(&mut self, here: &Here, id: ExpressionId) -> Outcome<String> {
+        if let Some(reported) = self.lacks_quotes(here, id) {
+            return Err(reported);
+        }
         match self.expression(here, id)? {
             Value::String(text) => Ok(text.to_string()),
             other => Err(self.wrong_type(here, here.unit.expression(id).span, "a string", &other)),

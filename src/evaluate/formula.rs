@@ -247,6 +247,12 @@ impl Evaluator<'_> {
                     formula.poison.get_or_insert(*poison);
                     self.constant_zero(here, formula, name_span)
                 }
+                None => {
+                    let reported = self.undeclared(here, here.symbol(name), name_span);
+                    // What its arguments lack is told, too.
+                    let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
+                    Err(reported)
+                }
                 _ => self.constant(here, formula, id),
             },
             Callee::Word(word, word_span) => match word {

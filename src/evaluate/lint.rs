@@ -13,7 +13,7 @@ use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{Site, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, ItemKind, NameId, Target};
+use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
 use crate::vocabulary::{PREDECLARED, Word};
 
 use super::scope::Owner;
@@ -253,6 +253,58 @@ impl Evaluator<'_> {
             }
         };
         self.report(here, diagnostic);
+    }
+
+    /// `#range (5, 1)`.
+    pub(super) fn lint_empty_range(&mut self, here: &Here, span: Span, low: f64, high: f64) {
+        if low <= high {
+            return;
+        }
+        let diagnostic = Diagnostic::new(Code::NeverRuns, "no number lies in this `#range`")
+            .at(span, format!("{low} is more than {high}"))
+            .help("the lower end comes first");
+        if !self.repeats(&diagnostic) {
+            self.report(here, diagnostic);
+        }
+    }
+
+    /// `#for (I, 0, 9) … #declare I = I + 1; #end`: what stands in a branch may be meant.
+    pub(super) fn lint_counted_twice(&mut self, here: &Here, counter: NameId, body: Items) {
+        let unit = here.unit.clone();
+        let mut items = unit.ast.items(body).iter();
+        while let Some(item) = items.next() {
+            let ItemKind::Directive(id) = item.kind else { continue };
+            let DirectiveKind::Declare { target, .. } = &unit.ast.directive(id).kind else {
+                continue;
+            };
+            if target.name != counter || !target.indices.is_empty() {
+                continue;
+            }
+            let Some(ItemKind::Expression(value)) = items.next().map(|item| item.kind) else {
+                continue;
+            };
+            let ExpressionKind::Binary(_, left, _) = unit.expression(value).kind else { continue };
+            if unit.expression(left).kind != ExpressionKind::Name(counter) {
+                continue;
+            }
+            let name = self.sources.text(target.span).to_owned();
+            let head = unit.ast.directive(id).head;
+            let diagnostic =
+                Diagnostic::new(Code::CountedTwice, format!("`#for` counts `{name}` by itself"))
+                    .at(target.span, "and it is counted on here")
+                    .help("leave this out; another step is the last number of the `#for`");
+            let end = self.sources.get(head.file).text.get(target.span.end as usize..);
+            let length = end.and_then(|rest| rest.find([';', '\n']));
+            let diagnostic = match length {
+                Some(length) => {
+                    let end = target.span.end + length as u32 + 1;
+                    diagnostic.fix(Span { end, ..head }, "")
+                }
+                None => diagnostic,
+            };
+            self.report(here, diagnostic);
+            return;
+        }
     }
 
     /// Whether what is read now is the colour of a surface.

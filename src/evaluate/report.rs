@@ -80,6 +80,22 @@ impl Evaluator<'_> {
             let help = format!("a spline has a value at a time: `{text}(0.5)`");
             diagnostic = diagnostic.help(help);
         }
+        let meant = match (found, wanted) {
+            (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
+            (Value::Object(_), "a vector or a colour before the dot") => Some(format!(
+                "what moves or changes an object stands in its block: `object {{ {text} translate x }}`"
+            )),
+            (Value::Vector(_), "a string") => {
+                Some(format!("write `vstr(3, {text}, \", \", 0, 3)` for it as a string"))
+            }
+            (Value::Vector(_), "a number as condition") => Some(
+                "vectors are compared by a component, as `.x`, or by `vlength(A - B)`".to_owned(),
+            ),
+            _ => None,
+        };
+        if let Some(meant) = meant {
+            diagnostic = diagnostic.help(meant);
+        }
         if let Value::String(found) = found
             && let Some(shown) = color_of_string(found)
             && let Some(color) = match wanted {

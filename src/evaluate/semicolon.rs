@@ -1,12 +1,14 @@
-//! Semicolons: in a `.pov` file one ends the declaration of a number, and nothing else has one.
+//! Semicolons and commas: in a `.pov` file a `;` ends the declaration of a number, a comma parts values, and
+//! nothing else has either.
 //!
 //! **Source:** measured: POV-Ray refuses a declared number, vector or colour without its `;` from version 3.5
-//! on, takes a second `;` there, and refuses every other one.
+//! on, takes a second `;` there, and refuses every other one; it refuses a comma behind the last part of a
+//! block, between words of a block, and between objects.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
 use crate::syntax::ast::ItemKind;
-use crate::vocabulary::Dialect;
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::Evaluator;
 use super::block::Place;
@@ -66,11 +68,11 @@ impl Evaluator<'_> {
         if self.options.dialect == Dialect::Scene {
             return;
         }
-        // A row of them is one mistake; and one behind a directive is that of `#version`, or has another.
+        // A row of them is one mistake; and one behind a declaration is its own, or that has another.
         let text = &self.sources.get(token.span.file).text;
         let before = text.get(..token.span.start as usize).unwrap_or("").trim_end();
         let statement = before.rsplit([';', '{', '}']).next().unwrap_or("");
-        if before.ends_with(';') || statement.contains('#') {
+        if before.ends_with(';') || ends_with_one(statement) {
             return;
         }
         let behind = text.get(token.span.end as usize..).unwrap_or("");
@@ -83,17 +85,56 @@ impl Evaluator<'_> {
                 .fix(row, "");
         // What was told of the statement itself is told: it may be another language's.
         let start = (before.len() - statement.len()) as u32;
+        self.warn_in_statement(token, start, diagnostic);
+    }
+
+    /// A comma that parts no values.
+    pub(super) fn warn_of_comma(&mut self, token: &Token, place: Place) {
+        if self.options.dialect == Dialect::Scene || self.poison.is_some() {
+            return;
+        }
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize).unwrap_or("").trim_end();
+        let meant_as_comma = self.sources.text(token.span) != ",";
+        if meant_as_comma || before.ends_with([',', ';', '{']) {
+            return;
+        }
+        let diagnostic =
+            Diagnostic::new(Code::Comma, format!("this `,` has no meaning {}", place.name()))
+                .at(token.span, "commas part values, not words or objects")
+                .help("leave it out: POV-Ray refuses it")
+                .fix(token.span, "");
+        let statement = before.rsplit(['\n', '{']).next().unwrap_or("");
+        let start = (before.len() - statement.len()) as u32;
+        // A value behind it is a mistake of its own.
+        let value =
+            |next: &Token| matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_));
+        if !self.peek_on().is_some_and(value) {
+            self.warn_in_statement(token, start, diagnostic);
+        }
+    }
+
+    /// Tells it, unless something of the statement that begins at `start` has been told.
+    fn warn_in_statement(&mut self, token: &Token, start: u32, diagnostic: Diagnostic) {
         let of_statement = |span: Span| {
             span.file == token.span.file && (start..token.span.start).contains(&span.start)
         };
-        if self.repeats(&diagnostic)
-            || (self.diagnostics.iter())
-                .any(|one| one.primary().is_some_and(|at| of_statement(at.span)))
-        {
-            return;
+        let told = |one: &Diagnostic| {
+            one.code != diagnostic.code
+                && one.primary().is_some_and(|primary| of_statement(primary.span))
+        };
+        if !self.repeats(&diagnostic) && !self.diagnostics.iter().any(told) {
+            self.report(&token.here, diagnostic);
         }
-        self.report(&token.here, diagnostic);
     }
+}
+
+/// Whether a statement's own directive ends with a `;`, or is none of the language's.
+fn ends_with_one(statement: &str) -> bool {
+    let Some((_, directive)) = statement.rsplit_once('#') else { return false };
+    let word = directive.trim_start().split(|c: char| !c.is_ascii_alphabetic()).next();
+    let known = word.and_then(Word::from_name).filter(|word| word.family() == Family::Directive);
+    !known.is_some_and(|word| !matches!(word, Word::Declare | Word::Local))
 }
 
 /// The version of the language from which on a declared number needs its `;`.

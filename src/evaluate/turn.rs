@@ -127,7 +127,9 @@ impl Evaluator<'_> {
             let chosen = match case.kind {
                 CaseKind::Value(id) => super::value::same(value, self.number(here, id)?),
                 CaseKind::Range(low, high) => {
+                    let span = here.unit.expression(low).span.to(here.unit.expression(high).span);
                     let (low, high) = (self.number(here, low)?, self.number(here, high)?);
+                    self.lint_empty_range(here, span, low, high);
                     (low..=high).contains(&value)
                 }
                 CaseKind::Otherwise => true,

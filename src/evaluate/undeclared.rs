@@ -10,8 +10,11 @@ use std::sync::LazyLock;
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionKind, FileId, Span};
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
 
+use super::expand::Macro;
+use super::stream::{Token, TokenKind};
 use super::value::Value;
 use super::{Evaluator, Here, Reported, Symbol};
 
@@ -142,6 +145,11 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
                 .help(format!("did you mean `{close}`, declared before its use?"));
+        } else if let Some((owner, parameter)) = self.macro_with_parameter(symbol) {
+            diagnostic = diagnostic
+                .at(span, "not declared here")
+                .also(parameter, format!("a parameter of macro `{owner}`"))
+                .help("a parameter is known in the body of its macro only");
         } else if is_no_number(name) {
             diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
                 .at(span, "the program that wrote this had no number here");
@@ -164,6 +172,15 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.at(span, "not declared up to here");
         }
         Some(diagnostic)
+    }
+
+    /// A macro that has a parameter of this name, and the parameter's place.
+    fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
+        let has =
+            |declared: &&Rc<Macro>| declared.parameters.iter().any(|&(name, _)| name == symbol);
+        let found = self.macros.iter().rev().find(has)?;
+        let owner = self.sources.text(found.defined).to_owned();
+        Some((owner, found.defined))
     }
 
     /// The standard include that declares `name`, where it was not read.
@@ -209,6 +226,59 @@ impl Evaluator<'_> {
             .fix(before, format!("#include \"{include}\"\n"))
     }
 
+    /// `Hello`, `grass.png` where a string should stand: quotes are missing.
+    pub(super) fn lacks_quotes(&mut self, here: &Here, id: ExpressionId) -> Option<Reported> {
+        let mut named = id;
+        if let ExpressionKind::Component(base, _) = here.unit.expression(named).kind {
+            named = base;
+        }
+        let symbol = self.unknown_name(here, named)?;
+        // A name that nearly is one of the author's is meant as that.
+        let name = self.scopes.name(symbol).to_owned();
+        if suggest::closest(&name, self.scopes.visible()).is_some()
+            || here.unit.declaration_of(symbol).is_some()
+        {
+            return None;
+        }
+        let span = here.unit.expression(id).span;
+        let text = self.sources.text(span);
+        let diagnostic = Diagnostic::new(
+            Code::UndeclaredName,
+            format!("expected a string, found `{text}`, which is not declared"),
+        )
+        .at(span, "a string stands in quotes")
+        .help(format!("write `\"{text}\"`"))
+        .fix(span, format!("\"{text}\""));
+        Some(self.report(here, diagnostic))
+    }
+
+    /// `distance(a, b)` where a value should stand: a word of the language that others call. Passes over it.
+    pub(super) fn called_elsewhere(&mut self, token: &Token, wanted: &str) -> Option<Diagnostic> {
+        let TokenKind::Word(word) = token.kind else { return None };
+        let call = self.call_elsewhere(word.name(), token.span, None)?;
+        self.next();
+        // Its arguments.
+        self.skip_behind_parenthesis(token.span);
+        let message = format!("expected {wanted}: `{}` is no function here", word.name());
+        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(token.span, "other languages call it")
+            .help(call.help);
+        Some(call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by)))
+    }
+
+    /// Passes over what stands in parentheses right behind `name`.
+    fn skip_behind_parenthesis(&mut self, name: Span) {
+        let Some(next) = self.peek_on().map(|next| next.span) else { return };
+        let text = &self.sources.get(name.file).text;
+        let between = text.get(name.end as usize..next.start as usize);
+        let group = next.file == name.file
+            && between.is_some_and(|between| between.trim().is_empty())
+            && text.get(next.start as usize..).is_some_and(|rest| rest.starts_with('('));
+        if group {
+            self.next();
+        }
+    }
+
     /// `len(A)`, `random()`: what another language would call, and what is called here.
     fn call_elsewhere(&mut self, name: &str, span: Span, close: Option<&str>) -> Option<Call> {
         if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
@@ -234,6 +304,10 @@ impl Evaluator<'_> {
                 Some(Value::String(_)) => Some(Call::renamed(span, "strlen")),
                 None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
                 Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
+                // `length(x, y, z)`: of three numbers.
+                None if inner.matches(',').count() == 2 && !inner.contains('<') => stays(
+                    "the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`",
+                ),
                 _ if name.eq_ignore_ascii_case("length") => None,
                 _ => stays(
                     "`dimension_size(A, 1)` of an array, `strlen(S)` of a string, `vlength(V)` of a \
@@ -249,6 +323,9 @@ impl Evaluator<'_> {
                 stays("within two values: `min(max(A, low), high)`")
             }
             "distance" => stays("from one point to another: `vlength(B - A)`"),
+            "smoothstep" => {
+                stays("with `#local T = min(max((X - A)/(B - A), 0), 1);` it is `T*T*(3 - 2*T)`")
+            }
             "hypot" => stays("the length of a vector: `vlength(<A, B, 0>)`"),
             "fract" | "frac" => stays("what is behind the point: `mod(A, 1)`"),
             "cbrt" => stays("the third root: `pow(A, 1/3)`"),

@@ -228,6 +228,20 @@ impl<'a> Nest<'a> {
             }
             self.finish_expression();
             let Some(frame) = self.pop() else { return };
+            // `<-1, 0, -1, <1, 2, 1>`: the second one is no component of the first.
+            let in_vector = self.in_vector();
+            let second = match self.arguments[frame.arguments..] {
+                [_, .., Argument::Expression(id)] if !in_vector => Some(id),
+                _ => None,
+            };
+            let second = second
+                .map(|id| *self.ast.expression(id))
+                .filter(|last| matches!(last.kind, ExpressionKind::Vector(_)));
+            if second.is_some() {
+                self.arguments.pop();
+            }
+            let before =
+                second.map_or(before, |second| Span { end: second.span.start + 1, ..second.span });
             if !told {
                 told = true;
                 let last = self.arguments[frame.arguments..].last();
@@ -252,6 +266,10 @@ impl<'a> Nest<'a> {
             let components = self.take_arguments(frame.arguments);
             let whole = Span { end: before.start.max(frame.open.end), ..frame.open };
             self.operand(ExpressionKind::Vector(components), whole, false);
+            if let Some(second) = second {
+                self.finish_expression();
+                self.operand(second.kind, second.span, false);
+            }
         }
     }
 }

@@ -147,8 +147,22 @@ fn is_python(line: &str) -> bool {
 /// `$fn = 64;`, `module leg() {`, `translate([0, 0, 1]) …`.
 fn is_openscad(line: &str) -> bool {
     let line = line.trim_start();
-    let calls =
-        ["translate([", "rotate([", "scale([", "cube(", "linear_extrude(", "rotate_extrude("];
+    let calls = [
+        "translate([",
+        "rotate([",
+        "scale([",
+        "mirror([",
+        "color([",
+        "color(\"",
+        "cube(",
+        "sphere(",
+        "cylinder(",
+        "square(",
+        "circle(",
+        "polygon(",
+        "linear_extrude(",
+        "rotate_extrude(",
+    ];
     let blocks = ["difference()", "union()", "intersection()", "hull()", "minkowski()", "module "];
     let special = ["$fn", "$fa", "$fs"]
         .iter()

@@ -210,6 +210,11 @@ impl<'a> Nest<'a> {
                 Item { kind: ItemKind::Expression(file), .. },
                 Item { kind: ItemKind::Word(mode), .. },
             ] => Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: Some(*mode) }),
+            [_, Item { kind: ItemKind::Expression(file), .. }, mode] => {
+                let message = "`#fopen` takes a handle, a file name and a mode";
+                self.expected_in_head(mode.span, message, "expected `read`, `write` or `append`");
+                Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: None })
+            }
             [_, Item { kind: ItemKind::Expression(file), span }, ..] => {
                 let message = "`#fopen` takes a handle, a file name and a mode";
                 let label = "expected `read`, `write` or `append` after this";

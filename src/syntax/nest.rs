@@ -17,8 +17,7 @@ use super::expression::Stacks;
 use super::token::{Bracket, Head, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
-use crate::vocabulary::Dialect;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Family, Word};
 
 /// An open bracket or directive.
 pub(super) struct Frame {
@@ -150,6 +149,9 @@ pub(super) fn nest<'a>(
     nest.ast
 }
 
+/// Quotes that no language of programs has, as word processors write them in some country.
+const QUOTES: [char; 10] = ['“', '”', '„', '‟', '«', '»', '‘', '’', '‚', '‛'];
+
 impl<'a> Nest<'a> {
     pub(super) fn span(&self, token: Token) -> Span {
         // A quote that was put in to close a string may lie behind the end.
@@ -272,10 +274,22 @@ impl<'a> Nest<'a> {
                 if let Some(&operator) = self.stacks.operators.last() {
                     let text = self.slice(operator.span);
                     let message = format!("expected a value after `{text}`");
-                    self.report(
-                        Diagnostic::new(Code::ExpectedExpression, message)
-                            .at(operator.span, "nothing it could be applied to follows"),
-                    );
+                    let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                        .at(operator.span, "nothing it could be applied to follows");
+                    let next = self.tokens.get(self.at).map(|token| token.kind);
+                    let of_objects =
+                        |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
+                    let diagnostic = match next {
+                        Some(TokenKind::Word(word)) if text == "-" && of_objects(word) => {
+                            diagnostic
+                                .help("objects are taken from each other by `difference { A B }`")
+                        }
+                        Some(TokenKind::Word(word)) if text == "+" && of_objects(word) => {
+                            diagnostic.help("objects are put together by `union { A B }`")
+                        }
+                        _ => diagnostic,
+                    };
+                    self.report(diagnostic);
                     self.operand(ExpressionKind::Missing, operator.span.after(), false);
                 }
             }
@@ -329,11 +343,12 @@ impl<'a> Nest<'a> {
                     .fix(span, ""),
             );
         }
-        if text == "“"
-            && let Some(length) = self.text[span.end as usize..].find(['”', '\n'])
-            && self.text[span.end as usize + length..].starts_with('”')
+        if text.chars().all(|c| QUOTES.contains(&c))
+            && let Some(rest) = self.text.get(span.end as usize..)
+            && let Some(close) = rest.find(|c| c == '\n' || QUOTES.contains(&c))
+            && let Some(quote) = rest[close..].chars().next().filter(|quote| *quote != '\n')
         {
-            return self.curly_string(span, span.end as usize + length);
+            return self.curly_string(span, span.end as usize + close, quote);
         }
         let shown: String = text.chars().flat_map(char::escape_debug).collect();
         let diagnostic = Diagnostic::new(
@@ -355,12 +370,14 @@ impl<'a> Nest<'a> {
     }
 
     /// `“…”`, as word processors write it: one mistake, and taken as a string that is not known.
-    fn curly_string(&mut self, open: Span, close: usize) {
-        let close = Span::new(self.file, close, close + '”'.len_utf8());
+    fn curly_string(&mut self, open: Span, close: usize, quote: char) {
+        let close = Span::new(self.file, close, close + quote.len_utf8());
+        let opening = self.slice(open);
+        let label = format!("expected a straight quote instead of `{opening}`");
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
-                .at(open, "expected a straight quote instead of `“`")
-                .also(close, "and instead of `”`")
+                .at(open, label)
+                .also(close, format!("and instead of `{quote}`"))
                 .help("strings stand between straight quotes: `\"…\"`")
                 .fix(open, "\"")
                 .fix(close, "\""),

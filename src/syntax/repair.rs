@@ -225,20 +225,24 @@ impl Repair<'_> {
         }
         self.surplus[index] += 1;
         let closer = bracket.closer();
-        let brace = Opener::Bracket(Bracket::Brace);
-        let swapped = self.surplus[index] <= 0 && self.surplus[Bracket::Brace as usize] > 0;
-        if bracket != Bracket::Brace
-            && swapped
-            && let Some(top) = self.open.pop_if(|top| top.opener == brace)
+        // Too many of the one opener, and too many of the other's closer: they are meant for each other.
+        let meant = match self.open.last().map(|top| top.opener) {
+            Some(Opener::Bracket(open)) => Some(open),
+            Some(Opener::Directive) | None => None,
+        };
+        if let Some(meant) = meant.filter(|&open| {
+            open != bracket && self.surplus[index] <= 0 && self.surplus[open as usize] > 0
+        }) && let Some(top) = self.open.pop()
         {
-            self.surplus[Bracket::Brace as usize] -= 1;
+            self.surplus[meant as usize] -= 1;
             self.insert_closer(&Open { outside: None, ..top }, at);
-            let message = format!("{} is closed by `{closer}`", self.shown(top.token));
+            let (message, right) =
+                (format!("{} is closed by `{closer}`", self.shown(top.token)), meant.closer());
             let diagnostic = Diagnostic::new(Code::StrayCloser, message)
-                .at(self.span(at), "expected `}` here")
+                .at(self.span(at), format!("expected `{right}` here"))
                 .also(self.span(top.token), "opened here")
-                .help("replace it with `}`")
-                .fix(self.span(at), "}");
+                .help(format!("replace it with `{right}`"))
+                .fix(self.span(at), right);
             return self.tell(diagnostic);
         }
         if let Some(open) = self.vector_before(at).filter(|_| bracket != Bracket::Brace) {

@@ -48,6 +48,9 @@ pub(super) fn correct_heads(
             token.kind = TokenKind::Directive(Head::Declare);
             continue;
         }
+        if reads_as_comment(text, span) {
+            continue;
+        }
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
@@ -71,6 +74,14 @@ pub(super) fn correct_heads(
         diagnostics.push(diagnostic);
     }
     drop_their_ends(tokens);
+}
+
+/// `# Declare the balls`: a sentence that begins with a word of the language (told in habits/sign.rs).
+fn reads_as_comment(text: &str, head: Span) -> bool {
+    let word = text.get(head.start as usize + 1..head.end as usize).unwrap_or("");
+    let prose = word.starts_with([' ', '\t']) && word.trim_start().starts_with(char::is_uppercase);
+    let line = text.get(head.end as usize..).and_then(|rest| rest.split(['\n', '\r']).next());
+    prose && line.is_some_and(|line| !line.contains(['=', '(', '"', '{']))
 }
 
 /// Whether what follows can be a condition, where a directive has one.

@@ -40,6 +40,11 @@ impl Evaluator<'_> {
             return Err(Reported);
         }
         self.stored += blob.bytes();
+        // Another shape is told where it stands.
+        let is_shape = |kind: &TokenKind| matches!(kind, TokenKind::Word(word) if word.family() == Family::Shape);
+        if count == 0 && self.peek().is_some_and(|next| is_shape(&next.kind)) {
+            return Err(Reported);
+        }
         if count == 0 {
             let diagnostic = Diagnostic::new(Code::MissingPart, "this blob has no component")
                 .at(token.span, "nothing to melt together")

@@ -55,8 +55,7 @@ impl Evaluator<'_> {
                     return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
                 }
             },
-            TokenKind::Comma => return Ok(()),
-            TokenKind::Semicolon => {
+            TokenKind::Comma | TokenKind::Semicolon => {
                 self.unexpected(token, Place::CAMERA);
                 return Ok(());
             }

@@ -6,6 +6,7 @@ use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::ColorMap;
 use crate::source::Site;
+use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
 use super::super::lint::Rise;
@@ -64,6 +65,18 @@ impl Evaluator<'_> {
                             parts.push(pieces::Part::name(site, &map));
                         }
                         Some(Value::Poison(poison)) => evaluator.set_poison(poison),
+                        _ if matches!(
+                            token.here.unit.expression(*id).kind,
+                            ExpressionKind::GroupItems(_)
+                        ) =>
+                        {
+                            let message = "an entry of a map stands in square brackets";
+                            let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+                                .at(token.span, "expected `[` and `]` around it")
+                                .help("write `[value colour]`");
+                            evaluator.report(&token.here, diagnostic);
+                            failed = true;
+                        }
                         _ => {
                             evaluator.unexpected(&token, Place::COLOR_MAP);
                             failed = true;

@@ -7,8 +7,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
+use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Reported};
-use super::Place;
+use super::{Place, opens_value};
 
 impl Evaluator<'_> {
     /// `0,5` whose `5` stands at `span`: all of it, and how it is written.
@@ -50,6 +51,59 @@ impl Evaluator<'_> {
         };
         let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// A word where a value should stand: `size` for `Size`, which is declared, or what other languages call.
+    pub(super) fn meant_by_word(
+        &mut self,
+        diagnostic: Diagnostic,
+        next: Option<&Token>,
+        wanted: &str,
+    ) -> Diagnostic {
+        let Some(&Token { kind: TokenKind::Word(word), span, .. }) = next else {
+            return diagnostic;
+        };
+        let is_meant = |name: &&str| name.eq_ignore_ascii_case(word.name());
+        let declared = self.scopes.visible().find(is_meant).map(str::to_owned);
+        if let Some(name) = declared {
+            self.next();
+            return diagnostic.help(format!("did you mean `{name}`?")).fix(span, name);
+        }
+        next.and_then(|next| self.called_elsewhere(next, wanted)).unwrap_or(diagnostic)
+    }
+
+    /// `scale { 2 }`, `rgb {1, 0, 0}`: a value that stands in braces. Passes over it.
+    pub(super) fn value_in_braces(
+        &mut self,
+        after: &Token,
+        next: &Token,
+        wanted: &str,
+    ) -> Option<Reported> {
+        let TokenKind::Block(_) = next.kind else { return None };
+        let name = match after.kind {
+            TokenKind::Word(word) if !opens_value(word) => word.name(),
+            _ => return None,
+        };
+        let inside = self.sources.text(next.span).strip_prefix('{')?.strip_suffix('}')?.trim();
+        // A row of numbers is a vector without its angle brackets.
+        let row = inside.contains(',') && !inside.contains(['<', '(']);
+        let value = if row { format!("<{inside}>") } else { inside.to_owned() };
+        let short = !inside.is_empty() && !inside.contains(['\n', '{']) && inside.len() < 60;
+        let opener = Span { end: next.span.start + 1, ..next.span };
+        let message = format!("`{name}` takes {wanted} without braces");
+        let mut diagnostic =
+            Diagnostic::new(Code::MissingPart, message).at(opener, format!("expected {wanted}"));
+        if short {
+            let right = format!("{name} {value}");
+            diagnostic = diagnostic.help(format!("write `{right}`")).fix(next.span, value);
+        }
+        let reported = self.report(&after.here, diagnostic);
+        self.next();
+        let TokenKind::Block(contents) = next.kind else { return None };
+        let before = self.told();
+        self.inside_block(&next.here, contents, next.span, Self::run_items);
+        self.take_back(before);
+        Some(reported)
     }
 
     /// `sphere { 0 0 0, 1 }`: as many bare numbers as make `points` points and `numbers` numbers. Tells the

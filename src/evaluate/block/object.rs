@@ -232,11 +232,14 @@ impl Evaluator<'_> {
     pub(super) fn children(&mut self) -> Vec<ObjectId> {
         let mut children = Vec::new();
         loop {
-            self.skip_commas();
-            if let Some(token) = self.next_if(|kind| matches!(kind, TokenKind::Semicolon)) {
+            let sign = |kind: &TokenKind| matches!(kind, TokenKind::Semicolon | TokenKind::Comma);
+            if let Some(token) = self.next_if(sign) {
                 let opener = self.openers.last().map(|opener| self.sources.text(*opener));
                 let word = opener.and_then(Word::from_name).unwrap_or(Word::Union);
-                self.warn_of_semicolon(&token, Place::csg(word));
+                match token.kind {
+                    TokenKind::Comma => self.warn_of_comma(&token, Place::csg(word)),
+                    _ => self.warn_of_semicolon(&token, Place::csg(word)),
+                }
                 continue;
             }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };

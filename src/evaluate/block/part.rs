@@ -98,6 +98,11 @@ impl Evaluator<'_> {
             if self.missing_at.replace(place) == Some(place) {
                 return Err(Reported);
             }
+            if let Some(next) = &next
+                && let Some(reported) = self.value_in_braces(after, next, wanted)
+            {
+                return Err(reported);
+            }
             let name = self.describe(after);
             let diagnostic = match next {
                 Some(ref found) => {
@@ -118,22 +123,7 @@ impl Evaluator<'_> {
                 TokenKind::Word(word) => diagnostic.help(word.sentence().to_owned()),
                 _ => diagnostic,
             };
-            // `size`, which is a word, for `Size`, which is declared.
-            let meant = next.as_ref().and_then(|next| match next.kind {
-                TokenKind::Word(word) => {
-                    let is_meant = |name: &&str| name.eq_ignore_ascii_case(word.name());
-                    let name = self.scopes.visible().find(is_meant)?.to_owned();
-                    Some((next.span, name))
-                }
-                _ => None,
-            });
-            let diagnostic = match meant {
-                Some((span, name)) => {
-                    self.next();
-                    diagnostic.help(format!("did you mean `{name}`?")).fix(span, name)
-                }
-                None => diagnostic,
-            };
+            let diagnostic = self.meant_by_word(diagnostic, next.as_ref(), wanted);
             return Err(self.report(&after.here, diagnostic));
         }
         self.next().ok_or(Reported)

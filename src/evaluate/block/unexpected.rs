@@ -20,7 +20,7 @@ impl Evaluator<'_> {
         // Behind a word that is not built, what stands here may belong to it.
         let of_poison = self.poison.is_some();
         match &token.kind {
-            TokenKind::Comma => {}
+            TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
             TokenKind::Word(word) if of_poison => {
                 let poison = Poison { word: *word, site: token.here.site(token.span) };
@@ -50,6 +50,7 @@ impl Evaluator<'_> {
                             Some(Value::Macro(_)) => {
                                 self.macro_not_called(&token.here, symbol, token.span);
                                 self.skip_values();
+                                self.skip_block_of(token);
                             }
                             Some(value) => self.unexpected_value(token, &value, place),
                         }
@@ -191,7 +192,10 @@ impl Evaluator<'_> {
             self.old_word(token, word, today);
             return;
         }
-        if place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
+        let is_setting = place.word.is_none()
+            && word.family() == Family::Setting
+            && home(word).is_some_and(|home| home == Word::GlobalSettings && home != word);
+        if !is_setting && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
             self.skip_arguments(word);
             self.set_poison(poison);
@@ -209,7 +213,22 @@ impl Evaluator<'_> {
         if word.family() == Family::Directive {
             return self.directive_without_sign(token, word);
         }
-        let diagnostic = if let Some(meant) = place.meant(word, has_block) {
+        if matches!(word, Word::Degrees | Word::Radians)
+            && let Some(diagnostic) = self.unit_of_angle(token, word)
+        {
+            self.report(&token.here, diagnostic);
+            return;
+        }
+        let longer = || {
+            let longer = |other: &&str| {
+                let rest = other.strip_prefix(name);
+                name.contains('_') && rest.is_some_and(|rest| rest.starts_with('_'))
+            };
+            let mut words = place.words(dialect).filter(longer);
+            words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)
+        };
+        let meant = place.meant(word, has_block).or_else(|| longer().filter(|_| !has_block));
+        let diagnostic = if let Some(meant) = meant {
             let (meant, sentence) = (meant.name(), meant.sentence());
             let message = format!("`{name}` has no meaning {}", place.name());
             let diagnostic = Diagnostic::new(Code::UnknownWord, message)
@@ -282,6 +301,44 @@ impl Evaluator<'_> {
             Some(near) if is_transform(near) => self.skip_values(),
             _ => self.skip_arguments(word),
         }
+    }
+
+    /// The braces that stand where a call has parentheses.
+    fn skip_block_of(&mut self, token: &Token) {
+        let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
+        else {
+            return;
+        };
+        let text = &self.sources.get(token.span.file).text;
+        let between = text.get(token.span.end as usize..span.start as usize);
+        if span.file != token.span.file || !between.is_some_and(|text| text.trim().is_empty()) {
+            return;
+        }
+        self.next();
+        let before = self.told();
+        self.inside_block(&here, contents, span, Self::run_items);
+        self.take_back(before);
+    }
+
+    /// `rotate 45 degrees`.
+    fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
+        let name = word.name();
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize)?.trim_end();
+        if !before.ends_with(|c: char| c.is_ascii_alphanumeric() || ")>*".contains(c)) {
+            return None;
+        }
+        let message = format!("`{name}` has no meaning behind a number");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "angles of the language are in degrees");
+        Some(match word {
+            Word::Degrees => diagnostic
+                .help("leave it out: `rotate 45*y`")
+                .fix(Span { start: before.len() as u32, ..token.span }, ""),
+            _ => {
+                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
+            }
+        })
     }
 
     /// `composite { … }`, `alpha 0.5`: the word of today is meant.

@@ -53,7 +53,10 @@ impl Evaluator<'_> {
         has_block: bool,
         place: Place,
     ) {
+        // A face of four corners has too many for a triangle.
         let meant = near.filter(|_| has_block).and_then(Word::from_name);
+        let is_quad = self.sources.text(token.span).eq_ignore_ascii_case("quad");
+        let meant = meant.filter(|_| !is_quad);
         if let Some(word) = meant
             && self.judge_block(token, word)
         {

@@ -53,6 +53,11 @@ impl Evaluator<'_> {
         if given.value == Vector::ZERO || !is_literal(text) {
             return;
         }
+        // `rotate 45 degrees` is told as that.
+        let behind = self.sources.get(given.span.file).text.get(given.span.end as usize..);
+        if behind.is_some_and(|text| text.trim_start().starts_with("deg")) {
+            return;
+        }
         let message = "a number turns about all three axes, one after the other";
         let diagnostic = Diagnostic::new(Code::ShortVector, message)
             .at(given.span, format!("this is <{text}, {text}, {text}>"))

@@ -158,6 +158,19 @@ impl Reader<'_> {
     /// `#if (A) then`, `#while (A):`.
     fn then(&mut self, meant: &mut Vec<Token>) -> bool {
         let Some(close) = self.closed(1, Bracket::Round) else { return false };
+        if close > 3 && self.slice_is(close - 1, "then") {
+            let span = self.span(close - 1, close - 1);
+            let before = self.span(close - 2, close - 2);
+            let diagnostic =
+                Diagnostic::new(Code::UnexpectedCharacter, "no `then` stands in a condition")
+                    .at(span, "a sign of another language")
+                    .help("the body begins right after the parenthesis")
+                    .fix(Span { start: before.end, ..span }, "");
+            self.diagnostics.push(diagnostic);
+            self.dropped.insert(self.at + close - 1, false);
+            self.take(meant);
+            return true;
+        }
         if !(self.is(close + 1, Mark::Colon) || self.slice_is(close + 1, "then")) {
             return false;
         }

@@ -68,6 +68,19 @@ impl Reader<'_> {
         true
     }
 
+    /// The word of the language that an invisible character parts in two.
+    fn word_around(&self, meant: &[Token]) -> Option<Word> {
+        let (before, after) = (meant.last()?, self.tokens.get(self.at + 1)?);
+        let here = self.tokens[self.at];
+        let is_part = |kind| matches!(kind, TokenKind::Name | TokenKind::Word(_));
+        let touch = before.end == here.start && here.end == after.start;
+        if !touch || !is_part(before.kind) || !is_part(after.kind) {
+            return None;
+        }
+        let text = |token: &Token| self.text.get(token.start as usize..token.end as usize);
+        Word::from_name(&format!("{}{}", text(before)?, text(after)?))
+    }
+
     /// Whether a name is not used for something else in this file.
     fn is_free(&self, name: &str) -> bool {
         name == "pi"
@@ -83,6 +96,7 @@ impl Reader<'_> {
         let text = self.slice(0).to_owned();
         let Some((name, ours)) = sign(&text) else { return false };
         let span = self.span(0, 0);
+        let word = if ours.is_empty() { self.word_around(meant) } else { None };
         let mut diagnostic = Diagnostic::new(
             Code::UnexpectedCharacter,
             format!("{name} has no meaning in the language"),
@@ -97,6 +111,14 @@ impl Reader<'_> {
                 .help(format!("replace it with `{ours}`")),
         };
         self.diagnostics.push(diagnostic.fix(span, ours));
+        if let Some(word) = word
+            && let Some(last) = meant.last_mut()
+        {
+            // The rest of the word goes with it.
+            let end = self.tokens[self.at + 1].end;
+            (last.kind, last.end) = (TokenKind::Word(word), end);
+            self.at += 1;
+        }
         if let Some(mark) = mark(ours) {
             let token = Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at] };
             match mark {

@@ -176,10 +176,14 @@ impl Reader<'_> {
                     || (!self.ascii && self.sign(meant))
             }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
-            TokenKind::Mark(Mark::Open(Bracket::Brace)) => self.template(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
+                self.template(meant) || self.vector(meant)
+            }
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
+            TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
+            TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
             }

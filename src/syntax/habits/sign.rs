@@ -21,9 +21,7 @@ impl Reader<'_> {
         }
         let open = usize::from(made);
         let bracket = match self.kind(open) {
-            Some(TokenKind::Mark(Mark::Open(bracket @ (Bracket::Round | Bracket::Square)))) => {
-                bracket
-            }
+            Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
             _ => return false,
         };
         let before = |back: usize| {
@@ -36,6 +34,12 @@ impl Reader<'_> {
             && matches!(before(2), Some(TokenKind::Word(_) | TokenKind::Name));
         let fits = match before(1) {
             _ if argument => true,
+            // `rgb {1, 0, 0}`; other braces hold parts, or rows of an array.
+            Some(TokenKind::Word(word)) if bracket == Bracket::Brace => {
+                word.role() == Role::Statement
+                    && matches!(word.family(), Family::Transform | Family::Color)
+            }
+            _ if bracket == Bracket::Brace => false,
             Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
             // `= [1, 2, 3]` is rather an array.
             Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
@@ -107,7 +111,11 @@ impl Reader<'_> {
 
     /// `and`, `or`, `not` inside parentheses.
     pub(super) fn logic(&mut self, meant: &mut Vec<Token>) -> bool {
-        if !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
+        // `#declare A = not B;`
+        let after_equal =
+            meant.last().is_some_and(|last| last.kind == TokenKind::Mark(Mark::Equal));
+        let begins = after_equal && self.slice(0).eq_ignore_ascii_case("not");
+        if !begins && !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
             return false;
         }
         let (mark, sign) = match self.slice(0) {
@@ -117,7 +125,14 @@ impl Reader<'_> {
             _ => return false,
         };
         // A name of this spelling would be followed by an operator or the end.
-        if matches!(self.kind(1), Some(TokenKind::Mark(Mark::Close(_) | Mark::Comma)) | None) {
+        let ends = match self.kind(1) {
+            Some(TokenKind::Mark(mark)) => {
+                matches!(mark, Mark::Close(_) | Mark::Comma) || begins && !is_opener(mark)
+            }
+            Some(_) => false,
+            None => true,
+        };
+        if ends {
             return false;
         }
         let name = self.slice(0).to_owned();
@@ -128,6 +143,55 @@ impl Reader<'_> {
                 .fix(self.span(0, 0), sign);
         self.diagnostics.push(diagnostic);
         meant.push(Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at] });
+        self.at += 1;
+        true
+    }
+
+    /// `(N => 2)`, `(N <> 2)`: comparisons as other languages write them.
+    pub(super) fn turned(&mut self, meant: &mut Vec<Token>) -> bool {
+        if !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) || !self.touches(1) {
+            return false;
+        }
+        let (mark, sign) = match (self.kind(0), self.kind(1)) {
+            (Some(TokenKind::Mark(Mark::Equal)), Some(TokenKind::Mark(Mark::Greater))) => {
+                (Mark::GreaterOrEqual, ">=")
+            }
+            (Some(TokenKind::Mark(Mark::Less)), Some(TokenKind::Mark(Mark::Greater))) => {
+                (Mark::NotEqual, "!=")
+            }
+            _ => return false,
+        };
+        let span = self.span(0, 1);
+        let text = self.text.get(span.range()).unwrap_or("").to_owned();
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, format!("`{text}` is written `{sign}`"))
+                .at(span, "an operator of another language")
+                .help(format!("replace it with `{sign}`"))
+                .fix(span, sign);
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Mark(mark), end: span.end, ..self.tokens[self.at] });
+        self.at += 2;
+        true
+    }
+
+    /// `#macro Leaf(S; T)`: arguments, which commas part.
+    pub(super) fn semicolon_in_list(&mut self, meant: &mut Vec<Token>) -> bool {
+        if !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
+            return false;
+        }
+        let span = self.span(0, 0);
+        let rest = self.text.get(span.end as usize..).unwrap_or("");
+        let list = rest.split(['#', '(', '{', '}', '\n', '\r']).next().unwrap_or("");
+        if !list.contains(')') || list.trim_start().starts_with(')') {
+            return false;
+        }
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "commas part what stands in parentheses")
+                .at(span, "expected `,`")
+                .help("replace the `;` with `,`")
+                .fix(span, ",");
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Mark(Mark::Comma), ..self.tokens[self.at] });
         self.at += 1;
         true
     }
@@ -297,4 +361,8 @@ impl Reader<'_> {
         }
         true
     }
+}
+
+fn is_opener(mark: Mark) -> bool {
+    matches!(mark, Mark::Open(_))
 }
