@@ -2,6 +2,8 @@
 
 #[path = "hard/alike.rs"]
 mod alike;
+#[path = "hard/bodies.rs"]
+mod bodies;
 #[path = "hard/clear.rs"]
 mod clear;
 #[path = "hard/coinciding.rs"]
@@ -9,6 +11,8 @@ mod coinciding;
 #[path = "hard/deep.rs"]
 mod deep;
 mod dice;
+#[path = "hard/every.rs"]
+mod every;
 #[path = "hard/exact.rs"]
 mod exact;
 #[path = "hard/frames.rs"]
@@ -34,6 +38,8 @@ mod page;
 #[path = "benches/numerics/rows.rs"]
 #[allow(dead_code, reason = "the benchmark tells the rows apart by name")]
 mod rows;
+#[path = "hard/round.rs"]
+mod round;
 #[path = "hard/scaled.rs"]
 mod scaled;
 #[path = "hard/scene.rs"]
@@ -42,6 +48,10 @@ mod scene;
 mod sizes;
 #[path = "hard/solids.rs"]
 mod solids;
+#[path = "benches/numerics/sturm.rs"]
+mod sturm;
+#[path = "hard/things.rs"]
+mod things;
 #[path = "hard/trees.rs"]
 mod trees;
 #[path = "hard/turns.rs"]

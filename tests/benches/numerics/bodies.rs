@@ -9,7 +9,7 @@ use lucarne::shape::{Algebraic, Body, Cone, Crossing, Cylinder, Mesh, Placed, Ra
 
 use crate::dice::Dice;
 use crate::naive::{V32, V64, double, single};
-use crate::sturm::least_root;
+use crate::sturm::roots;
 use crate::subjects::{Answer, Rounded, Subject, local, root, somewhere, v64};
 use crate::wide::{Wide, WideVector};
 
@@ -186,11 +186,11 @@ impl Form for Ring {
         let reach = Wide::of(2.0) / &d.length();
         let between = (&middle - &reach, middle + &reach);
         let [thin, meant, thick] = [MINOR * (1.0 - NEAR), MINOR, MINOR * (1.0 + NEAR)]
-            .map(|minor| least_root(&polynomial(minor), &between));
-        match (thin, meant, thick) {
-            ((_, 0), _, (_, 0)) => Answer::Misses,
-            ((_, thin), (Some(t), meant), (_, thick)) if thin == meant && meant == thick => {
-                Answer::Enters(t)
+            .map(|minor| roots(&polynomial(minor), &between));
+        match (thin.len(), meant.as_slice(), thick.len()) {
+            (0, _, 0) => Answer::Misses,
+            (thin, [first, ..], thick) if thin == meant.len() && meant.len() == thick => {
+                Answer::Enters(first.clone())
             }
             _ => Answer::Either,
         }
