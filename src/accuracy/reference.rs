@@ -11,7 +11,7 @@ use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{
-    self, Counters, Pixels, Sampling, TraceOptions, Traced, Watch, pixels, trace_in,
+    self, Aim, Counters, Pixels, Sampling, Seen, TraceOptions, Traced, Watch, pixels, seen, trace_in,
 };
 use crate::world::World;
 
@@ -72,6 +72,11 @@ impl Studio<'_> {
     pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
         let geometry = self.geometry(plan);
         pixels(self.world, &geometry, plan, list, sampling, &self.options, self.watch)
+    }
+
+    /// Some pixels under a Plan, each by as many samples as it says.
+    pub fn seen(&self, plan: &Plan, aims: &[Aim]) -> (Vec<Option<Seen>>, Counters) {
+        seen(self.world, &self.geometry(plan), plan, aims, &self.options, self.watch)
     }
 
     /// The colours of the first pixels of a list: of all of them, unless it was stopped.
