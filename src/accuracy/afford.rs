@@ -7,7 +7,6 @@
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
-use crate::math::elementary::pow;
 use crate::plan::{Plan, PlanOptions, plan};
 use crate::trace::Watch;
 use crate::world::Origins;

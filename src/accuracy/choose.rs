@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use super::knob::{Knob, cost};
-use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
 use crate::plan::{Antialias, PlanOptions, plan};

@@ -7,12 +7,12 @@
 //! **Source:** M. Hansen, W. Hurwitz, "On the theory of sampling from finite populations", Annals of
 //! Mathematical Statistics 14, 1943.
 
+use super::afford::Deadline;
 use super::measure::Clock;
 use super::promise::Audit;
 use super::reference::{Studio, clamped, colors_of};
 use super::refine::{Canvas, Worth, place};
 use super::statistics::{Deviation, Estimate, Metric, weighted};
-use super::afford::Deadline;
 use crate::film::Film;
 use crate::math::random::Random;
 use crate::plan::Plan;
@@ -105,8 +105,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Of as many pixels as there is time for, and no more than [`MOST`]; those that `is_enough` of are
-    /// not stopped before `latest`.
+    /// Of as many pixels as are done when the clock shows what `until` says to those that are known, and
+    /// of no more than [`MOST`].
     pub fn find(
         studio: &Studio,
         plan: &Plan,
@@ -114,8 +114,11 @@ impl Truth {
         (metric, seed): (Metric, u64),
         (clock, until): (&dyn Clock, &dyn Fn(usize) -> f64),
     ) -> Self {
-        let mut truth = Self { drawn: Vec::new(), halves: Default::default(), counters: Counters::default() };
-        while truth.drawn.len() < MOST && clock.wall() < until(truth.drawn.len()) {
+        let mut truth =
+            Self { drawn: Vec::new(), halves: Default::default(), counters: Counters::default() };
+        // A small picture's pixels are soon all known.
+        let most = MOST.min(urn.errors.len()).max(LEAST);
+        while truth.drawn.len() < most && clock.wall() < until(truth.drawn.len()) {
             let block = if truth.drawn.is_empty() { LEAST } else { BLOCK };
             let drawn: Vec<Drawn> = (0..block).map(|_| urn.draw()).collect();
             let first = truth.drawn.len() as u64;
@@ -184,6 +187,6 @@ fn resolution(metric: Metric, error: Estimate, noise: f64) -> f64 {
 fn side(metric: Metric, side: u32) -> u32 {
     match metric {
         Metric::Rmse => (side + side.div_ceil(10)).max(2),
-        Metric::P99 | Metric::Bad => (2 * side).max(8),
+        Metric::P99 | Metric::Bad => (2 * side).clamp(8, 48),
     }
 }

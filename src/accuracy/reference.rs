@@ -11,7 +11,8 @@ use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{
-    self, Aim, Counters, Pixels, Sampling, Seen, TraceOptions, Traced, Watch, pixels, seen, trace_in,
+    self, Aim, Counters, Pixels, Sampling, Seen, TraceOptions, Traced, Watch, pixels, seen,
+    trace_in,
 };
 use crate::world::World;
 
@@ -226,18 +227,6 @@ impl Reference {
             Metric::Bad => 0.0,
         };
         metric.floor(&self.deviations(&self.halves[0])).max(rounding)
-    }
-
-    /// Takes its first pixels, as many as `finer` has, from that, which has more samples of each.
-    pub fn first_from(&mut self, finer: Self) {
-        let done = finer.pixels();
-        for (half, better) in self.halves.iter_mut().zip(finer.halves) {
-            half.splice(..done, better);
-        }
-        if done == self.pixels() {
-            self.step = finer.step;
-        }
-        self.counters += finer.counters;
     }
 
     /// Both, as one list after the other.

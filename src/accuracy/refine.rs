@@ -82,7 +82,8 @@ impl Worth {
     /// Samples along a pixel's side where a mean pixel has `fineness` samples: by Neyman's allocation,
     /// as many as the root of the variance says, and those that are spread evenly.
     fn side(&self, i: usize, fineness: f64) -> u32 {
-        let weight = (f64::from(self.variances[i].sqrt()) + self.evenly) / (self.mean + self.evenly);
+        let weight =
+            (f64::from(self.variances[i].sqrt()) + self.evenly) / (self.mean + self.evenly);
         ((fineness * weight).sqrt().round() as u32).min(MOST_SIDE)
     }
 }
@@ -119,16 +120,20 @@ impl Canvas {
     /// pixel's variance is shrunk toward what is near: the mean of its neighbours' variances, or what an
     /// edge as high as it differs from one of them would have, d²/4.
     pub fn worth(&self, studio: &Studio) -> Option<Worth> {
-        let threads = studio.options.threads.or(thread::available_parallelism().ok().map(NonZero::get));
-        let in_rows = Rows { width: self.film.frame.region.width as usize, threads, watch: studio.watch };
+        let threads =
+            studio.options.threads.or(thread::available_parallelism().ok().map(NonZero::get));
+        let in_rows =
+            Rows { width: self.film.frame.region.width as usize, threads, watch: studio.watch };
         let (count, gamma) = (self.pixels(), self.film.assumed_gamma);
-        let colors = in_rows.map(count, |i| clamped(self.film.radiance[i], gamma).map(|c| c as f32))?;
+        let colors =
+            in_rows.map(count, |i| clamped(self.film.radiance[i], gamma).map(|c| c as f32))?;
         let alone = in_rows.map(count, |i| {
             let (mut near, mut sum, mut edge) = (0.0f32, 0.0f32, 0.0f32);
             in_rows.around(i, count, |j| {
                 near += 1.0;
                 sum += self.variances[j];
-                let off = colors[i].iter().zip(colors[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f32>();
+                let off =
+                    colors[i].iter().zip(colors[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f32>();
                 edge = edge.max(off / 4.0);
             });
             let near = edge.max(sum / near.max(1.0));

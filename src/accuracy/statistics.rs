@@ -219,10 +219,14 @@ pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estim
             let off: Vec<f64> = pixels.iter().map(|pixel| metric.part(pixel)).collect();
             let own: Vec<f64> = pixels.iter().map(|pixel| metric.part(&noise(pixel))).collect();
             let value = exceeded(&off, weights, 0.01);
-            let draws = equal_draws(&parts(&|p| f64::from(u8::from(metric.part(p) > value))), weights);
+            let draws =
+                equal_draws(&parts(&|p| f64::from(u8::from(metric.part(p) > value))), weights);
             let (few, many) = wilson(0.01 * draws, draws);
             let (low, high) = (exceeded(&off, weights, many), exceeded(&off, weights, few));
-            (Estimate { value, low: low.min(value), high: high.max(value) }, exceeded(&own, weights, 0.01))
+            (
+                Estimate { value, low: low.min(value), high: high.max(value) },
+                exceeded(&own, weights, 0.01),
+            )
         }
     }
 }

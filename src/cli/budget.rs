@@ -98,8 +98,11 @@ impl About {
             }
             Some(audit) => {
                 let pixels = audit.pixels;
-                let said =
-                    format!("{}, on {pixels} pixels, after {:.2} s\n{made}\n", error(audit), self.now);
+                let said = format!(
+                    "{}, on {pixels} pixels, after {:.2} s\n{made}\n",
+                    error(audit),
+                    self.now
+                );
                 (said, Exit::Done)
             }
             None if spent.is_less => {

@@ -178,7 +178,9 @@ impl<'a> Pixel<'a> {
     fn aimed(&self, walk: &mut Walk, &Aim { place, side, seed }: &Aim) -> Seen {
         let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
         let add = |seen: Rgb| {
-            for (c, (sum, square)) in seen.components().into_iter().zip(sum.iter_mut().zip(&mut squares)) {
+            for (c, (sum, square)) in
+                seen.components().into_iter().zip(sum.iter_mut().zip(&mut squares))
+            {
                 let c = c.clamp(0.0, Seen::BRIGHTEST);
                 *sum += c;
                 *square += c * c;
