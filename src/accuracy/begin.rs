@@ -4,7 +4,7 @@
 //! **Invariant:** one setting for the whole picture: the scene's own wherever it fits. Only pixels that
 //! were still left when a forecast turned out wrong have others, and they are counted.
 
-use super::afford::Deadline;
+use super::afford::{Deadline, LEAST};
 use super::audit;
 use super::easel::Easel;
 use super::knob::Knob;
@@ -18,10 +18,8 @@ use crate::world::Origins;
 /// Of the time there is, what the first pass may be predicted to take: the rest is for what the
 /// prediction is wrong by. On the gallery and on heaps of glass it was off by up to a fifth.
 const FOR_FIRST: f64 = 0.75;
-/// Of the pixels one of so many is looked at to predict it, and at least so many: beside fewer it counts
-/// what it takes to begin.
+/// Of the pixels one of so many is looked at to predict it: they take a hundredth of the time.
 const ONE_OF: u32 = 100;
-const LEAST: u32 = 256;
 /// Of the time for the first pass: what is kept for the cheapest settings, if others take too long after
 /// all. Those are many times as fast.
 const FOR_REST: f64 = 0.1;
@@ -113,7 +111,7 @@ fn affordable(
 ) -> PlanOptions {
     let region = own.frame.region;
     let pixels = region.width.saturating_mul(region.height);
-    let few = (pixels / ONE_OF).max(LEAST);
+    let few = (pixels / ONE_OF).max(LEAST as u32);
     let list = audit::sets(region, few, 1, seed).remove(0);
     let share = list.len() as f64 / f64::from(pixels);
     let fits = |options: &PlanOptions| {
