@@ -1,4 +1,4 @@
-//! The finest reference there is time for.
+//! The reference there is time for.
 //!
 //! **In:** pixels in an order that any first part of is spread over the picture, and a time to be done
 //! by. **Out:** a reference of a first part of them. **Invariant:** it looks as deep as can be, if need
@@ -7,7 +7,6 @@
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
-use crate::math::elementary::pow;
 use crate::plan::{Plan, PlanOptions, plan};
 use crate::trace::Watch;
 use crate::world::Origins;
@@ -16,8 +15,6 @@ use crate::world::Origins;
 pub const LEAST: usize = 30;
 /// Fewer pixels than this are not worth many samples each, as a rule.
 pub const FEW: usize = 128;
-/// Of the time there is: what finding out may take how fine a reference must be.
-const FOR_TASTE: f64 = 0.25;
 /// Of the time there is: what a first look all the way may take, and each one less deep.
 const FOR_ALL_THE_WAY: f64 = 1.0 / 3.0;
 const FOR_LESS: f64 = 1.0 / 6.0;
@@ -76,114 +73,57 @@ pub struct Affordable {
     pub a_sample: f64,
 }
 
-/// What a reference is to tell.
-pub struct Wanted<'a> {
-    /// At most, of each pixel.
-    pub samples: u32,
-    /// Fewer pixels than this are not worth many samples each.
-    pub few: usize,
-    /// Whether [`Reference::ROUGH`] tells anything.
-    pub rough: bool,
-    /// How many times too large a reference's own error is; at most 1 where it is fine enough.
-    pub too_coarse: &'a dyn Fn(&Reference) -> f64,
-}
-
-/// The finest reference of the first pixels of `list` that is done when the clock shows `until`, of
-/// no more than `samples` a pixel. `None` where not even one is that looks one surface deep.
+/// A reference of as many of the first pixels of `list` as are done when the clock shows `until`, the
+/// coarsest, or where that would be of too few a rough one. `None` where not even one is that looks one surface deep.
 pub fn reference(
     studio: &Studio,
     depths: &Depths,
     list: &[(u32, u32)],
     seed: u64,
-    time: (&dyn Clock, f64),
-    samples: u32,
-) -> Option<Affordable> {
-    let wanted = Wanted { samples, few: FEW, rough: true, too_coarse: &|_| 0.0 };
-    resolving(studio, depths, list, seed, time, &wanted)
-}
-
-/// As [`reference`]; where it would be too coarse, of fewer pixels with more samples each.
-pub fn resolving(
-    studio: &Studio,
-    depths: &Depths,
-    list: &[(u32, u32)],
-    seed: u64,
     (clock, until): (&dyn Clock, f64),
-    wanted: &Wanted,
 ) -> Option<Affordable> {
     let rough = deepest(studio, depths, &list[..list.len().min(LEAST)], seed, (clock, until))?;
     let in_time = Deadline { clock, until, watch: studio.watch };
     let studio = Studio { watch: &in_time, ..*studio };
-    let reference = finest(&studio, &rough, list, seed, (clock, until), wanted)?;
+    let reference = finest(&studio, &rough, list, seed, (clock, until));
     Some(Affordable { reference, ..rough })
 }
 
-/// As [`resolving`], after a rough look.
+/// As [`reference`], after a rough look.
 fn finest(
     studio: &Studio,
     rough: &Affordable,
     list: &[(u32, u32)],
     seed: u64,
     (clock, until): (&dyn Clock, f64),
-    wanted: &Wanted,
-) -> Option<Reference> {
+) -> Reference {
     let first =
         |pixels: usize, step| Reference::first(studio, &rough.plan, &list[..pixels], seed, step);
-    let affordable = |step, part: f64| {
-        let samples = part * PREDICTED * (until - clock.wall()).max(0.0) / rough.a_sample;
+    let affordable = |step| {
+        let samples = PREDICTED * (until - clock.wall()).max(0.0) / rough.a_sample;
         ((samples / f64::from(Reference::samples_at(step))) as usize).min(list.len())
     };
-    let finest = Reference::finest_within(wanted.samples as usize).max(Reference::COARSEST);
 
     // Where even few pixels are too many, fewer samples; and nothing is lost where that was stopped: the
     // pixels that were done are a list's first.
     let roughly = || {
-        let more = first(affordable(Reference::ROUGH, 1.0), Reference::ROUGH);
+        let more = first(affordable(Reference::ROUGH), Reference::ROUGH);
         let is_more = more.pixels() > rough.reference.pixels();
-        wanted.rough.then(|| if is_more { more } else { rough.reference.clone() })
+        if is_more { more } else { rough.reference.clone() }
     };
-    let few = wanted.few.min(list.len());
-    if affordable(Reference::COARSEST, 1.0) < few {
+    let (few, many) = (FEW.min(list.len()), affordable(Reference::COARSEST));
+    if many < few {
         return roughly();
     }
-    // A part of the time tells how fine it must be.
-    let tasted = affordable(Reference::COARSEST, FOR_TASTE).max(few);
-    let mut known = first(tasted, Reference::COARSEST);
+    let known = first(many, Reference::COARSEST);
     if known.pixels() < few {
         return roughly();
     }
-    // The error of n × n samples, one in each part of a pixel, falls with n^1.5: see `refine`.
-    let samples = pow((wanted.too_coarse)(&known).max(1.0), 4.0 / 3.0)
-        * f64::from(Reference::samples_at(Reference::COARSEST));
-    let steps = Reference::COARSEST..=finest;
-    let enough = steps.clone().find(|&step| f64::from(Reference::samples_at(step)) >= samples);
-    let of_all = steps.rev().find(|&step| affordable(step, 1.0) == list.len());
-    let mut step = enough.unwrap_or(finest).max(of_all.unwrap_or(0));
-    while step > Reference::COARSEST && affordable(step, 1.0) < few {
-        step -= 1;
-    }
-    if step == Reference::COARSEST {
-        let done = known.pixels();
-        if done == tasted {
-            let rest = &list[done..(done + affordable(step, 1.0)).min(list.len())];
-            known = known.and(Reference::first(studio, &rough.plan, rest, seed, step));
-        }
-    } else {
-        let finer = first(affordable(step, 1.0), step);
-        if finer.pixels() >= few.min(known.pixels()) {
-            known = finer;
-        }
-    }
-    // Where the prediction was too careful, the time ends the list.
-    while known.pixels() == list.len() && known.step() < finest && clock.wall() < until {
-        let better = first(list.len(), known.step() + 1);
-        let all = better.pixels() == list.len();
-        known.first_from(better);
-        if !all {
-            break;
-        }
-    }
-    Some(known)
+    // Where the prediction was too careful.
+    let done = known.pixels();
+    let more = if done < many { 0 } else { affordable(Reference::COARSEST) };
+    let rest = &list[done..(done + more).min(list.len())];
+    known.and(Reference::first(studio, &rough.plan, rest, seed, Reference::COARSEST))
 }
 
 /// A rough reference of a few pixels, as deep as there is time for: all the way, or where that takes

@@ -5,9 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::afford::Deadline;
 use super::knob::{Knob, cost};
-use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
 use crate::plan::{Antialias, PlanOptions, plan};
@@ -36,18 +34,12 @@ pub struct Tuning<'a> {
     pub own: PlanOptions,
     tried: BTreeMap<Vec<usize>, Choice>,
     settings: Vec<Vec<f64>>,
-    /// When the choice is to be made.
-    until: Option<(&'a dyn Clock, f64)>,
     /// Who is told how much of the work of turning a knob is done.
     pub watch: Option<&'a dyn Watch>,
     /// Hears of a knob before it is turned, and of how many samples of each pixel that takes at most.
     pub tell: Option<&'a dyn Fn(&'static str, f64)>,
 }
 
-/// Part of the error that a dearer setting must take off.
-const WORTHWHILE: f64 = 0.02;
-/// Of the time that is left to choose in, what one trial may take.
-const FOR_A_TRIAL: f64 = 0.25;
 /// Of the work that a setting is predicted to be: what it is at least.
 const PREDICTED: f64 = 0.9;
 
@@ -71,7 +63,6 @@ impl<'a> Tuning<'a> {
             own,
             tried: BTreeMap::new(),
             settings,
-            until: None,
             watch: None,
             tell: None,
         }
@@ -90,22 +81,10 @@ impl<'a> Tuning<'a> {
         }
     }
 
-    /// From now on settings whose trial takes too long are not to be had.
-    pub fn in_time(&mut self, until: (&'a dyn Clock, f64)) {
-        self.until = Some(until);
-    }
-
     /// The colours of the tuning pixels.
     fn colors(&self, options: &PlanOptions) -> Option<(Vec<[f64; 3]>, Counters)> {
         let plan = plan(self.studio.world, self.origins, options);
-        let Some((clock, until)) = self.until else {
-            return self.studio.colors(&plan, self.list, Sampling::Planned);
-        };
-        let now = clock.wall();
-        let until = now + FOR_A_TRIAL * (until - now);
-        let in_time = Deadline { clock, until, watch: self.studio.watch };
-        let studio = Studio { watch: &in_time, ..self.studio };
-        studio.colors(&plan, self.list, Sampling::Planned)
+        self.studio.colors(&plan, self.list, Sampling::Planned)
     }
 
     /// What the tuning pixels say of settings, one of each knob. `None` when stopped, or not to be had.
@@ -192,37 +171,6 @@ impl<'a> Tuning<'a> {
             Some(best) => Some(best),
             None => self.dearest(),
         }
-    }
-
-    /// The settings of least error whose cost is at most `affordable` camera rays a pixel, of those
-    /// that can be tried. One knob after the other, the rest as the scene has them.
-    pub fn best(&mut self, affordable: f64) -> Option<Choice> {
-        let at_own = |(knob, all): (&&Knob, &Vec<f64>)| {
-            let own = (knob.get)(&self.own);
-            all.iter().position(|&setting| setting == own).unwrap_or(0)
-        };
-        let mut places: Vec<usize> = self.knobs.iter().zip(&self.settings).map(at_own).collect();
-        let mut best: Option<Choice> = None;
-        for turned in 0..places.len() {
-            let settings = self.settings[turned].clone();
-            for (place, &setting) in settings.iter().enumerate() {
-                if (self.knobs[turned].least)(setting) > affordable {
-                    continue;
-                }
-                let mut trial = places.clone();
-                trial[turned] = place;
-                let Some(choice) = self.try_out(&trial) else { continue };
-                let better = best.as_ref().is_none_or(|best| {
-                    choice.error.value < (1.0 - WORTHWHILE) * best.error.value
-                        || (choice.error.value <= best.error.value && choice.cost < best.cost)
-                });
-                if choice.cost <= affordable && better {
-                    places = trial;
-                    best = Some(choice);
-                }
-            }
-        }
-        best
     }
 }
 

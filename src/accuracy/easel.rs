@@ -27,19 +27,10 @@ impl<'a> Easel<'a> {
         flags.collect::<Vec<_>>().join(" ")
     }
 
-    /// The same without the knob that the first pass and what follows it turn themselves.
+    /// The same without the number of samples, which is each pixel's own.
     pub fn flags_of_rays(&self, options: &PlanOptions) -> String {
         let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
         let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));
         flags.collect::<Vec<_>>().join(" ")
-    }
-
-    /// Whether a knob stands dearer in the second than in the first.
-    pub fn dearer(&self, than: &PlanOptions, options: &PlanOptions) -> bool {
-        self.knobs.iter().any(|knob| {
-            let settings = knob.with((knob.get)(than));
-            let place = |of| settings.iter().position(|&setting| setting == (knob.get)(of));
-            place(options) > place(than)
-        })
     }
 }

@@ -6,7 +6,9 @@
 
 mod afford;
 mod audit;
+mod begin;
 mod choose;
+mod draw;
 mod easel;
 mod forecast;
 mod front;

@@ -11,7 +11,8 @@ use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{
-    self, Counters, Pixels, Sampling, TraceOptions, Traced, Watch, pixels, trace_in,
+    self, Aim, Counters, Pixels, Sampling, Seen, TraceOptions, Traced, Watch, pixels, seen,
+    trace_in,
 };
 use crate::world::World;
 
@@ -72,6 +73,11 @@ impl Studio<'_> {
     pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
         let geometry = self.geometry(plan);
         pixels(self.world, &geometry, plan, list, sampling, &self.options, self.watch)
+    }
+
+    /// Some pixels under a Plan, each by as many samples as it says.
+    pub fn seen(&self, plan: &Plan, aims: &[Aim]) -> (Vec<Option<Seen>>, Counters) {
+        seen(self.world, &self.geometry(plan), plan, aims, &self.options, self.watch)
     }
 
     /// The colours of the first pixels of a list: of all of them, unless it was stopped.
@@ -221,18 +227,6 @@ impl Reference {
             Metric::Bad => 0.0,
         };
         metric.floor(&self.deviations(&self.halves[0])).max(rounding)
-    }
-
-    /// Takes its first pixels, as many as `finer` has, from that, which has more samples of each.
-    pub fn first_from(&mut self, finer: Self) {
-        let done = finer.pixels();
-        for (half, better) in self.halves.iter_mut().zip(finer.halves) {
-            half.splice(..done, better);
-        }
-        if done == self.pixels() {
-            self.step = finer.step;
-        }
-        self.counters += finer.counters;
     }
 
     /// Both, as one list after the other.

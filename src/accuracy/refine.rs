@@ -1,127 +1,281 @@
 //! A picture made better as long as there is time, first where it buys most.
 //!
-//! **In:** a film of one ray a pixel. **Out:** the same film with more samples in some pixels, spread
-//! over the whole of it. **Invariant:** each pixel has the bits of `--antialias N` for some N, or of
-//! the first pass, and its samples say which; without a deadline the same film on every run.
+//! **In:** a film of one ray a pixel. **Out:** the same film with more samples in its pixels, spread over
+//! the whole of it. **Invariant:** each pixel has the bits of `--antialias N` for some N, and its samples
+//! say which. No pixel is left alone: a third of all samples is spread evenly, and none is far ahead of
+//! its neighbours. Between two looks at the clock stands bounded work.
 
+use std::num::NonZero;
+use std::thread;
+
+use super::measure::Clock;
 use super::reference::{Studio, clamped};
+use crate::color::{Gamma, Rgb};
 use crate::film::Film;
-use crate::plan::{Antialias, Plan, Region};
-use crate::trace::{Counters, Sampling};
+use crate::plan::{Plan, Region};
+use crate::trace::{Aim, Counters, Seen, Watch};
 
-/// Samples along a pixel's side, one after the other.
-const SIDES: [u32; 5] = [2, 4, 8, 16, MOST_SIDE];
-/// At most: as in the dearest setting of the knob.
-const MOST_SIDE: u32 = 32;
-/// Even a flat pixel may hide something: it counts as if it differed this much from its neighbours.
-const HIDDEN: f64 = 1e-3;
-/// From one sweep over the picture to the next, what is worth its samples falls by this.
-const FINER: f64 = 0.25;
+/// Samples along a pixel's side at most: as in the dearest setting of the knob.
+pub const MOST_SIDE: u32 = 32;
+/// As surely as so many samples say what a pixel holds, its neighbours do.
+const NEIGHBOURS: f32 = 1.0;
+/// The most times as many samples as its neighbour that a pixel has, square: weights are roots of
+/// variances.
+const AHEAD: f32 = 16.0 * 16.0;
+/// The part of all samples that is spread evenly.
+const EVENLY: f64 = 1.0 / 3.0;
+/// A pixel traced anew gets at least so many times the samples along its side: 4/3 buys most for a
+/// sample, as (1 − x⁻³)/x² has its greatest value at 1.36.
+const ANEW: (u32, u32) = (4, 3);
 /// Neighbours in the film that are traced one after the other.
 const RUN: usize = 16;
+/// Parts that a pass is cut into, each as fine as there is time for after those before; more where they
+/// would have more pixels than are listed in a few milliseconds.
+const PARTS: usize = 8;
+const MOST_IN_PART: usize = 1 << 16;
+/// Pixels that tell what a pass will cost.
+const PRICED: usize = 1 << 14;
+/// Fineness rises by this from one level to the next, from less than a sample for sixteen pixels to where
+/// the last pixel has all there is.
+const LEVEL: f64 = 1.189_207_115_002_721;
+const LEVELS: i32 = 72;
+const COARSEST: i32 = -20;
 
-/// What came of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Refined {
-    /// Pixels that were traced anew.
-    pub pixels: usize,
-    /// Each has the most samples there are.
-    pub is_finest: bool,
+/// Rows of pixels between two looks at the clock, and pixels that a thread of its own is begun for.
+const ROWS: usize = 64;
+const LEAST_OF_THREAD: usize = 1 << 14;
+
+/// A film, and what its samples say of each pixel.
+pub struct Canvas {
+    pub film: Film,
+    /// Of each pixel's samples, linear and clamped, all components together; 0 of a single one.
+    variances: Vec<f32>,
     pub counters: Counters,
+    pace: Pace,
 }
 
-/// Gives the film's pixels more samples by the settings of `plan`, its antialiasing aside, until
-/// `studio` is stopped. Where they are `other` settings than the film was made with, each pixel gets
-/// one new ray first.
-///
-/// An edge of height d crosses about n of a pixel's n × n parts, and each is then wrong by about d/n²,
-/// at random: together d/n^1.5. So twice as many parts along a side take (1 − 1/8)·d²/n³ off the
-/// square error, for 4n² samples. What buys most for a sample goes first.
-pub fn refine(studio: &Studio, plan: &Plan, other: bool, film: &mut Film) -> Refined {
-    let heights = contrasts(film);
-    let count = heights.len();
-    let first = if other { 0 } else { 1 };
-    let sides = vec![first; count];
-    let mut canvas = Canvas { studio, plan, film, heights, sides, counters: Counters::default() };
-    if !other || canvas.sweep(1, (0..count).collect()) {
-        canvas.refine();
+/// What samples took so far.
+#[derive(Debug, Clone, Copy)]
+pub struct Pace {
+    pub seconds: f64,
+    pub samples: f64,
+}
+
+impl Pace {
+    /// Seconds.
+    pub fn a_sample(self) -> f64 {
+        self.seconds / self.samples.max(1.0)
     }
-    let pixels = canvas.sides.iter().filter(|&&side| side > first).count();
-    Refined { pixels, is_finest: canvas.is_finest(), counters: canvas.counters }
 }
 
-/// What twice as many parts along a side as before, `side` then, take off the square error for a
-/// sample.
-fn worth(height: f64, side: u32) -> f64 {
-    let n = f64::from(side / 2);
-    let height = height.max(HIDDEN);
-    0.875 * height * height / (n * n * n) / (4.0 * n * n)
+/// How much of the samples each pixel is worth, and how wrong it is taken to be.
+pub struct Worth {
+    /// Variances, as [`Canvas::worth`] estimates them.
+    pub variances: Vec<f32>,
+    /// What each pixel has in common with all: its part in what is spread evenly.
+    evenly: f64,
+    /// Of the roots of variances.
+    mean: f64,
 }
 
-struct Canvas<'a> {
-    studio: &'a Studio<'a>,
-    plan: &'a Plan,
-    film: &'a mut Film,
-    /// Of the edge that each pixel may hold.
-    heights: Vec<f64>,
-    /// Of each pixel the samples along its side; 0 where it has other settings.
-    sides: Vec<u32>,
-    counters: Counters,
+impl Worth {
+    /// Samples along a pixel's side where a mean pixel has `fineness` samples: by Neyman's allocation,
+    /// as many as the root of the variance says, and those that are spread evenly.
+    fn side(&self, i: usize, fineness: f64) -> u32 {
+        let weight =
+            (f64::from(self.variances[i].sqrt()) + self.evenly) / (self.mean + self.evenly);
+        ((fineness * weight).sqrt().round() as u32).min(MOST_SIDE)
+    }
 }
 
-impl Canvas<'_> {
-    fn is_finest(&self) -> bool {
-        self.sides.iter().all(|&side| side == MOST_SIDE)
+/// Time there is to make a film finer in.
+#[derive(Clone, Copy)]
+pub struct Until<'a> {
+    pub clock: &'a dyn Clock,
+    /// As the clock shows.
+    pub until: f64,
+}
+
+impl Canvas {
+    /// Of a film of one ray a pixel, which took `pace`.
+    pub fn new(film: Film, counters: Counters, pace: Pace) -> Self {
+        Self { variances: vec![0.0; film.samples.len()], film, counters, pace }
     }
 
-    fn refine(&mut self) {
-        let greatest = self.heights.iter().copied().fold(HIDDEN, f64::max);
-        let mut least = worth(greatest, 2);
-        while !self.is_finest() {
-            // The finest first: a pixel gets at once all that it is worth.
-            for &side in SIDES.iter().rev() {
-                let is_worth =
-                    |&i: &usize| self.sides[i] < side && worth(self.heights[i], side) >= least;
-                let list = (0..self.sides.len()).filter(is_worth).collect();
-                if !self.sweep(side, list) {
-                    return;
+    pub fn pixels(&self) -> usize {
+        self.film.samples.len()
+    }
+
+    pub fn pace(&self) -> Pace {
+        self.pace
+    }
+
+    pub fn side(&self, i: usize) -> u32 {
+        self.film.samples[i].isqrt()
+    }
+
+    /// What each pixel's samples and its neighbours' say of how much it may hold. `None` when stopped.
+    ///
+    /// Of n samples that agree nothing follows for what is smaller than an n-th of the pixel. So each
+    /// pixel's variance is shrunk toward what is near: the mean of its neighbours' variances, or what an
+    /// edge as high as it differs from one of them would have, d²/4.
+    pub fn worth(&self, studio: &Studio) -> Option<Worth> {
+        let threads =
+            studio.options.threads.or(thread::available_parallelism().ok().map(NonZero::get));
+        let in_rows =
+            Rows { width: self.film.frame.region.width as usize, threads, watch: studio.watch };
+        let (count, gamma) = (self.pixels(), self.film.assumed_gamma);
+        let colors =
+            in_rows.map(count, |i| clamped(self.film.radiance[i], gamma).map(|c| c as f32))?;
+        let alone = in_rows.map(count, |i| {
+            let (mut near, mut sum, mut edge) = (0.0f32, 0.0f32, 0.0f32);
+            in_rows.around(i, count, |j| {
+                near += 1.0;
+                sum += self.variances[j];
+                let off =
+                    colors[i].iter().zip(colors[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f32>();
+                edge = edge.max(off / 4.0);
+            });
+            let near = edge.max(sum / near.max(1.0));
+            let known = match self.film.samples[i] {
+                0 | 1 => 0.0,
+                samples => samples as f32,
+            };
+            (known * self.variances[i] + NEIGHBOURS * near) / (known + NEIGHBOURS)
+        })?;
+        let variances = in_rows.map(count, |i| {
+            let mut most = 0.0f32;
+            in_rows.around(i, count, |j| most = most.max(alone[j]));
+            alone[i].max(most / AHEAD)
+        })?;
+        let sum: f64 = variances.iter().map(|variance| f64::from(variance.sqrt())).sum();
+        let mean = sum / variances.len().max(1) as f64;
+        // Where nothing differs, all pixels are alike.
+        let evenly = if mean > 0.0 { mean * EVENLY / (1.0 - EVENLY) } else { 1.0 };
+        Some(Worth { variances, evenly, mean })
+    }
+
+    /// Traces every pixel by at least `side` × `side` samples. False when stopped.
+    pub fn pilot(&mut self, studio: &Studio, plan: &Plan, side: u32, clock: &dyn Clock) -> bool {
+        let parts = self.parts();
+        (0..parts).all(|part| {
+            let aim = |canvas: &Self, i| (canvas.side(i) < side).then_some(side);
+            self.trace(studio, plan, (part, parts), &aim, clock)
+        })
+    }
+
+    /// One pass over the film, as fine as there is time for. False when stopped, or where there is nothing
+    /// to do.
+    pub fn pass(&mut self, studio: &Studio, plan: &Plan, worth: &Worth, time: Until) -> bool {
+        let prices = self.prices(worth);
+        let parts = self.parts();
+        let before = self.counters.camera;
+        self.pace = Pace { seconds: self.pace.seconds / 16.0, samples: self.pace.samples / 16.0 };
+        for part in 0..parts {
+            let left = (time.until - time.clock.wall()) / (parts - part) as f64;
+            let samples = left / self.pace.a_sample() * parts as f64 / self.pixels() as f64;
+            let Some(fineness) = finest(&prices, samples) else { break };
+            let aim = |canvas: &Self, i| {
+                let (side, now) = (worth.side(i, fineness), canvas.side(i));
+                is_anew(now, side).then_some(side)
+            };
+            if !self.trace(studio, plan, (part, parts), &aim, time.clock) {
+                return false;
+            }
+        }
+        self.counters.camera > before
+    }
+
+    /// Of each level of fineness the samples that a pass takes for a pixel on the mean.
+    fn prices(&self, worth: &Worth) -> Vec<(f64, f64)> {
+        // Odd, so that it walks through all columns.
+        let step = (self.pixels() / PRICED) | 1;
+        let mut fineness = (0..-COARSEST).fold(1.0, |fineness, _| fineness / LEVEL);
+        let levels = (0..LEVELS).map(|_| {
+            fineness *= LEVEL;
+            let (mut samples, mut pixels) = (0u64, 0u64);
+            for i in (0..self.pixels()).step_by(step) {
+                let side = worth.side(i, fineness);
+                pixels += 1;
+                if is_anew(self.side(i), side) {
+                    samples += u64::from(side * side);
                 }
             }
-            least *= FINER;
-        }
+            (fineness, samples as f64 / pixels.max(1) as f64)
+        });
+        levels.collect()
     }
 
-    /// Traces pixels anew. False when it was stopped.
-    fn sweep(&mut self, side: u32, list: Vec<usize>) -> bool {
-        let list = spread(list);
-        let plan = Plan { antialias: Antialias::Grid(side), ..self.plan.clone() };
+    fn parts(&self) -> usize {
+        PARTS.max(self.pixels().div_ceil(MOST_IN_PART))
+    }
+
+    /// Traces the pixels of one part that `aim` gives a side. False when stopped.
+    fn trace(
+        &mut self,
+        studio: &Studio,
+        plan: &Plan,
+        (part, parts): (usize, usize),
+        aim: &dyn Fn(&Self, usize) -> Option<u32>,
+        clock: &dyn Clock,
+    ) -> bool {
+        let began = clock.wall();
         let region = self.film.frame.region;
-        let places: Vec<_> = list.iter().map(|&i| place(region, i)).collect();
-        let seen = self.studio.pixels(&plan, &places, Sampling::Planned);
-        self.counters += seen.counters;
-        let mut all = true;
-        for (i, radiance) in list.into_iter().zip(seen.radiance) {
-            let Some(radiance) = radiance else {
-                all = false;
+        let list: Vec<(usize, u32)> = Spread::new(self.pixels())
+            .part(part, parts)
+            .filter_map(|i| Some((i, aim(self, i)?)))
+            .collect();
+        let aims: Vec<Aim> = list
+            .iter()
+            .map(|&(i, side)| Aim { place: place(region, i), side, seed: None })
+            .collect();
+        if aims.is_empty() {
+            return !studio.watch.should_stop();
+        }
+        let (seen, counters) = studio.seen(plan, &aims);
+        self.counters += counters;
+        let mut is_whole = true;
+        for ((i, side), seen) in list.into_iter().zip(seen) {
+            let Some(Seen { mean, deviation }) = seen else {
+                is_whole = false;
                 continue;
             };
-            if side > 1 {
-                // By how much the last samples were wrong tells more than the neighbours did.
-                let n = f64::from(self.sides[i]);
-                let gamma = self.film.assumed_gamma;
-                let wrong =
-                    difference(clamped(self.film.radiance[i], gamma), clamped(radiance, gamma));
-                self.heights[i] = (2.0 * wrong * n * n.sqrt()).max(self.heights[i] / 4.0);
-            }
-            self.film.radiance[i] = radiance;
-            (self.film.samples[i], self.sides[i]) = (side * side, side);
+            self.film.radiance[i] = mean;
+            self.film.samples[i] = side * side;
+            self.variances[i] = variance(mean, deviation, self.film.assumed_gamma);
         }
-        all
+        self.pace.seconds += clock.wall() - began;
+        self.pace.samples += counters.camera as f64;
+        is_whole
     }
 }
 
-fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+/// Each pixel has the most samples there are.
+pub fn is_finest(film: &Film) -> bool {
+    film.samples.iter().all(|&samples| samples == MOST_SIDE * MOST_SIDE)
+}
+
+fn is_anew(now: u32, side: u32) -> bool {
+    side > now && ANEW.1 * side >= ANEW.0 * now
+}
+
+/// The first level that takes as many `samples` a pixel, or the last; what it takes more, the next parts
+/// take less. `None` where there is time for nothing.
+fn finest(prices: &[(f64, f64)], samples: f64) -> Option<f64> {
+    if samples <= 0.0 {
+        return None;
+    }
+    let enough = prices.iter().find(|&&(_, price)| price >= samples);
+    enough.or(prices.last()).map(|&(fineness, _)| fineness)
+}
+
+/// Of linear light as errors are measured, given the mean of samples in the working space and their
+/// standard deviation: beyond white there is none.
+fn variance(mean: Rgb, deviation: [f64; 3], gamma: Gamma) -> f32 {
+    let shown = |c: f64| gamma.linear(c).min(1.0);
+    let parts = mean.components().into_iter().zip(deviation);
+    let spread = parts.map(|(mean, off)| (shown(mean + off) - shown(mean - off)) / 2.0);
+    spread.map(|off| off * off).sum::<f64>() as f32
 }
 
 /// Where the pixel lies that a film of this region has at `i`.
@@ -130,37 +284,88 @@ pub fn place(region: Region, i: usize) -> (u32, u32) {
     (region.x + (i % width) as u32, region.y + (i / width) as u32)
 }
 
-/// How much each pixel differs from one of its four neighbours.
-fn contrasts(film: &Film) -> Vec<f64> {
-    let colors: Vec<_> = film.radiance.iter().map(|&c| clamped(c, film.assumed_gamma)).collect();
-    let width = film.frame.region.width as usize;
-    let mut heights = vec![0.0; colors.len()];
-    let mut compare = |i: usize, j: usize| {
-        let off = difference(colors[i], colors[j]);
-        heights[i] = off.max(heights[i]);
-        heights[j] = off.max(heights[j]);
-    };
-    for i in 0..colors.len() {
-        if (i + 1) % width != 0 {
-            compare(i, i + 1);
-        }
-        if i + width < colors.len() {
-            compare(i, i + width);
-        }
-    }
-    heights
+/// The pixels of a film in an order any first part of which is spread over the whole.
+pub struct Spread {
+    count: usize,
+    runs: usize,
+    step: usize,
 }
 
-/// In another order: of each first part, about the same share lies in any part of the picture.
-pub fn spread(list: Vec<usize>) -> Vec<usize> {
-    let runs: Vec<&[usize]> = list.chunks(RUN).collect();
-    // By the golden ratio, in a step that has no divisor in common with their number.
-    let golden = (0.618 * runs.len() as f64).round() as usize;
-    let step = (golden.max(1)..).find(|&step| divisor(step, runs.len()) == 1).unwrap_or(1);
-    (0..runs.len()).flat_map(|k| runs[k * step % runs.len()]).copied().collect()
+impl Spread {
+    pub fn new(count: usize) -> Self {
+        let runs = count.div_ceil(RUN);
+        // By the golden ratio, in a step that has no divisor in common with their number.
+        let golden = (0.618 * runs as f64).round() as usize;
+        let step = (golden.max(1)..).find(|&step| divisor(step, runs) == 1).unwrap_or(1);
+        Self { count, runs, step }
+    }
+
+    /// The k-th of `parts` parts.
+    pub fn part(self, k: usize, parts: usize) -> impl Iterator<Item = usize> {
+        let Self { count, runs, step } = self;
+        let (from, to) = (runs * k / parts, runs * (k + 1) / parts);
+        (from..to).flat_map(move |number| {
+            let run = (number as u128 * step as u128 % runs as u128) as usize;
+            run * RUN..((run + 1) * RUN).min(count)
+        })
+    }
 }
 
 /// The greatest common one.
 fn divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { divisor(b, a % b) }
+}
+
+/// Something of each pixel, found by several threads.
+struct Rows<'a> {
+    width: usize,
+    threads: Option<usize>,
+    watch: &'a dyn Watch,
+}
+
+impl Rows<'_> {
+    /// `None` when stopped.
+    fn map<T: Copy + Default + Send>(
+        &self,
+        count: usize,
+        of: impl Fn(usize) -> T + Sync,
+    ) -> Option<Vec<T>> {
+        let mut values = vec![T::default(); count];
+        // Few pixels are done before a thread has begun.
+        let threads = self.threads.unwrap_or(1).min(count / LEAST_OF_THREAD).max(1);
+        let rows = (count / self.width).div_ceil(threads).max(1);
+        let band = |first: usize, values: &mut [T]| {
+            values.chunks_mut(self.width).enumerate().all(|(row, values)| {
+                let first = first + row * self.width;
+                values.iter_mut().enumerate().for_each(|(i, value)| *value = of(first + i));
+                (row + 1) % ROWS != 0 || !self.watch.should_stop()
+            })
+        };
+        let bands = values.chunks_mut(rows * self.width).enumerate();
+        let is_whole = thread::scope(|scope| {
+            let bands = bands.map(|(number, values)| (number * rows * self.width, values));
+            let mut bands: Vec<_> = bands.collect();
+            let own = if bands.is_empty() { None } else { Some(bands.remove(0)) };
+            let others: Vec<_> = bands
+                .into_iter()
+                .map(|(first, values)| scope.spawn(move || band(first, values)))
+                .collect();
+            let own = own.is_none_or(|(first, values)| band(first, values));
+            others.into_iter().fold(own, |all, other| other.join().unwrap_or(false) && all)
+        });
+        is_whole.then_some(values)
+    }
+
+    /// The up to eight neighbours of a pixel.
+    fn around(&self, i: usize, count: usize, mut each: impl FnMut(usize)) {
+        let (row, column) = (i / self.width, i % self.width);
+        let last = count / self.width;
+        for y in row.saturating_sub(1)..(row + 2).min(last) {
+            for x in column.saturating_sub(1)..(column + 2).min(self.width) {
+                if (x, y) != (column, row) {
+                    each(y * self.width + x);
+                }
+            }
+        }
+    }
 }

@@ -186,6 +186,74 @@ impl Metric {
     }
 }
 
+/// The number with its interval, and that of the reference's own error, by pixels drawn at random of which
+/// each counts as much as its weight: the less, the likelier it was to be drawn.
+///
+/// **Source:** as [`Metric::estimate`]; shares and ranks as of so many equal draws as have the same
+/// variance (E. Korn, B. Graubard, 1998).
+pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estimate, f64) {
+    let count = pixels.len().max(1) as f64;
+    let scaled: Vec<Deviation> = pixels
+        .iter()
+        .zip(weights)
+        .map(|(pixel, weight)| {
+            let root = weight.sqrt();
+            Deviation { off: pixel.off.map(|c| c * root), noise: pixel.noise.map(|c| c * root) }
+        })
+        .collect();
+    let parts = |of: &dyn Fn(&Deviation) -> f64| -> Vec<f64> {
+        pixels.iter().zip(weights).map(|(pixel, weight)| weight * of(pixel)).collect()
+    };
+    let noise = |pixel: &Deviation| Deviation { off: pixel.noise, noise: [0.0; 3] };
+    match metric {
+        Metric::Rmse => (metric.estimate(&scaled), metric.floor(&scaled)),
+        Metric::Bad => {
+            let hits = parts(&|pixel| metric.part(pixel));
+            let value = (hits.iter().sum::<f64>() / count).clamp(0.0, 1.0);
+            let draws = equal_draws(&hits, weights);
+            let (low, high) = wilson(value * draws, draws);
+            let floor = parts(&|pixel| metric.part(&noise(pixel))).iter().sum::<f64>() / count;
+            (Estimate { value, low: low.min(value), high: high.max(value) }, floor)
+        }
+        Metric::P99 => {
+            let off: Vec<f64> = pixels.iter().map(|pixel| metric.part(pixel)).collect();
+            let own: Vec<f64> = pixels.iter().map(|pixel| metric.part(&noise(pixel))).collect();
+            let value = exceeded(&off, weights, 0.01);
+            let draws =
+                equal_draws(&parts(&|p| f64::from(u8::from(metric.part(p) > value))), weights);
+            let (few, many) = wilson(0.01 * draws, draws);
+            let (low, high) = (exceeded(&off, weights, many), exceeded(&off, weights, few));
+            (
+                Estimate { value, low: low.min(value), high: high.max(value) },
+                exceeded(&own, weights, 0.01),
+            )
+        }
+    }
+}
+
+/// The least number of a list that no more than `share` of the whole exceeds.
+fn exceeded(list: &[f64], weights: &[f64], share: f64) -> f64 {
+    let mut both: Vec<(f64, f64)> = list.iter().copied().zip(weights.iter().copied()).collect();
+    both.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let most = share * weights.iter().sum::<f64>();
+    let mut sum = 0.0;
+    let found = both.iter().find(|(_, weight)| {
+        sum += weight;
+        sum > most
+    });
+    found.map_or(0.0, |&(value, _)| value)
+}
+
+/// How many draws of equal weight would tell a share as surely as these, whose hits count as much as
+/// their weights say. Where hits are few they say little, and one more is supposed beside them.
+fn equal_draws(hits: &[f64], weights: &[f64]) -> f64 {
+    let count = hits.len().max(1) as f64;
+    let share = (hits.iter().sum::<f64>() / count).clamp(0.0, 1.0);
+    let here: f64 = hits.iter().map(|hit| (hit - share) * (hit - share)).sum();
+    let most = weights.iter().copied().fold(1.0, f64::max);
+    count * (count * share * (1.0 - share) + 1.0) / (here + most)
+}
+
 /// How many pixels drawn from anywhere would tell the share of hits as surely as these do, each of
 /// which was drawn from a square of its own: what squares side by side have in common adds nothing to
 /// the share's error. Two neighbours estimate the variance in a square; where hits are few they say

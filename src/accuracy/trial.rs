@@ -125,7 +125,6 @@ impl Bench<'_> {
             list,
             seed,
             (self.clock, self.after(FOR_REFERENCE, until)),
-            Reference::samples_at(Reference::COARSEST),
         );
         let Affordable { mut reference, plan: deep, a_sample } = known.ok_or_else(stopped)?;
         let list = &list[..reference.pixels()];

@@ -75,7 +75,7 @@ pub struct RenderArguments {
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "time_budget"])]
     pub max_error: Option<f64>,
     /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
-    /// one ray a pixel fits
+    /// one ray a pixel fits, and with 5 if there is no time to find out how far off it is
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance"])]

@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod arguments;
+mod budget;
 mod check;
 mod exit;
 mod explain;

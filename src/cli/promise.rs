@@ -1,34 +1,21 @@
 //! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
 
-use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::Mutex;
-use std::thread::available_parallelism;
 
-use lucarne::accuracy::{self, Audit, Clock, First, KNOBS, Options, Spent, Step, TooSmall, table};
-use lucarne::film::{Depth, Film, develop};
-use lucarne::picture::{Format, encode};
-use lucarne::plan::{Frame, PlanOptions, Region, plan};
+use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Step, TooSmall, table};
+use lucarne::film::Depth;
+use lucarne::picture::Format;
+use lucarne::plan::{Frame, PlanOptions, plan};
 use lucarne::trace::{TraceOptions, Traced, Watch, trace};
 use lucarne::world::{Origins, World};
 
 use super::arguments::RenderArguments;
+use super::budget::spend;
 use super::exit::{Exit, Failure};
 use super::messages;
 use super::progress::Progress;
 use super::stats::Stopwatch;
-
-/// Seconds to encode and write a pixel of one colour in.
-const LEAST_TO_WRITE: f64 = 2e-8;
-/// Of a picture's rows one of so many is written on trial, in so many bands; and how much longer the final
-/// picture, which is finer, may take.
-const ON_TRIAL: u32 = 8;
-const BANDS: u32 = 8;
-const FINER: f64 = 1.2;
-/// Seconds to stop and to end in, where each thread has a processor.
-const TO_END: f64 = 0.01;
-/// Of the time there is: the most that is kept for what else the machine does.
-const FOR_OTHERS: f64 = 0.1;
 
 /// A picture, and what is to be said of it.
 pub struct Made {
@@ -236,125 +223,8 @@ impl Watch for Told<'_> {
     }
 }
 
-fn spend(
-    (world, origins): (&World, &Origins),
-    options: &Options,
-    seconds: f64,
-    written: (Depth, Format),
-    clock: &Stopwatch,
-    progress: &Progress,
-) -> Made {
-    let region = options.frame.region;
-    let pixels = f64::from(region.width) * f64::from(region.height);
-    let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
-    // What it takes to write is known once there is something to write; and how busy the machine is,
-    // once something was traced.
-    let until = |first: Option<First>| {
-        let to_end = first.map_or(LEAST_TO_WRITE * pixels, |First { film, processors }| {
-            let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
-            let alone = to_write(film, written, clock) + TO_END;
-            alone + (alone * (busy - 1.0)).clamp(0.0, FOR_OTHERS * seconds)
-        });
-        0.99 * seconds - to_end
-    };
-    let spent = accuracy::spend(world, origins, options, &until, clock, progress);
-    let interrupted = progress.is_stopped();
-    let said = match (&spent.audit, spent.traced.complete) {
-        (_, false) if interrupted => String::new(),
-        (_, false) => {
-            let samples = &spent.traced.film.samples;
-            let done = samples.iter().filter(|samples| **samples > 0).count();
-            let share = 100 * done / samples.len().max(1);
-            let with = match spent.is_less || spent.rest > 0 {
-                true => format!(", even with {}", spent.least),
-                false => String::new(),
-            };
-            format!(
-                "{seconds} s are too few for one ray a pixel{with}: {share} % of them are done\n"
-            )
-        }
-        (None, true) if pixels < 256.0 => {
-            format!("too few pixels to find the error by\n{}\n", made(&spent))
-        }
-        (None, true) => {
-            format!("no time was left to find the error by\n{}\n", made(&spent))
-        }
-        (Some(audit), true) => format!(
-            "{}, on {} fresh pixels, after {:.2} s\n{}\n",
-            error(audit),
-            audit.pixels,
-            clock.wall(),
-            made(&spent)
-        ),
-    };
-    let exit = match spent.traced.complete {
-        _ if interrupted => Exit::Interrupted,
-        true => Exit::Done,
-        false => Exit::Limit,
-    };
-    Made { traced: spent.traced, said, exit }
-}
-
-/// About how many seconds of one processor it takes to write a picture: measured on some of its rows,
-/// from top to bottom.
-fn to_write(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> f64 {
-    let Region { width, height, .. } = film.frame.region;
-    let row = width as usize;
-    let high = (height / (BANDS * ON_TRIAL)).max(1);
-    let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
-    for band in 0..BANDS.min(height) {
-        let top = (height - high) / BANDS.min(height) * band;
-        let rows = row * top as usize..row * (top + high) as usize;
-        some.radiance.extend(&film.radiance[rows.clone()]);
-        some.samples.extend(&film.samples[rows]);
-    }
-    some.frame.region.height = BANDS.min(height) * high;
-    let part = f64::from(some.frame.region.height) / f64::from(height);
-    let began = clock.cpu();
-    // What cannot be written is told when it is.
-    drop(encode(&develop(&some, depth), format));
-    FINER * (clock.cpu() - began) / part
-}
-
-/// What was done: `one ray a pixel (--depth 5 …), then 4 samples in 20 % of the pixels, 16 in 7 %`.
-fn made(spent: &Spent) -> String {
-    let mut pixels_with = BTreeMap::new();
-    for &samples in &spent.traced.film.samples {
-        *pixels_with.entry(samples).or_insert(0) += 1;
-    }
-    let all = spent.traced.film.samples.len();
-    let less = if spent.is_less { ": more would not fit" } else { "" };
-    let rest = match spent.rest {
-        0 => String::new(),
-        rest => format!("; {} of the pixels with {}", share(rest, all), spent.least),
-    };
-    let mut said = format!("one ray a pixel ({}{less}{rest})", spent.first);
-    let more: Vec<String> = pixels_with
-        .iter()
-        .filter(|&(&samples, _)| samples > 1)
-        .map(|(samples, &pixels)| format!("{samples} in {}", share(pixels, all)))
-        .collect();
-    if !more.is_empty() {
-        said += &format!(", then samples instead: {} of the pixels", more.join(", "));
-    }
-    if let Some(flags) = &spent.then {
-        said += &format!("; {} of the pixels anew with {flags}", share(spent.refined, all));
-    }
-    if spent.is_finest {
-        said += "; that is the most there is, and more time changes nothing";
-    }
-    said
-}
-
-fn share(part: usize, all: usize) -> String {
-    match 100.0 * part as f64 / all.max(1) as f64 {
-        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
-        percent => format!("{percent:.0} %"),
-    }
-}
-
 /// `error 0.0088 [0.0081, 0.0096]`, and what the reference did not look at.
-fn error(audit: &Audit) -> String {
+pub(super) fn error(audit: &Audit) -> String {
     let amount = |error: f64| table::amount(audit.metric, error);
     // Below what the reference resolves nothing is known but that it lies there.
     let error = match audit.error.value < audit.resolution {
@@ -369,6 +239,7 @@ fn error(audit: &Audit) -> String {
         }
     };
     let depth = match audit.depth {
+        Some(1) => " against a reference only 1 surface deep".to_owned(),
         Some(depth) => format!(" against a reference only {depth} surfaces deep"),
         None => String::new(),
     };

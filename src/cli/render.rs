@@ -92,8 +92,11 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
             Some(place) => {
                 let samples = &traced.film.samples;
                 let done = samples.iter().filter(|samples| **samples > 0).count();
-                let share = 100 * done / samples.len().max(1);
-                format!("interrupted: the {share} % that are done are in {}\n", place.name())
+                let what = match 100 * done / samples.len().max(1) {
+                    100 => "one ray of each pixel, and a part of the smooth edges, are".to_owned(),
+                    share => format!("the {share} % that are done are"),
+                };
+                format!("interrupted: {what} in {}\n", place.name())
             }
             None => "interrupted: nothing was written\n".to_owned(),
         });

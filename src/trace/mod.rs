@@ -37,7 +37,7 @@ use shadow::Filters;
 use tiles::Crew;
 
 pub use counters::{Counters, Evaluations};
-pub use pixels::{Pixels, Sampling, pixels};
+pub use pixels::{Aim, Pixels, Sampling, Seen, pixels, seen};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {

@@ -50,25 +50,53 @@ pub fn pixels(
     watch: &dyn Watch,
 ) -> Pixels {
     let tracer = Tracer::new(world, geometry, plan, watch);
-    let Frame { width, height, .. } = plan.frame;
-    let kernel = match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
-        (false, false, false) => Tracer::radiance::<false, false, false>,
-        (false, true, false) => Tracer::radiance::<false, true, false>,
-        (true, false, false) => Tracer::radiance::<true, false, false>,
-        (true, true, false) => Tracer::radiance::<true, true, false>,
-        (false, false, true) => Tracer::radiance::<false, false, true>,
-        (false, true, true) => Tracer::radiance::<false, true, true>,
-        (true, false, true) => Tracer::radiance::<true, false, true>,
-        (true, true, true) => Tracer::radiance::<true, true, true>,
-    };
-    let pixel =
-        Pixel { plan, kernel, tracer: &tracer, lens: Lens::new(&world.camera, width, height) };
+    let pixel = Pixel::new(&tracer, plan, geometry);
     let crew = Crew::new(options.threads, watch);
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
         Sampling::Planned => pixel.planned(walk, place),
         Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
     });
     Pixels { radiance, counters }
+}
+
+/// A pixel, and how to look at it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Aim {
+    pub place: (u32, u32),
+    /// By `side` × `side` samples.
+    pub side: u32,
+    /// As [`Sampling::Jittered`]; `None`: in the middle of each part, as the film has them.
+    pub seed: Option<u64>,
+}
+
+/// What was seen in a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// Of the samples, in the scene's working space.
+    pub mean: Rgb,
+    /// The standard deviation of each component of the samples, those beyond [`Seen::BRIGHTEST`] counted
+    /// as that.
+    pub deviation: [f64; 3],
+}
+
+impl Seen {
+    /// A little beyond what a display shows: a pixel is not noisier for being brighter than that.
+    pub const BRIGHTEST: f64 = 4.0;
+}
+
+/// Traces pixels of the Plan's frame, each as finely as it says; `None` for those that the watch left
+/// undone, the last of the list as a rule.
+pub fn seen(
+    world: &World,
+    geometry: &Geometry,
+    plan: &Plan,
+    list: &[Aim],
+    options: &TraceOptions,
+    watch: &dyn Watch,
+) -> (Vec<Option<Seen>>, Counters) {
+    let tracer = Tracer::new(world, geometry, plan, watch);
+    let pixel = Pixel::new(&tracer, plan, geometry);
+    Crew::new(options.threads, watch).each(list, |walk, aim| pixel.aimed(walk, aim))
 }
 
 struct Pixel<'a> {
@@ -78,7 +106,22 @@ struct Pixel<'a> {
     lens: Lens,
 }
 
-impl Pixel<'_> {
+impl<'a> Pixel<'a> {
+    fn new(tracer: &'a Tracer<'a>, plan: &'a Plan, geometry: &Geometry) -> Self {
+        let Frame { width, height, .. } = plan.frame;
+        let kernel = match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
+            (false, false, false) => Tracer::radiance::<false, false, false>,
+            (false, true, false) => Tracer::radiance::<false, true, false>,
+            (true, false, false) => Tracer::radiance::<true, false, false>,
+            (true, true, false) => Tracer::radiance::<true, true, false>,
+            (false, false, true) => Tracer::radiance::<false, false, true>,
+            (false, true, true) => Tracer::radiance::<false, true, true>,
+            (true, false, true) => Tracer::radiance::<true, false, true>,
+            (true, true, true) => Tracer::radiance::<true, true, true>,
+        };
+        Self { plan, kernel, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
+    }
+
     fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
         match self.plan.antialias {
             Antialias::Off => self.grid(walk, place, 1),
@@ -114,9 +157,45 @@ impl Pixel<'_> {
     }
 
     fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Rgb {
+        self.grid_seen(walk, place, grid, |_| ())
+    }
+
+    /// The mean; `also` is shown each sample.
+    fn grid_seen(
+        &self,
+        walk: &mut Walk,
+        place: (u32, u32),
+        grid: u32,
+        mut also: impl FnMut(Rgb),
+    ) -> Rgb {
         antialias::mean(walk, self.tracer.watch, grid, |walk, i, j| {
-            self.seen(walk, self.lens.ray(place, (i, j), grid))
+            let seen = self.seen(walk, self.lens.ray(place, (i, j), grid));
+            also(seen);
+            seen
         })
+    }
+
+    fn aimed(&self, walk: &mut Walk, &Aim { place, side, seed }: &Aim) -> Seen {
+        let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
+        let add = |seen: Rgb| {
+            for (c, (sum, square)) in
+                seen.components().into_iter().zip(sum.iter_mut().zip(&mut squares))
+            {
+                let c = c.clamp(0.0, Seen::BRIGHTEST);
+                *sum += c;
+                *square += c * c;
+            }
+        };
+        let mean = match seed {
+            None => self.grid_seen(walk, place, side, add),
+            Some(seed) => self.jittered(walk, place, side, seed),
+        };
+        let n = f64::from(side) * f64::from(side);
+        let deviation = std::array::from_fn(|i| {
+            let mean: f64 = sum[i] / n;
+            (squares[i] / n - mean * mean).max(0.0).sqrt()
+        });
+        Seen { mean, deviation }
     }
 
     fn jittered(&self, walk: &mut Walk, (x, y): (u32, u32), side: u32, seed: u64) -> Rgb {

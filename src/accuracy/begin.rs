@@ -1,0 +1,150 @@
+//! The first ray of each pixel, by settings there is time for.
+//!
+//! **In:** a World, and when its first pass must be done. **Out:** a film of one ray a pixel.
+//! **Invariant:** one setting for the whole picture: the scene's own wherever it fits. Only pixels that
+//! were still left when a forecast turned out wrong have others, and they are counted.
+
+use super::afford::{Deadline, LEAST};
+use super::audit;
+use super::easel::Easel;
+use super::knob::Knob;
+use super::measure::{Clock, Timer};
+use super::reference::Studio;
+use super::refine::{Spread, place};
+use crate::plan::{Antialias, Plan, PlanOptions, plan};
+use crate::trace::{Sampling, Traced};
+use crate::world::Origins;
+
+/// Of the time there is, what the first pass may be predicted to take: the rest is for what the
+/// prediction is wrong by. On the gallery and on heaps of glass it was off by up to a fifth.
+const FOR_FIRST: f64 = 0.75;
+/// Of the pixels one of so many is looked at to predict it: they take a hundredth of the time.
+const ONE_OF: u32 = 100;
+/// Of the time for the first pass: what is kept for the cheapest settings, if others take too long after
+/// all. Those are many times as fast.
+const FOR_REST: f64 = 0.1;
+
+/// What came of it.
+pub struct Begun {
+    pub traced: Traced,
+    pub settings: PlanOptions,
+    /// The cheapest.
+    pub least: PlanOptions,
+    /// The settings are less than the scene's own.
+    pub is_less: bool,
+    /// How many pixels even those took too long for: they have the cheapest.
+    pub rest: usize,
+    /// CPU and wall-clock seconds.
+    pub took: (f64, f64),
+}
+
+/// Traces one ray a pixel before the clock shows `until`.
+pub fn begin(
+    studio: &Studio,
+    origins: &Origins,
+    easel: &Easel,
+    seed: u64,
+    (clock, until): (&dyn Clock, f64),
+) -> Begun {
+    let in_time = |until| Deadline { clock, until, watch: studio.watch };
+    let own = PlanOptions { antialias: Antialias::Off, ..easel.own };
+    let least = least(easel, own);
+    let all = in_time(until);
+    let in_all = Studio { watch: &all, ..*studio };
+    let settings = affordable(&in_all, origins, easel, seed, (least, own), (clock, until));
+    let kept = if settings == least { 0.0 } else { FOR_REST };
+    let most = in_time(until - kept * (until - clock.wall()));
+    let timer = Timer::new(clock, &most);
+    let mut traced = studio.picture(&plan(studio.world, origins, &settings), &timer);
+    let mut rest = 0;
+    if !traced.complete && settings != least {
+        rest = complete(&in_all, &plan(studio.world, origins, &least), &mut traced);
+    }
+    Begun { traced, settings, least, is_less: settings != own, rest, took: timer.read() }
+}
+
+/// Each knob at its cheapest, where the scene's `own` settings are dearer.
+fn least(easel: &Easel, own: PlanOptions) -> PlanOptions {
+    let mut options = own;
+    for knob in turned(easel) {
+        let settings = knob.with((knob.get)(&own));
+        let place = |of| settings.iter().position(|&setting| setting == of);
+        if place(knob.cheapest()) < place((knob.get)(&own)) {
+            (knob.set)(&mut options, knob.cheapest());
+        }
+    }
+    options
+}
+
+/// The knobs that the first pass may turn.
+fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
+    easel.knobs.iter().copied().filter(|knob| knob.name != "antialias")
+}
+
+/// Traces the pixels that were left undone; returns how many there are.
+fn complete(studio: &Studio, plan: &Plan, traced: &mut Traced) -> usize {
+    let film = &mut traced.film;
+    let pixels = Spread::new(film.samples.len()).part(0, 1);
+    let undone: Vec<usize> = pixels.filter(|&i| film.samples[i] == 0).collect();
+    let places: Vec<_> = undone.iter().map(|&i| place(film.frame.region, i)).collect();
+    let seen = studio.pixels(plan, &places, Sampling::Planned);
+    traced.counters += seen.counters;
+    traced.complete = true;
+    for (&i, radiance) in undone.iter().zip(seen.radiance) {
+        match radiance {
+            Some(radiance) => (film.radiance[i], film.samples[i]) = (radiance, 1),
+            None => traced.complete = false,
+        }
+    }
+    undone.len()
+}
+
+/// The settings of the first pass: the scene's `own`; where a few pixels say that those will not fit, each
+/// knob in turn as far toward them as will, and the rest at their `least`.
+fn affordable(
+    studio: &Studio,
+    origins: &Origins,
+    easel: &Easel,
+    seed: u64,
+    (least, own): (PlanOptions, PlanOptions),
+    (clock, until): (&dyn Clock, f64),
+) -> PlanOptions {
+    let region = own.frame.region;
+    let pixels = region.width.saturating_mul(region.height);
+    let few = (pixels / ONE_OF).max(LEAST as u32);
+    let list = audit::sets(region, few, 1, seed).remove(0);
+    let share = list.len() as f64 / f64::from(pixels);
+    let fits = |options: &PlanOptions| {
+        let plan = plan(studio.world, origins, options);
+        studio.geometry(&plan);
+        // What else the machine does may stand between: then the second look is short enough.
+        (0..2).any(|_| {
+            let now = clock.wall();
+            let watch = &Deadline {
+                clock,
+                until: now + FOR_FIRST * share * (until - now),
+                watch: studio.watch,
+            };
+            let seen = Studio { watch, ..*studio }.pixels(&plan, &list, Sampling::Planned);
+            seen.radiance.iter().all(Option::is_some)
+        })
+    };
+    if least == own || fits(&own) {
+        return own;
+    }
+    let mut options = least;
+    for knob in turned(easel) {
+        let all = knob.with((knob.get)(&own));
+        let place = |of| all.iter().position(|&setting| setting == of).unwrap_or(0);
+        let (from, to) = (place((knob.get)(&options)), place((knob.get)(&own)));
+        for &setting in all.iter().take(to + 1).skip(from + 1) {
+            let mut dearer = options;
+            (knob.set)(&mut dearer, setting);
+            if !fits(&dearer) {
+                break;
+            }
+            options = dearer;
+        }
+    }
+    options
+}

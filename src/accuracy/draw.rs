@@ -1,0 +1,192 @@
+//! The error of a picture whose samples are spread unevenly: more pixels are looked at where it may hide.
+//!
+//! **In:** how wrong each pixel is taken to be. **Out:** pixels drawn at random, what they really look
+//! like, and the error of the whole. **Invariant:** a pixel counts as many times less as it is likelier to
+//! be drawn, so that the estimate has the true error as its mean, whatever was taken for it.
+//!
+//! **Source:** M. Hansen, W. Hurwitz, "On the theory of sampling from finite populations", Annals of
+//! Mathematical Statistics 14, 1943.
+
+use super::afford::Deadline;
+use super::measure::Clock;
+use super::promise::Audit;
+use super::reference::{Studio, clamped, colors_of};
+use super::refine::{Canvas, Worth, place};
+use super::statistics::{Deviation, Estimate, Metric, weighted};
+use crate::film::Film;
+use crate::math::random::Random;
+use crate::plan::Plan;
+use crate::trace::{Aim, Counters};
+
+/// The part of all draws that takes any pixel for as likely as any other: so no pixel counts more than
+/// the inverse of it, however unlikely it was taken to be wrong.
+const ANYWHERE: f64 = 0.5;
+/// Draws between two looks at what is left: enough for many threads.
+const BLOCK: usize = 64;
+/// Pixels whose parts are added up before one is drawn among them.
+const CHUNK: usize = 64;
+/// Fewer draws than this say nothing of a picture.
+pub const LEAST: usize = 30;
+/// More than this tell little more: the interval is about a tenth of the error wide.
+pub const MOST: usize = 2000;
+
+/// A pixel that was drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Drawn {
+    place: (u32, u32),
+    /// How much it counts: 1 on the mean.
+    weight: f64,
+    /// Samples along its side.
+    side: u32,
+}
+
+/// Draws pixels one after the other, and any of them again.
+pub struct Urn<'a> {
+    canvas: &'a Canvas,
+    errors: Vec<f32>,
+    /// Of the squares of `errors`, chunk by chunk, each with all before it.
+    sums: Vec<f64>,
+    random: Random,
+}
+
+impl<'a> Urn<'a> {
+    /// `worth` is of the same `canvas`.
+    pub fn new(canvas: &'a Canvas, worth: &Worth, seed: u64) -> Self {
+        // The error of n × n samples, one in the middle of each part of a pixel: an edge crosses about n of
+        // the parts, and each is then wrong at random; so its square falls with n³.
+        let error = |i: usize| {
+            let n = canvas.side(i) as f32;
+            worth.variances[i] / (n * n * n)
+        };
+        let errors: Vec<f32> = (0..canvas.pixels()).map(error).collect();
+        let mut sum = 0.0;
+        let sums = errors.chunks(CHUNK).map(|chunk| {
+            sum += chunk.iter().map(|&error| f64::from(error)).sum::<f64>();
+            sum
+        });
+        Self { canvas, sums: sums.collect(), errors, random: Random::of(seed, 2) }
+    }
+
+    fn draw(&mut self) -> Drawn {
+        let pixels = self.errors.len();
+        let all = self.sums.last().copied().unwrap_or(0.0);
+        let i = match all > 0.0 && self.random.number(0.0, 1.0) >= ANYWHERE {
+            true => {
+                let at = self.random.number(0.0, all);
+                let chunk = self.sums.partition_point(|&sum| sum <= at).min(self.sums.len() - 1);
+                let mut left = at - if chunk == 0 { 0.0 } else { self.sums[chunk - 1] };
+                let first = chunk * CHUNK;
+                let chunk = &self.errors[first..(first + CHUNK).min(pixels)];
+                let found = chunk.iter().position(|&error| {
+                    left -= f64::from(error);
+                    left < 0.0
+                });
+                first + found.unwrap_or(chunk.len() - 1)
+            }
+            false => self.random.below(pixels),
+        };
+        let share = match all > 0.0 {
+            true => ANYWHERE + (1.0 - ANYWHERE) * f64::from(self.errors[i]) / all * pixels as f64,
+            false => 1.0,
+        };
+        Drawn {
+            place: place(self.canvas.film.frame.region, i),
+            weight: 1.0 / share,
+            side: self.canvas.side(i),
+        }
+    }
+}
+
+/// What drawn pixels really look like: two independent halves, as in a `Reference`.
+pub struct Truth {
+    drawn: Vec<Drawn>,
+    halves: [Vec<[f64; 3]>; 2],
+    pub counters: Counters,
+}
+
+impl Truth {
+    /// Of as many pixels as are done when the clock shows what `until` says to those that are known, and
+    /// of no more than [`MOST`].
+    pub fn find(
+        studio: &Studio,
+        plan: &Plan,
+        urn: &mut Urn,
+        (metric, seed): (Metric, u64),
+        (clock, until): (&dyn Clock, &dyn Fn(usize) -> f64),
+    ) -> Self {
+        let mut truth =
+            Self { drawn: Vec::new(), halves: Default::default(), counters: Counters::default() };
+        // A small picture's pixels are soon all known.
+        let most = MOST.min(urn.errors.len()).max(LEAST);
+        while truth.drawn.len() < most && clock.wall() < until(truth.drawn.len()) {
+            let block = if truth.drawn.is_empty() { LEAST } else { BLOCK };
+            let drawn: Vec<Drawn> = (0..block).map(|_| urn.draw()).collect();
+            let first = truth.drawn.len() as u64;
+            let aims = drawn.iter().zip(first..).flat_map(|(drawn, number)| {
+                let side = side(metric, drawn.side);
+                let half = |half| Aim {
+                    place: drawn.place,
+                    side,
+                    seed: Some(seed.wrapping_add((2 * number + half) << 32)),
+                };
+                [half(0), half(1)]
+            });
+            let watch = &Deadline { clock, until: until(truth.drawn.len()), watch: studio.watch };
+            let studio = Studio { watch, ..*studio };
+            let (seen, counters) = studio.seen(plan, &aims.collect::<Vec<_>>());
+            truth.counters += counters;
+            let gamma = studio.world.settings.assumed_gamma;
+            let colors: Vec<_> =
+                seen.into_iter().map_while(|seen| Some(clamped(seen?.mean, gamma))).collect();
+            for (drawn, pair) in drawn.iter().zip(colors.chunks_exact(2)) {
+                truth.drawn.push(*drawn);
+                (0..2).for_each(|half| truth.halves[half].push(pair[half]));
+            }
+            if colors.len() < 2 * drawn.len() {
+                break;
+            }
+        }
+        truth
+    }
+
+    pub fn pixels(&self) -> usize {
+        self.drawn.len()
+    }
+
+    /// What they say of a film.
+    pub fn audit(&self, film: &Film, metric: Metric) -> Audit {
+        let list: Vec<_> = self.drawn.iter().map(|drawn| drawn.place).collect();
+        let weights: Vec<f64> = self.drawn.iter().map(|drawn| drawn.weight).collect();
+        let colors = colors_of(film, &list);
+        let halves = self.halves[0].iter().zip(&self.halves[1]);
+        let off = colors.iter().zip(halves).map(|(color, (a, b))| Deviation {
+            off: std::array::from_fn(|i| color[i] - (a[i] + b[i]) / 2.0),
+            noise: std::array::from_fn(|i| (a[i] - b[i]) / 2.0),
+        });
+        let off: Vec<Deviation> = off.collect();
+        let (error, noise) = weighted(metric, &off, &weights);
+        let resolution = resolution(metric, error, noise);
+        Audit { metric, error, resolution, pixels: list.len(), depth: None }
+    }
+}
+
+/// Below this an error cannot be told from the reference's own. The mean of (x − A)(x − B) is the true
+/// square error whatever the noise of A and B, and its interval knows of it: where that reaches down to
+/// nothing, nothing is known but its end. The other metrics take noise for error.
+fn resolution(metric: Metric, error: Estimate, noise: f64) -> f64 {
+    match metric {
+        Metric::Rmse if error.low > 0.0 => 0.0,
+        Metric::Rmse => error.high.max(noise),
+        Metric::P99 | Metric::Bad => 4.0 * noise,
+    }
+}
+
+/// Samples along the side of each half of a pixel's truth. For RMSE as many as the pixel itself has and a
+/// fifth more: their noise is then of the size of its error, which is where a given time tells most;
+/// others take noise for error, and want it small.
+fn side(metric: Metric, side: u32) -> u32 {
+    match metric {
+        Metric::Rmse => (side + side.div_ceil(10)).max(2),
+        Metric::P99 | Metric::Bad => (2 * side).clamp(8, 48),
+    }
+}

@@ -1,0 +1,228 @@
+//! `render --time-budget`: when a picture must be traced to be written in time, and what is said of it.
+
+use std::cell::Cell;
+use std::thread::available_parallelism;
+
+use lucarne::accuracy::{self, Clock, First, Options, Spent};
+use lucarne::color::Rgb;
+use lucarne::film::{Depth, Film, develop};
+use lucarne::picture::{Format, encode};
+use lucarne::plan::Region;
+use lucarne::trace::Traced;
+use lucarne::world::{Origins, World};
+
+use super::exit::Exit;
+use super::progress::Progress;
+use super::promise::{Made, error};
+use super::stats::Stopwatch;
+
+/// Of the time there is, what tracing and writing may take by forecast: half of the promised 5 % is for
+/// what forecasts are wrong by.
+const PLANNED: f64 = 0.975;
+/// Of a picture's rows one of so many is written on trial, in so many bands; and how much longer the whole
+/// may take, which is finer, and whose memory is new.
+const ON_TRIAL: u32 = 16;
+const BANDS: u32 = 8;
+const SLOWER: f64 = 1.3;
+/// Seconds to stop and to end in, where each thread has a processor.
+const TO_END: f64 = 0.01;
+/// Where reading took all the time there was: what a first pass may take beyond, of what reading took.
+const LATE: f64 = 0.1;
+
+/// Renders for `seconds` since the program began, and says what came of it.
+pub(super) fn spend(
+    (world, origins): (&World, &Origins),
+    options: &Options,
+    seconds: f64,
+    written: (Depth, Format),
+    clock: &Stopwatch,
+    progress: &Progress,
+) -> Made {
+    let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
+    // When the scene was read and the tree of boxes stood, and how long the picture takes to write.
+    let (read, to_end) = (Cell::new(0.0), Cell::new(0.0));
+    let end = |write: f64, busy: f64| {
+        to_end.set((write + TO_END) * busy.max(1.0));
+        PLANNED * seconds - to_end.get()
+    };
+    let until = |first: Option<First>| match first {
+        None => {
+            // Reading had one thread: how much of a processor it was given tells how busy the machine is.
+            let (wall, cpu) = (clock.wall(), clock.cpu());
+            read.set(wall);
+            let write = to_write(&unknown(options, world), written, clock);
+            let end = end(write, wall / cpu.max(f64::MIN_POSITIVE));
+            if is_late(wall, seconds) { end.max(wall * (1.0 + LATE)) } else { end }
+        }
+        Some(First { film, processors }) => {
+            let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
+            end(to_write(film, written, clock), busy)
+        }
+    };
+    let spent = accuracy::spend(world, origins, options, &until, clock, progress);
+    let about = About { seconds, read: read.get(), now: clock.wall(), to_end: to_end.get() };
+    let (said, exit) = match (progress.is_stopped(), spent.traced.complete) {
+        (true, complete) => (about.interrupted(&spent, complete), Exit::Interrupted),
+        (false, false) => (about.unfinished(&spent), Exit::Limit),
+        (false, true) => about.finished(&spent, world.settings.max_trace_level),
+    };
+    Made { traced: spent.traced, said, exit }
+}
+
+/// Reading alone took the time there was.
+fn is_late(read: f64, seconds: f64) -> bool {
+    read >= PLANNED * seconds
+}
+
+/// What the clock said, in seconds since the program began.
+struct About {
+    /// What was promised.
+    seconds: f64,
+    /// When tracing began.
+    read: f64,
+    now: f64,
+    to_end: f64,
+}
+
+impl About {
+    fn finished(&self, spent: &Spent, depth: u32) -> (String, Exit) {
+        let made = made(spent);
+        match &spent.audit {
+            _ if is_late(self.read, self.seconds) => {
+                let Self { read, seconds, now, to_end } = self;
+                let needed = now + to_end;
+                let said = format!(
+                    "warning: reading the scene took {read:.2} s of the {seconds} s; with one ray a pixel it takes {needed:.2} s\n{made}\n"
+                );
+                (said, Exit::Promise)
+            }
+            Some(audit) => {
+                let pixels = audit.pixels;
+                let said = format!(
+                    "{}, on {pixels} pixels, after {:.2} s\n{made}\n",
+                    error(audit),
+                    self.now
+                );
+                (said, Exit::Done)
+            }
+            None if spent.is_less => {
+                let surfaces = if depth == 1 { "surface" } else { "surfaces" };
+                let said = format!(
+                    "warning: how far off it is is not known: there was no time to look {depth} {surfaces} deep, as the scene does\n{made}\n"
+                );
+                (said, Exit::Promise)
+            }
+            None => {
+                let said = format!(
+                    "warning: how far off it is is not known: the first rays left no time to find out\n{made}\n"
+                );
+                (said, Exit::Promise)
+            }
+        }
+    }
+
+    fn unfinished(&self, spent: &Spent) -> String {
+        let samples = &spent.traced.film.samples;
+        let done = samples.iter().filter(|samples| **samples > 0).count();
+        let share = 100 * done / samples.len().max(1);
+        let with = match spent.is_less || spent.rest > 0 {
+            true => format!(", even with {}", spent.least),
+            false => String::new(),
+        };
+        let Self { seconds, read, now, to_end } = self;
+        let reading = match *read > 0.1 * seconds {
+            true => format!("; reading the scene took {read:.2} s"),
+            false => String::new(),
+        };
+        let enough = match share {
+            0 => String::new(),
+            _ => {
+                let all = read + (now - read) * samples.len() as f64 / done as f64 + to_end;
+                format!("; about {:.1} s would be enough", 1.1 * all)
+            }
+        };
+        format!(
+            "{seconds} s are too few for one ray a pixel{with}: {share} % of them are done{reading}{enough}\n"
+        )
+    }
+
+    fn interrupted(&self, spent: &Spent, complete: bool) -> String {
+        match complete {
+            // The caller says how many pixels there are.
+            false => String::new(),
+            true => format!(
+                "interrupted after {:.2} s of {} s, and how far off it is was not found out: {}\n",
+                self.now,
+                self.seconds,
+                made(spent)
+            ),
+        }
+    }
+}
+
+/// About how many seconds of one processor it takes to write a picture: measured on some of its rows,
+/// from top to bottom.
+fn to_write(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> f64 {
+    let Region { width, height, .. } = film.frame.region;
+    let row = width as usize;
+    let high = (height / (BANDS * ON_TRIAL)).max(1);
+    let bands = BANDS.min(height);
+    let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
+    some.frame.region.height = bands * high;
+    let part = f64::from(some.frame.region.height) / f64::from(height.max(1));
+    if film.radiance.is_empty() {
+        some.radiance = (0..row * (bands * high) as usize).map(speckled).collect();
+    } else {
+        for band in 0..bands {
+            let top = (height - high) / bands * band;
+            let rows = row * top as usize..row * (top + high) as usize;
+            some.radiance.extend(&film.radiance[rows]);
+        }
+    }
+    some.samples = vec![1; some.radiance.len()];
+    let began = clock.cpu();
+    // What cannot be written is told when it is.
+    drop(encode(&develop(&some, depth), format));
+    SLOWER * (clock.cpu() - began) / part
+}
+
+/// A film of which nothing is known yet.
+fn unknown(options: &Options, world: &World) -> Film {
+    let (frame, assumed_gamma) = (options.frame, world.settings.assumed_gamma);
+    Film { frame, assumed_gamma, radiance: Vec::new(), samples: Vec::new() }
+}
+
+/// A picture that is about as hard to write as pictures are: a slow gradient and a little noise.
+fn speckled(i: usize) -> Rgb {
+    let noise = (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as f64 / 255.0;
+    Rgb::gray((i % 1024) as f64 / 1024.0 + 0.02 * noise)
+}
+
+/// What was done: `4 to 64 samples a pixel, 23 on average`.
+fn made(spent: &Spent) -> String {
+    let samples = &spent.traced.film.samples;
+    let least = samples.iter().copied().min().unwrap_or(0);
+    let most = samples.iter().copied().max().unwrap_or(0);
+    let sum: u64 = samples.iter().map(|&samples| u64::from(samples)).sum();
+    let mean = sum as f64 / samples.len().max(1) as f64;
+    let mut said = match (least == most, most) {
+        (true, 1) => "1 sample a pixel".to_owned(),
+        (true, _) => format!("{most} samples a pixel"),
+        (false, _) if mean < 10.0 => {
+            format!("{least} to {most} samples a pixel, {mean:.1} on average")
+        }
+        (false, _) => format!("{least} to {most} samples a pixel, {mean:.0} on average"),
+    };
+    if spent.is_finest {
+        said += ": that is the most there is, and more time changes nothing";
+    }
+    if spent.is_less {
+        said += &format!("; with {}: more would not fit", spent.flags);
+    }
+    match spent.rest {
+        0 => {}
+        1 => said += &format!("; 1 pixel with {}", spent.least),
+        rest => said += &format!("; {rest} pixels with {}", spent.least),
+    }
+    said
+}
