@@ -11,7 +11,8 @@ use super::knob::cost;
 use super::measure::{Clock, Span};
 use super::reference::Studio;
 use super::trial::{Candidate, Picture};
-use crate::trace::Sampling;
+use crate::plan::{Antialias, Plan};
+use crate::trace::{Counters, Sampling};
 
 /// Pixels that are looked at: enough to tell dear from cheap.
 const PIXELS: usize = 64;
@@ -20,9 +21,42 @@ const FEWEST: usize = 16;
 /// Of the time that is left: what looking at one setting may take.
 const FOR_ONE: f64 = 0.25;
 
-/// The cost of each candidate, in rays of the camera for those pixels; infinite where it is not known,
-/// for want of time.
-pub struct Forecast(Vec<f64>);
+/// What a few pixels say of each candidate.
+pub struct Forecast {
+    /// In rays of the camera for those pixels; infinite where it is not known, for want of time.
+    costs: Vec<f64>,
+    pub looks: Vec<Option<Look>>,
+}
+
+/// The colours of some pixels under a setting, and what was counted.
+pub type Look = (Vec<[f64; 3]>, Counters);
+
+/// About how many seconds a candidate's picture takes by the clock on the wall, from one ray of each of a few
+/// pixels and the samples that its antialiasing gives them: known at once, and too low rather than too high.
+pub fn at_once(
+    studio: &Studio,
+    candidate: &Candidate,
+    list: &[(u32, u32)],
+    (clock, until): (&dyn Clock, f64),
+) -> f64 {
+    let few = &list[..PIXELS.min(list.len())];
+    let began = clock.wall();
+    let in_time = Deadline { clock, until, watch: studio.watch };
+    let studio = Studio { watch: &in_time, ..*studio };
+    let plain = Plan { antialias: Antialias::Off, ..candidate.plan.clone() };
+    let done = studio.first_colors(&plain, few, Sampling::Planned).0.len();
+    let a_sample = (clock.wall() - began) / done.max(1) as f64;
+    let samples = match candidate.plan.antialias {
+        Antialias::Off => 1.0,
+        Antialias::Grid(n) => f64::from(n) * f64::from(n),
+        Antialias::Adaptive { .. } => match studio.colors(&candidate.plan, few, Sampling::Planned) {
+            Some((_, counters)) => counters.camera as f64 / few.len().max(1) as f64,
+            None => 1.0,
+        },
+    };
+    let region = candidate.plan.frame.region;
+    a_sample * samples * f64::from(region.width) * f64::from(region.height)
+}
 
 /// Looks at a few pixels under each setting, those first that cost least at least.
 pub fn forecast(
@@ -33,6 +67,7 @@ pub fn forecast(
 ) -> Forecast {
     let few = &list[..PIXELS.min(list.len() / FEWEST).max(FEWEST).min(list.len())];
     let mut costs = vec![f64::INFINITY; candidates.len()];
+    let mut looks = vec![None; candidates.len()];
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     order.sort_by(|&a, &b| candidates[a].least.total_cmp(&candidates[b].least));
     for number in order {
@@ -41,38 +76,39 @@ pub fn forecast(
         let end = now + FOR_ONE * (until - now).max(0.0);
         let in_time = Deadline { clock, until: end, watch: studio.watch };
         let studio = Studio { watch: &in_time, ..*studio };
-        if let Some((_, counters)) = studio.colors(&candidate.plan, few, Sampling::Planned) {
-            costs[number] = candidate.factor * cost(&counters);
+        looks[number] = studio.colors(&candidate.plan, few, Sampling::Planned);
+        if let Some((_, counters)) = &looks[number] {
+            costs[number] = candidate.factor * cost(counters);
         }
     }
-    Forecast(costs)
+    Forecast { costs, looks }
 }
 
 impl Forecast {
     /// From cheap to dear; what is not known last, by what it costs at least.
     pub fn compare(&self, candidates: &[Candidate], a: usize, b: usize) -> Ordering {
         let least = |number: usize| candidates[number].least;
-        self.0[a].total_cmp(&self.0[b]).then(least(a).total_cmp(&least(b)))
+        self.costs[a].total_cmp(&self.costs[b]).then(least(a).total_cmp(&least(b)))
     }
 
     /// What a candidate's picture will take by the clock on the wall, from those of others.
     pub fn seconds(&self, number: usize, pictures: &[Picture]) -> f64 {
-        self.0[number] * self.a_unit(pictures)
+        self.costs[number] * self.a_unit(pictures)
     }
 
     /// A candidate's picture was not done after so many seconds.
     pub fn is_at_least(&mut self, number: usize, seconds: f64, pictures: &[Picture]) {
         let a_unit = self.a_unit(pictures);
-        if a_unit > 0.0 && self.0[number].is_finite() {
-            self.0[number] = self.0[number].max(seconds / a_unit);
+        if a_unit > 0.0 && self.costs[number].is_finite() {
+            self.costs[number] = self.costs[number].max(seconds / a_unit);
         }
     }
 
     /// Seconds for each unit of cost.
     fn a_unit(&self, pictures: &[Picture]) -> f64 {
-        let known = || pictures.iter().filter(|picture| self.0[picture.candidate].is_finite());
+        let known = || pictures.iter().filter(|picture| self.costs[picture.candidate].is_finite());
         let seconds: f64 = known().map(|picture| Span::of(&picture.times.wall).median).sum();
-        let cost: f64 = known().map(|picture| self.0[picture.candidate]).sum();
+        let cost: f64 = known().map(|picture| self.costs[picture.candidate]).sum();
         if cost > 0.0 { seconds / cost } else { 0.0 }
     }
 }

@@ -1,7 +1,8 @@
 //! Which settings are worth their cost: a partial order, and what it says of each.
 //!
 //! **Invariant:** one setting is cheaper than another when its counted cost is less and, in the seconds,
-//! its middle run is shorter than the other's shortest. So no verdict goes against a column that the
+//! its middle run is shorter than the other's shortest (of a row with too few runs, by more than those of
+//! others lie apart). So no verdict goes against a column that the
 //! reader sees, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
 //! order and a product order over shared resamples are transitive, and so are they together. What is
 //! not proven is never taken for equal: equal is only what was the same work, or the same error to the
@@ -23,6 +24,9 @@ pub struct Point {
     pub cost: f64,
     /// CPU seconds; those that are the same work share their runs.
     pub cpu: Span,
+    /// How far those may be off, as a part of them: nothing where there are runs enough, elsewhere as far
+    /// as the runs of others lie apart.
+    pub doubt: f64,
     /// The error as measured, with its 95 % interval.
     pub error: Estimate,
     /// That of the resamples, which all points share.
@@ -45,6 +49,15 @@ impl Point {
     }
 }
 
+impl Point {
+    /// By the clock: what is surely longer than the other takes less than this.
+    fn is_quicker(&self, than: &Self) -> bool {
+        // A clock too coarse to see a run says nothing of it.
+        let surely = (1.0 + self.doubt) * (1.0 + than.doubt);
+        0.0 < self.cpu.min && surely * self.cpu.median < than.cpu.min
+    }
+}
+
 /// What is to be said of a setting; how many times as long as another it takes is of the shortest runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
@@ -62,29 +75,42 @@ pub enum Verdict {
 /// Points in order of cost and of error.
 pub struct Order {
     points: Vec<Point>,
+    /// Which point gains over which: each resample of each pair is looked at once.
+    gains: Vec<Vec<bool>>,
+    dominates: Vec<Vec<bool>>,
 }
 
 impl Order {
     pub fn of(points: Vec<Point>) -> Self {
-        Self { points }
+        let mut order = Self { points, gains: Vec::new(), dominates: Vec::new() };
+        let all = || 0..order.points.len();
+        let pairs = |is: &dyn Fn(usize, usize) -> bool| -> Vec<Vec<bool>> {
+            all().map(|a| all().map(|b| is(a, b)).collect()).collect()
+        };
+        let gains = pairs(&|a, over| order.each_error(a, over, |a, over| a * WORTH < over));
+        let dominates = pairs(&|a, b| {
+            let cheaper = order.is_cheaper(a, b);
+            (cheaper || order.is_same_work(a, b))
+                && order.is_no_worse(a, b)
+                && (cheaper || order.is_better(a, b))
+        });
+        (order.gains, order.dominates) = (gains, dominates);
+        order
     }
 
     pub fn is_same_work(&self, a: usize, b: usize) -> bool {
         let (a, b) = (&self.points[a], &self.points[b]);
-        a.work == b.work && a.cost == b.cost && a.cpu == b.cpu
+        a.work == b.work && a.cost == b.cost && a.cpu == b.cpu && a.doubt == b.doubt
     }
 
     /// By what was counted, and by the clock.
     pub fn is_cheaper(&self, a: usize, b: usize) -> bool {
-        let (a, b) = (&self.points[a], &self.points[b]);
-        // A clock too coarse to see a run says nothing of it.
-        a.cost < b.cost && 0.0 < a.cpu.min && a.cpu.median < b.cpu.min
+        self.points[a].cost < self.points[b].cost && self.is_quicker(a, b)
     }
 
     /// By the clock alone.
     pub fn is_quicker(&self, a: usize, b: usize) -> bool {
-        let (a, b) = (&self.points[a], &self.points[b]);
-        0.0 < a.cpu.min && a.cpu.median < b.cpu.min
+        self.points[a].is_quicker(&self.points[b])
     }
 
     /// How many times as long as `a`, if it is dearer, `b` takes.
@@ -116,15 +142,12 @@ impl Order {
 
     /// Its error is proven to be the smaller by more than a hundredth.
     pub fn gains(&self, a: usize, over: usize) -> bool {
-        self.each_error(a, over, |a, over| a * WORTH < over)
+        self.gains[a][over]
     }
 
     /// No dearer, no worse, and one of both it is better.
     pub fn dominates(&self, a: usize, b: usize) -> bool {
-        let cheaper = self.is_cheaper(a, b);
-        (cheaper || self.is_same_work(a, b))
-            && self.is_no_worse(a, b)
-            && (cheaper || self.is_better(a, b))
+        self.dominates[a][b]
     }
 
     /// The points of a list by counted cost; of the same cost, as they came.
@@ -187,6 +210,7 @@ mod tests {
             work: (counters, 1.0),
             cost,
             cpu: Span::of(cpu),
+            doubt: 0.0,
             error: sure,
             resamples: vec![error; 4],
             resolution: 0.0,
@@ -222,11 +246,12 @@ mod tests {
             let low = value - random.number(0.0, 0.8 * spread);
             new.error = Estimate { value, low, high: value + random.number(0.0, 0.8 * spread) };
             new.resolution = resolution;
+            new.doubt = [0.0, 0.0, 0.1][random.below(3)];
             if random.below(3) == 0 {
                 new.work.0.shadow = random.below(2) as u64;
             }
             if let Some(twin) = points.iter().find(|other| other.work == new.work) {
-                new.cpu = twin.cpu;
+                (new.cpu, new.doubt) = (twin.cpu, twin.doubt);
             }
             points.push(new);
         }
@@ -277,7 +302,8 @@ mod tests {
                 let shown = |of: usize| point(of).error.value.max(point(of).resolution);
                 let cheaper = |a: usize, b: usize| {
                     let (a, b) = (point(a), point(b));
-                    a.cost < b.cost && a.cpu.min > 0.0 && a.cpu.median < b.cpu.min
+                    let surely = (1.0 + a.doubt) * (1.0 + b.doubt);
+                    a.cost < b.cost && a.cpu.min > 0.0 && surely * a.cpu.median < b.cpu.min
                 };
                 let place = match *verdict {
                     Verdict::Front => {
@@ -366,6 +392,18 @@ mod tests {
             verdicts(&[point(1.0, &[0.0], 0.5), point(2.0, &[0.1], 0.5)])[1],
             Verdict::Tied { with: 0 }
         );
+    }
+
+    #[test]
+    fn a_single_run_is_as_uncertain_as_the_runs_of_others_lie_apart() {
+        let second = |doubt: f64, seconds: f64| {
+            let mut points = [point(1.0, &[1.0], 0.5), point(1.2, &[seconds], 0.5)];
+            points.iter_mut().for_each(|point| point.doubt = doubt);
+            verdicts(&points)[1]
+        };
+        assert_eq!(second(0.05, 1.007), Verdict::Tied { with: 0 });
+        assert_eq!(second(0.05, 1.1), Verdict::Tied { with: 0 });
+        assert!(matches!(second(0.05, 1.2), Verdict::Dominated { by: 0, .. }));
     }
 
     #[test]

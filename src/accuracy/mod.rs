@@ -5,6 +5,8 @@
 //! time for the same reference; only seconds differ. Nothing here prints or reads disks.
 
 mod afford;
+mod alike;
+mod answer;
 mod audit;
 mod choose;
 mod easel;
@@ -35,6 +37,7 @@ use crate::plan::{Frame, PlanOptions, Region, plan};
 use crate::trace::{Counters, TraceOptions, Watch};
 use crate::world::{Origins, World};
 use afford::Depths;
+use alike::Alike;
 use front::Point;
 use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
@@ -53,15 +56,18 @@ pub struct Options<'a> {
     pub trace: TraceOptions,
 }
 
+/// How far runs may lie apart, of the shortest, where no row has enough to tell.
+const UNKNOWN: f64 = 1.0;
 /// Seconds of tracing below which it is not told whether the machine was busy.
 const LEAST_TO_TELL: f64 = 0.5;
 
 /// Why there is no report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unmeasured {
     Stopped,
-    /// The scene's own picture and the roughest reference take longer than the budget.
-    TooShort,
+    /// The scene's own picture takes about `own` seconds or more, which is too much of the budget; about
+    /// `enough` are enough for something beside it.
+    TooShort { own: f64, enough: f64 },
 }
 
 /// What the settings cost and buy.
@@ -71,8 +77,7 @@ pub struct Report {
     pub metric: Metric,
     pub seed: u64,
     pub audited: usize,
-    /// What had to be given up to keep the budget, settings aside.
-    pub cut: Vec<String>,
+    pub cut: Cut,
     /// Of each audited pixel.
     pub reference_samples: u32,
     /// The reference's own error, in each of [`Metric::ALL`].
@@ -84,16 +89,54 @@ pub struct Report {
     pub rows: Vec<Row>,
 }
 
+/// What had to be given up to keep the budget, settings aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cut {
+    /// How many pixels were to be audited.
+    pub pixels: Option<usize>,
+    /// How few samples of each the reference has.
+    pub samples: Option<u32>,
+    /// How deep the reference looks, and how deep it was to.
+    pub depth: Option<(u32, u32)>,
+}
+
 /// A knob, and what came of turning it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
     pub name: &'static str,
-    /// From cheap to dear.
+    /// Its coarsest setting, and its finest.
+    pub ends: [String; 2],
+    /// From cheap to dear. Those that are the same work at every audited pixel share a row.
     pub settings: Vec<Setting>,
+    /// Those that change no audited pixel, and were not timed.
+    pub vain: Vec<String>,
     /// What did not fit into the budget.
     pub left_out: Vec<String>,
     /// What it bought, or that it buys nothing here.
     pub sentence: String,
+}
+
+/// Settings that share a row.
+pub struct Line<'a> {
+    /// `5`, or of several the coarsest and the finest: `10 … 250`.
+    pub label: String,
+    /// One of them is the scene's own.
+    pub is_own: bool,
+    pub first: &'a Setting,
+}
+
+impl Tried {
+    /// From cheap to dear; those that share a row are one line.
+    pub fn lines(&self) -> impl Iterator<Item = Line<'_>> {
+        self.settings.chunk_by(|a, b| a.row == b.row).filter_map(|same| {
+            let (first, last) = (same.first()?, same.last()?);
+            let label = match same.len() {
+                1 => first.label.clone(),
+                _ => format!("{} … {}", first.label, last.label),
+            };
+            Some(Line { label, is_own: same.iter().any(|setting| setting.is_own), first })
+        })
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -176,6 +219,12 @@ impl Report {
         if wall >= LEAST_TO_TELL { (cpu / whole).min(1.0) } else { 1.0 }
     }
 
+    /// The flag that makes a row's picture; none for that of the scene's own settings.
+    pub fn flag(&self, row: usize) -> Option<&str> {
+        let mut settings = self.knobs.iter().flat_map(|knob| &knob.settings);
+        settings.find(|setting| setting.row == row && row > 0).map(|setting| setting.flag.as_str())
+    }
+
     /// Puts settings in order and says what they are worth.
     fn judge(&mut self) {
         let order = self.order();
@@ -184,11 +233,16 @@ impl Report {
             row.verdict = verdict;
         }
         for tried in &mut self.knobs {
-            let rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
+            // Of rows of the same cost the first goes before here, too: so no two point at each other.
+            let mut rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
+            rows.sort_unstable();
+            rows.dedup();
+            let verdicts = order.verdicts(&rows);
             let sorted = order.from_cheap_to_dear(&rows);
             let place = |row| sorted.iter().position(|&other| other == row);
-            for (setting, verdict) in tried.settings.iter_mut().zip(order.verdicts(&rows)) {
-                setting.verdict = verdict;
+            for setting in &mut tried.settings {
+                let own = rows.iter().zip(&verdicts).find(|(row, _)| **row == setting.row);
+                setting.verdict = own.map_or(Verdict::Front, |(_, verdict)| *verdict);
             }
             tried.settings.sort_by_key(|setting| place(setting.row));
         }
@@ -199,9 +253,17 @@ impl Report {
 
     /// Which rows are cheaper, which better.
     pub fn order(&self) -> Order {
+        let times = || self.rows.iter().map(|row| &row.times);
+        let apart = times().filter_map(Times::apart).fold(None, |most: Option<f64>, apart| {
+            Some(most.map_or(apart, |most| most.max(apart)))
+        });
         let point = |row: usize| {
             let this = &self.rows[row];
             Point {
+                doubt: match this.times.apart() {
+                    Some(_) => 0.0,
+                    None => apart.unwrap_or(UNKNOWN),
+                },
                 work: (this.counters, this.factor),
                 cost: self.cost(row),
                 cpu: Span::of(&this.times.cpu),
@@ -259,6 +321,74 @@ pub fn idle(world: &World, origins: &Origins, frame: Frame, knobs: &[Knob]) -> V
     knobs.iter().filter(is_idle).map(say).collect()
 }
 
+/// A setting of a knob, and the candidate that has it.
+struct Turned<'a> {
+    knob: &'a Knob,
+    setting: f64,
+    candidate: usize,
+}
+
+/// The scene's own settings and each other that the knobs have, one turned at a time; and every knob's, from
+/// coarse to fine.
+fn candidates<'a>(
+    world: &World,
+    origins: &Origins,
+    own: PlanOptions,
+    knobs: &[&'a Knob],
+) -> (Vec<Candidate>, Vec<Vec<Turned<'a>>>) {
+    let factor = |options: &PlanOptions| {
+        knobs.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
+    };
+    let candidate = |name: String, least: f64, options: &PlanOptions| Candidate {
+        name,
+        plan: plan(world, origins, options),
+        least,
+        factor: factor(options),
+    };
+    let mut candidates = vec![candidate("*".to_owned(), 1.0, &own)];
+    let of_knob = |&knob: &&'a Knob| {
+        let mine = (knob.get)(&own);
+        let mut turn = |setting: f64| {
+            if setting == mine {
+                return Turned { knob, setting, candidate: 0 };
+            }
+            let mut options = own;
+            (knob.set)(&mut options, setting);
+            let name = format!("{} {}", knob.name, (knob.label)(setting));
+            candidates.push(candidate(name, (knob.least)(setting), &options));
+            Turned { knob, setting, candidate: candidates.len() - 1 }
+        };
+        knob.with(mine).into_iter().map(&mut turn).collect()
+    };
+    let turned = knobs.iter().map(of_knob).collect();
+    (candidates, turned)
+}
+
+/// Which of a knob's settings have a row, and which have none.
+fn tried(turned: &[Turned], pictures: &[Picture], alike: &Alike) -> Tried {
+    let label = |turned: &Turned| (turned.knob.label)(turned.setting);
+    let ends = [turned.first(), turned.last()].map(|end| end.map(label).unwrap_or_default());
+    let name = turned.first().map_or("", |turned| turned.knob.name);
+    let mut tried =
+        Tried { name, ends, settings: Vec::new(), vain: Vec::new(), left_out: Vec::new(), sentence: String::new() };
+    for this in turned {
+        let timed = alike.timed(this.candidate);
+        let row = pictures.iter().position(|picture| picture.candidate == timed);
+        match row {
+            Some(row) => tried.settings.push(Setting {
+                label: label(this),
+                flag: (this.knob.flag)(this.setting),
+                is_own: this.candidate == 0,
+                row,
+                verdict: Verdict::Front,
+            }),
+            None if alike.is_vain(this.candidate) => tried.vain.push(label(this)),
+            None => tried.left_out.push(label(this)),
+        }
+    }
+    tried
+}
+
 /// Tries every setting of every knob that there is time for, the others as the scene has them.
 ///
 /// # Errors
@@ -271,7 +401,6 @@ pub fn accuracy(
     watch: &dyn Watch,
 ) -> Result<Report, Unmeasured> {
     let began = clock.wall();
-    let until = began + options.budget;
     let own = own(world, options.frame);
     let called = called_for(world, origins, own, options.knobs);
     let geometry = Geometries::default();
@@ -283,72 +412,15 @@ pub fn accuracy(
     let list = audit::shuffled(list, options.seed);
     watch.built();
 
-    let factor = |options: &PlanOptions| {
-        called.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
-    };
-    let mut candidates = vec![Candidate {
-        name: "*".to_owned(),
-        plan: plan(world, origins, &own),
-        least: 1.0,
-        factor: factor(&own),
-    }];
-    let mut settings = Vec::new();
-    for (number, knob) in called.iter().enumerate() {
-        let mine = (knob.get)(&own);
-        for setting in knob.with(mine) {
-            let is_own = setting == mine;
-            settings.push((number, setting, if is_own { 0 } else { candidates.len() }));
-            if !is_own {
-                let mut turned = own;
-                (knob.set)(&mut turned, setting);
-                candidates.push(Candidate {
-                    name: format!("{} {}", knob.name, (knob.label)(setting)),
-                    plan: plan(world, origins, &turned),
-                    least: (knob.least)(setting),
-                    factor: factor(&turned),
-                });
-            }
-        }
-    }
+    let (candidates, turned) = candidates(world, origins, own, &called);
+    let numbers = |turned: &Vec<Turned>| turned.iter().map(|turned| turned.candidate).collect();
+    let knobs: Vec<Vec<usize>> = turned.iter().map(numbers).collect();
     let depths = Depths { origins, deepest: dearest(own, options.knobs) };
     let most_depth = depths.most();
-    let bench = Bench { studio, depths, options, clock, until };
-    let Trial { reference, depth, pictures } = bench.run(&candidates, &list)?;
+    let bench = Bench { studio, depths, options, clock, until: began + options.budget };
+    let Trial { reference, depth, pictures, alike } = bench.run(&candidates, &knobs, &list)?;
 
-    let mut knobs: Vec<Tried> = called
-        .iter()
-        .map(|knob| Tried {
-            name: knob.name,
-            settings: Vec::new(),
-            left_out: Vec::new(),
-            sentence: String::new(),
-        })
-        .collect();
-    for (number, setting, candidate) in settings {
-        let (knob, tried) = (called[number], &mut knobs[number]);
-        let label = (knob.label)(setting);
-        match pictures.iter().position(|picture| picture.candidate == candidate) {
-            None => tried.left_out.push(label),
-            Some(row) => {
-                let (flag, is_own) = ((knob.flag)(setting), candidate == 0);
-                let verdict = Verdict::Front;
-                tried.settings.push(Setting { label, flag, is_own, row, verdict });
-            }
-        }
-    }
-    let mut cut = Vec::new();
-    let audited = reference.pixels();
-    if audited < list.len() {
-        cut.push(format!("{audited} of {} audited pixels", list.len()));
-    }
-    if reference.samples() < Reference::samples_at(Reference::COARSEST) {
-        cut.push(format!("{} samples of each in the reference", reference.samples()));
-    }
-    if depth < most_depth {
-        cut.push(format!("{depth} of {most_depth} surfaces deep in the reference"));
-    }
-
-    let floors = Metric::ALL.map(|metric| reference.floor(metric));
+    let knobs = turned.iter().map(|turned| tried(turned, &pictures, &alike)).collect();
     let rows = pictures.into_iter().map(|Picture { candidate, times, counters, colors }| {
         let off = audit::by_place(&list, reference.deviations(&colors));
         Row {
@@ -366,10 +438,15 @@ pub fn accuracy(
         frame: options.frame,
         metric: options.metric,
         seed: options.seed,
-        audited,
-        cut,
+        audited: reference.pixels(),
+        cut: Cut {
+            pixels: (reference.pixels() < list.len()).then_some(list.len()),
+            samples: (reference.samples() < Reference::samples_at(Reference::COARSEST))
+                .then_some(reference.samples()),
+            depth: (depth < most_depth).then_some((depth, most_depth)),
+        },
         reference_samples: reference.samples(),
-        floors,
+        floors: Metric::ALL.map(|metric| reference.floor(metric)),
         rows: rows.collect(),
         knobs,
         idle: Vec::new(),

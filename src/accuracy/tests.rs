@@ -321,7 +321,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let svg = svg::text(&report, "a<b>.scene", &host);
     balanced(&svg);
     svg::tests::is_legible(&svg);
-    let points = report.knobs.iter().map(|knob| knob.settings.len()).sum::<usize>();
+    let points = report.knobs.iter().map(|knob| knob.lines().count()).sum::<usize>();
     assert_eq!(svg.matches("<g class=\"k").count(), points + report.knobs.len());
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
 }

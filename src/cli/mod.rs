@@ -9,6 +9,7 @@ mod exit;
 mod explain;
 mod files;
 mod fmt;
+mod life;
 mod messages;
 mod output;
 mod plan;

@@ -12,12 +12,15 @@ pub struct Work {
     pub box_visits: u64,
     /// How often the equation of a shape was solved for a ray.
     pub root_solves: u64,
+    /// What that took, in equations of a sphere: see [`crate::shape::body::Local::price`].
+    pub solving: u64,
 }
 
 impl AddAssign for Work {
     fn add_assign(&mut self, other: Self) {
         self.box_visits += other.box_visits;
         self.root_solves += other.root_solves;
+        self.solving += other.solving;
     }
 }
 
@@ -25,7 +28,8 @@ impl AddAssign for Work {
 pub(super) trait Tally {
     const COUNTS: bool;
     fn box_visits(&mut self, count: u64);
-    fn root_solve(&mut self);
+    /// Of a shape of this price, which is asked for where it is counted.
+    fn root_solve(&mut self, price: impl FnOnce() -> u64);
 }
 
 /// Takes note of nothing, and is nothing.
@@ -36,7 +40,7 @@ impl Tally for Uncounted {
     #[inline(always)]
     fn box_visits(&mut self, _: u64) {}
     #[inline(always)]
-    fn root_solve(&mut self) {}
+    fn root_solve(&mut self, _: impl FnOnce() -> u64) {}
 }
 
 impl Tally for Work {
@@ -46,8 +50,9 @@ impl Tally for Work {
         self.box_visits += count;
     }
     #[inline(always)]
-    fn root_solve(&mut self) {
+    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
         self.root_solves += 1;
+        self.solving += price();
     }
 }
 
@@ -58,7 +63,7 @@ impl<T: Tally> Tally for &mut T {
         (**self).box_visits(count);
     }
     #[inline(always)]
-    fn root_solve(&mut self) {
-        (**self).root_solve();
+    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
+        (**self).root_solve(price);
     }
 }
