@@ -79,8 +79,7 @@ pub fn alike(
                 alike.vain[candidate] = true;
             } else if may_be_twin || mine.0 == few_own.0 {
                 let Some(mine) = look(candidate) else { continue };
-                let is_mine =
-                    |(of, look): &&(usize, Look)| same(of) && *look == mine;
+                let is_mine = |(of, look): &&(usize, Look)| same(of) && *look == mine;
                 match seen.iter().find(is_mine) {
                     Some(&(twin, _)) => alike.twin[candidate] = Some(twin),
                     None => alike.vain[candidate] = mine.0 == own.0,

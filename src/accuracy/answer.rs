@@ -14,7 +14,14 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
         }
         Some(Verdict::Dominated { by, times, .. }) => {
             let times = times.map_or_else(|| "as fast".to_owned(), faster);
-            (by, format!("use {}: {times} than the scene's own settings, for {}", flag(by), instead(report, by, 0)))
+            (
+                by,
+                format!(
+                    "use {}: {times} than the scene's own settings, for {}",
+                    flag(by),
+                    instead(report, by, 0)
+                ),
+            )
         }
         Some(Verdict::Unproven { over, times }) => (
             over,

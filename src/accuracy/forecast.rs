@@ -49,10 +49,12 @@ pub fn at_once(
     let samples = match candidate.plan.antialias {
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
-        Antialias::Adaptive { .. } => match studio.colors(&candidate.plan, few, Sampling::Planned) {
-            Some((_, counters)) => counters.camera as f64 / few.len().max(1) as f64,
-            None => 1.0,
-        },
+        Antialias::Adaptive { .. } => {
+            match studio.colors(&candidate.plan, few, Sampling::Planned) {
+                Some((_, counters)) => counters.camera as f64 / few.len().max(1) as f64,
+                None => 1.0,
+            }
+        }
     };
     let region = candidate.plan.frame.region;
     a_sample * samples * f64::from(region.width) * f64::from(region.height)

@@ -238,7 +238,10 @@ impl<'a> Search<'a> {
         let (mut floor, mut step, mut samples) =
             (known.floor(self.options.metric), known.step(), 0.0);
         let error = error.max(SMALL * self.promise);
-        while 4.0 * floor > error && !known.is_exact() && step < Reference::finest_within(usize::MAX) {
+        while 4.0 * floor > error
+            && !known.is_exact()
+            && step < Reference::finest_within(usize::MAX)
+        {
             step += 1;
             samples += f64::from(Reference::samples_at(step));
             floor *= 0.6;

@@ -132,6 +132,41 @@ fn a_promise_that_the_dearest_settings_miss_is_missed_in_one_picture() {
 }
 
 #[test]
+fn an_error_that_no_reference_can_tell_is_not_promised() {
+    // Each pixel has a thousand squares of the checker.
+    let noise = "camera { location <0, 0, 6> look_at 0 angle 40 }
+        plane { z, -9 pigment { checker rgb 0 rgb 1 scale 0.01 } finish { ambient 1 diffuse 0 } }";
+    let (world, origins) = compiled(noise, 0.0);
+    for promise in [0.001, 0.002, 0.004, 0.008] {
+        let kept = keep(&world, &origins, &asked(20, 20), promise, &Ticking::new(1.0), NOBODY);
+        let audit = kept.expect("large enough").expect("not stopped").audit.expect("done");
+        assert!(!audit.proves(promise) || audit.resolution <= promise, "{promise}: {audit:?}");
+    }
+}
+
+#[test]
+fn where_nothing_is_to_be_told_apart_a_promise_takes_no_time() {
+    let flat = "camera { location -9*z look_at 0 }
+        plane { -z, 0 pigment { rgb 0.5 } finish { ambient 1 diffuse 0 } }";
+    let (world, origins) = compiled(flat, 0.0);
+    let samples = std::sync::Mutex::new(0);
+    let tell = |step| {
+        if let Step::Learning { samples: more, .. } = step {
+            *samples.lock().expect("one thread") += more;
+        }
+    };
+    let clock = Ticking::new(1.0);
+    let kept = keep(&world, &origins, &asked(48, 36), 0.01, &clock, (&Unwatched, &tell));
+    let audit = kept.expect("large enough").expect("not stopped").audit.expect("done");
+    assert!(audit.proves(0.01), "{audit:?}");
+    // The coarsest reference of each kind is as good as any.
+    assert_eq!(
+        samples.into_inner().expect("one thread"),
+        2 * Reference::samples_at(Reference::COARSEST)
+    );
+}
+
+#[test]
 fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
     let (world, origins) = compiled(BALLS, 0.0);
     let frame = Frame::whole(160, 120);

@@ -167,7 +167,11 @@ mod tests {
         let mut report = report(&[(1.0, 0.1, 0.0), (2.0, 0.1, 0.0)], &["knob"], 0.0);
         report.floors = [0.001, 0.002, 0.0];
         (report.rows[0].colors, report.rows[1].colors) = (vec![[0.3; 3]], vec![[0.3005; 3]]);
-        let said = [(Metric::Rmse, "the noise floor of 0.00100."), (Metric::P99, "the noise floor of 0.00200."), (Metric::Bad, "the RMSE's noise floor of 0.00100.")];
+        let said = [
+            (Metric::Rmse, "the noise floor of 0.00100."),
+            (Metric::P99, "the noise floor of 0.00200."),
+            (Metric::Bad, "the RMSE's noise floor of 0.00100."),
+        ];
         for (metric, floor) in said {
             report.metric = metric;
             report.judge();

@@ -112,7 +112,8 @@ pub(super) fn cut(report: &Report) -> Vec<String> {
     let Cut { pixels, samples, depth } = report.cut;
     let pixels = pixels.map(|all| format!("{} of {all} audited pixels", report.audited));
     let samples = samples.map(|samples| format!("{samples} samples of each in the reference"));
-    let depth = depth.map(|(deep, most)| format!("{deep} of {most} surfaces deep in the reference"));
+    let depth =
+        depth.map(|(deep, most)| format!("{deep} of {most} surfaces deep in the reference"));
     [pixels, samples, depth].into_iter().flatten().collect()
 }
 

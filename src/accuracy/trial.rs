@@ -162,8 +162,7 @@ impl Bench<'_> {
         let alike_until = self.after(FOR_ALIKE, until);
         let is_exact = reference.has(&pictures[0].colors);
         let time = (self.clock, alike_until);
-        let alike =
-            alike(&self.studio, candidates, knobs, &forecast, list, is_exact, time);
+        let alike = alike(&self.studio, candidates, knobs, &forecast, list, is_exact, time);
         let timed: Vec<usize> = (0..candidates.len()).filter(|&c| alike.is_timed(c)).collect();
         let first_until = self.after(FOR_PICTURES, until);
         self.others((candidates, &timed), &mut forecast, &deep, list, first_until, &mut pictures)?;

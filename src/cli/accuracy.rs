@@ -6,10 +6,10 @@ use std::path::Path;
 use std::thread::available_parallelism;
 
 use lucarne::accuracy::json::{self, Host};
+use lucarne::accuracy::table::Width;
 use lucarne::accuracy::{
     Clock, KNOBS, Knob, LEAST_PIXELS, Options, Report, Unmeasured, accuracy, idle, svg, table,
 };
-use lucarne::accuracy::table::Width;
 use lucarne::plan::Frame;
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;

@@ -11,7 +11,8 @@ use super::exit::Failure;
 use super::messages;
 use super::scene::SceneArguments;
 use super::values::{
-    MetricArgument, antialias, depth, error, knob, region, seconds, size, threads, tolerance, weight,
+    MetricArgument, antialias, depth, error, knob, region, seconds, size, threads, tolerance,
+    weight,
 };
 
 /// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
@@ -367,5 +368,30 @@ mod tests {
     fn the_description_of_the_arguments_is_consistent() {
         use clap::CommandFactory;
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_knob_is_a_flag_that_makes_the_same_picture_and_is_no_promises() {
+        use lucarne::accuracy::KNOBS;
+        let frame = Frame::whole(640, 480);
+        let asked = |flags: &str| {
+            let words = format!("lucarne render a.scene {flags}");
+            match Arguments::try_parse_from(words.split(' ')).map(|asked| asked.command) {
+                Ok(Command::Render(render)) => Some(render.picture.options(frame)),
+                _ => None,
+            }
+        };
+        for knob in KNOBS {
+            for &setting in knob.settings {
+                let flag = (knob.flag)(setting);
+                let mut options = PlanOptions::new(frame);
+                (knob.set)(&mut options, setting);
+                let asked_for = asked(&flag).expect(&flag);
+                assert_eq!((knob.get)(&asked_for), (knob.get)(&options), "{flag}");
+                for promise in ["--max-error 0.1", "--time-budget 3s"] {
+                    assert!(asked(&format!("{flag} {promise}")).is_none(), "{flag} {promise}");
+                }
+            }
+        }
     }
 }

@@ -31,11 +31,7 @@ struct Now {
 
 impl Life {
     /// Of work of this name, told by `say` after each `pause`.
-    pub fn begin(
-        name: &'static str,
-        pause: Duration,
-        say: impl Fn(&str) + Send + 'static,
-    ) -> Self {
+    pub fn begin(name: &'static str, pause: Duration, say: impl Fn(&str) + Send + 'static) -> Self {
         let now = Now { name, began: Instant::now(), done: None, ended: false };
         let shared = Arc::new(Shared { now: Mutex::new(now), ended: Condvar::new() });
         let told = shared.clone();

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::thread::available_parallelism;
 
-use lucarne::accuracy::{self, Audit, Clock, First, KNOBS, Metric, Options, Spent, Step, TooSmall, table};
+use lucarne::accuracy::{
+    self, Audit, Clock, First, KNOBS, Metric, Options, Spent, Step, TooSmall, table,
+};
 use lucarne::film::{Depth, Film, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::plan::{Frame, PlanOptions, Region, plan};

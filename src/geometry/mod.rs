@@ -349,7 +349,8 @@ impl Geometry {
             Solid::Ellipsoid(_) => 3,
             Solid::Placed(i) => self.placed[i as usize].body.price(),
             Solid::Whole(i) => {
-                let price = |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
+                let price =
+                    |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
                 self.wholes[i as usize].price(price)
             }
         }

@@ -123,7 +123,11 @@ impl<'a> Diagram<'a> {
         for &(key, (x, y)) in &self.legend {
             let sign = match key {
                 Key::Knob(number) => {
-                    format!("<g class=\"k{}\">{}</g>", number % SHAPES, marker(number, x, y - 4.0, ""))
+                    format!(
+                        "<g class=\"k{}\">{}</g>",
+                        number % SHAPES,
+                        marker(number, x, y - 4.0, "")
+                    )
                 }
                 Key::Own => {
                     format!("<circle class=\"own\" cx=\"{x:.1}\" cy=\"{:.1}\" r=\"7\"/>", y - 4.0)
