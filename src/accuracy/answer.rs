@@ -6,10 +6,15 @@ use super::{Order, Report, Verdict};
 /// A line that says what to use, then one for those who want less error, and one for those with less time.
 pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let flag = |row: usize| report.flag(row).unwrap_or("the scene's own settings").to_owned();
-    let turned = || report.knobs.iter().any(|knob| knob.lines().count() + knob.left_out.len() > 1);
+    let is_alone = report.rows.len() == 1;
+    let left_out = report.knobs.iter().any(|knob| !knob.left_out.is_empty());
     let (best, first) = match report.rows.first().map(|own| own.verdict) {
         None => return Vec::new(),
-        Some(_) if !turned() => {
+        Some(_) if is_alone && left_out => (
+            0,
+            "nothing but the scene's own settings was tried: `--budget` is too short".to_owned(),
+        ),
+        Some(_) if is_alone => {
             (0, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
         }
         Some(Verdict::Dominated { by, times, .. }) => {

@@ -16,6 +16,8 @@ use crate::trace::{Counters, Sampling};
 
 /// Pixels that are looked at: enough to tell dear from cheap.
 const PIXELS: usize = 64;
+/// Of all pixels of a small picture.
+const PART: f64 = 16.0;
 /// Of all audited pixels of a small picture.
 const FEWEST: usize = 16;
 /// Of the time that is left: what looking at one setting may take.
@@ -39,7 +41,10 @@ pub fn at_once(
     list: &[(u32, u32)],
     (clock, until): (&dyn Clock, f64),
 ) -> f64 {
-    let few = &list[..PIXELS.min(list.len())];
+    let region = candidate.plan.frame.region;
+    let pixels = f64::from(region.width) * f64::from(region.height);
+    // So few that what they take is little of what all take.
+    let few = &list[..PIXELS.min((pixels / PART) as usize).max(1).min(list.len())];
     let began = clock.wall();
     let in_time = Deadline { clock, until, watch: studio.watch };
     let studio = Studio { watch: &in_time, ..*studio };
@@ -56,8 +61,7 @@ pub fn at_once(
             }
         }
     };
-    let region = candidate.plan.frame.region;
-    a_sample * samples * f64::from(region.width) * f64::from(region.height)
+    a_sample * samples * pixels
 }
 
 /// Looks at a few pixels under each setting, those first that cost least at least.

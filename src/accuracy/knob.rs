@@ -63,25 +63,25 @@ pub const KNOBS: &[Knob] = &[
         name: "antialias",
         needs: Need::Edges,
         idle: "there is nothing to see",
-        settings: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0],
+        settings: &RUNGS,
         between: false,
-        set: |options, place| options.antialias = LADDER[place as usize % LADDER.len()],
+        set: |options, place| options.antialias = rung(place),
         get: |options| {
             LADDER.iter().position(|&rung| rung == options.antialias).unwrap_or(0) as f64
         },
-        least: |place| match LADDER[place as usize % LADDER.len()] {
+        least: |place| match rung(place) {
             Antialias::Off | Antialias::Adaptive { .. } => 1.0,
             Antialias::Grid(n) => f64::from(n * n),
         },
         factor: |_| 1.0,
-        label: |place| match LADDER[place as usize % LADDER.len()] {
+        label: |place| match rung(place) {
             Antialias::Off => "off".to_owned(),
             Antialias::Adaptive { threshold, grid } => {
                 format!("adaptive {threshold} {grid}×{grid}")
             }
             Antialias::Grid(n) => format!("{n}×{n}"),
         },
-        flag: |place| match LADDER[place as usize % LADDER.len()] {
+        flag: |place| match rung(place) {
             Antialias::Off => "--antialias off".to_owned(),
             Antialias::Adaptive { threshold, grid } => {
                 format!("--antialias adaptive:{threshold}:{grid}")
@@ -184,6 +184,23 @@ const LADDER: [Antialias; 14] = [
     Antialias::Grid(32),
 ];
 
+/// Their places, as settings.
+const RUNGS: [f64; LADDER.len()] = {
+    let mut places = [0.0; LADDER.len()];
+    let mut place = 1;
+    while place < places.len() {
+        places[place] = places[place - 1] + 1.0;
+        place += 1;
+    }
+    places
+};
+
+/// What stands at a place of [`RUNGS`].
+fn rung(place: f64) -> Antialias {
+    debug_assert!(RUNGS.contains(&place), "{place} is no rung");
+    LADDER[(place as usize).min(LADDER.len() - 1)]
+}
+
 impl Knob {
     /// The setting that costs least in any scene.
     pub fn cheapest(&self) -> f64 {
@@ -259,7 +276,6 @@ mod tests {
         assert!(LADDER.contains(&Antialias::default()));
         let options = PlanOptions::new(Frame::whole(1, 1));
         assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 4×4");
-        assert_eq!(KNOBS[0].settings.len(), LADDER.len());
     }
 
     #[test]

@@ -125,7 +125,7 @@ pub fn keep(
 
 /// What was traced to find things out.
 #[derive(Debug, Clone, Copy, Default)]
-struct Spent {
+struct Effort {
     seconds: f64,
     samples: f64,
     cost: f64,
@@ -144,7 +144,7 @@ struct Search<'a> {
     cut: Option<u32>,
     /// To choose by, to audit by, and to audit a second picture by.
     sets: Vec<Vec<(u32, u32)>>,
-    spent: Cell<Spent>,
+    effort: Cell<Effort>,
     clock: &'a dyn Clock,
     watch: &'a dyn Watch,
     tell: &'a dyn Fn(Step),
@@ -169,9 +169,9 @@ impl<'a> Search<'a> {
         let few = &few[..few.len().min(TIMED)];
         let began = clock.wall();
         let rough = Reference::new(&studio, &deep, few, options.seed, Reference::ROUGH)?;
-        let spent = Cell::default();
+        let effort = Cell::default();
         let samples = f64::from(rough.samples()) * few.len() as f64;
-        add(&spent, clock.wall() - began, samples, &rough.counters);
+        add(&effort, clock.wall() - began, samples, &rough.counters);
         let a_sample = rough.counters.rays() as f64 / samples;
         let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))) as usize;
         for set in &mut sets {
@@ -190,7 +190,7 @@ impl<'a> Search<'a> {
             depth,
             cut,
             sets,
-            spent,
+            effort,
             clock,
             watch,
             tell,
@@ -198,7 +198,7 @@ impl<'a> Search<'a> {
     }
 
     fn a_sample(&self) -> f64 {
-        let Spent { seconds, samples, .. } = self.spent.get();
+        let Effort { seconds, samples, .. } = self.effort.get();
         seconds / samples.max(1.0)
     }
 
@@ -211,7 +211,7 @@ impl<'a> Search<'a> {
         let began = self.clock.wall();
         let told = Studio { watch: self.watch, ..self.studio };
         let finer = Reference::new(&told, &self.deep, list, self.options.seed, step)?;
-        add(&self.spent, self.clock.wall() - began, all, &finer.counters);
+        add(&self.effort, self.clock.wall() - began, all, &finer.counters);
         Some(finer)
     }
 
@@ -369,7 +369,7 @@ impl<'a> Search<'a> {
         let flags = self.easel.flags(&choice.options);
         let region = self.options.frame.region;
         let pixels = f64::from(region.width) * f64::from(region.height);
-        let Spent { seconds, cost, .. } = self.spent.get();
+        let Effort { seconds, cost, .. } = self.effort.get();
         (self.tell)(Step::Rendering {
             flags: flags.clone(),
             seconds: seconds / cost.max(1.0) * choice.cost * pixels,
@@ -401,9 +401,9 @@ fn expected(error: &Estimate, known: usize, fresh: usize) -> f64 {
     error.value + width * (1.0 + (1.0 + 1.0 / more).sqrt())
 }
 
-fn add(spent: &Cell<Spent>, seconds: f64, samples: f64, counters: &Counters) {
-    let before = spent.get();
-    spent.set(Spent {
+fn add(effort: &Cell<Effort>, seconds: f64, samples: f64, counters: &Counters) {
+    let before = effort.get();
+    effort.set(Effort {
         seconds: before.seconds + seconds,
         samples: before.samples + samples,
         cost: before.cost + cost(counters),

@@ -8,7 +8,7 @@ use crate::trace::Unwatched;
 /// Neither watches nor hears.
 const NOBODY: (&dyn Watch, &dyn Fn(Step)) = (&Unwatched, &|_| ());
 
-/// Of the gallery and the examples: mirrors, glass, beams, patterns, crowds.
+/// Of the gallery and the examples: mirrors, glass, beams, patterns, crowds, what crossings are stepped to.
 const SCENES: [(&str, &str); 20] = [
     ("gallery/first", include_str!("../../scenes/gallery/first.scene")),
     ("gallery/city", include_str!("../../scenes/gallery/city.scene")),
@@ -18,17 +18,17 @@ const SCENES: [(&str, &str); 20] = [
     ("gallery/chess", include_str!("../../scenes/gallery/chess.scene")),
     ("finishes/reflection", include_str!("../../scenes/finishes/reflection.scene")),
     ("finishes/phong", include_str!("../../scenes/finishes/phong.scene")),
-    ("finishes/metallic", include_str!("../../scenes/finishes/metallic.scene")),
+    ("shapes/blob", include_str!("../../scenes/shapes/blob.scene")),
     ("lights/spotlight", include_str!("../../scenes/lights/spotlight.scene")),
     ("lights/fade_distance", include_str!("../../scenes/lights/fade_distance.scene")),
-    ("lights/parallel", include_str!("../../scenes/lights/parallel.scene")),
+    ("csg/merge", include_str!("../../scenes/csg/merge.scene")),
     ("textures/gradient", include_str!("../../scenes/textures/gradient.scene")),
     ("textures/transmit", include_str!("../../scenes/textures/transmit.scene")),
     ("textures/color_map", include_str!("../../scenes/textures/color_map.scene")),
-    ("shapes/box", include_str!("../../scenes/shapes/box.scene")),
+    ("shapes/torus", include_str!("../../scenes/shapes/torus.scene")),
     ("csg/inverse", include_str!("../../scenes/csg/inverse.scene")),
     ("atmosphere/sky_sphere", include_str!("../../scenes/atmosphere/sky_sphere.scene")),
-    ("cameras/orthographic", include_str!("../../scenes/cameras/orthographic.scene")),
+    ("interiors/interior", include_str!("../../scenes/interiors/interior.scene")),
     ("transforms/matrix", include_str!("../../scenes/transforms/matrix.scene")),
 ];
 

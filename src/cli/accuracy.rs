@@ -20,7 +20,7 @@ use super::files::DiskFiles;
 use super::life::duration;
 use super::messages;
 use super::output::{can_be_made, write_whole};
-use super::progress::Progress;
+use super::progress::{self, Progress};
 use super::stats::{Stopwatch, cpu_seconds};
 use super::text::{name_of, read_main};
 
@@ -44,6 +44,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     }
     svg_path.map_or(Ok(()), can_be_made)?;
     let bytes = read_main(&arguments.file)?;
+    let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let name = name_of(&arguments.file);
@@ -91,6 +92,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         };
         return Err(Failure::usage(sentence).help(format!("{LEAST_PIXELS} are the least")));
     }
+    drop(life);
     let progress = Progress::start("measuring");
     let report = accuracy(&world, &origins, &options, &clock, &progress);
     progress.end();
