@@ -84,7 +84,7 @@ fn where_the_scenes_own_settings_do_not_fit_the_first_pass_is_made_with_what_doe
     // Not even the cheapest.
     let spent = spent(60.0);
     assert!(!spent.traced.complete && spent.is_less && spent.audit.is_none());
-    assert!(spent.first.starts_with("--depth 1 --adc-bailout 0.1 "), "{}", spent.first);
+    assert!(spent.first.starts_with("--depth 1 --adc-bailout 1/10 "), "{}", spent.first);
     assert_eq!(spent.first, spent.least);
 }
 

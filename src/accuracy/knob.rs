@@ -157,7 +157,7 @@ fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
     match parts {
         2.0..=9999.0 if 1.0 / parts == weight => format!("1/{parts}"),
-        _ if weight < 1e-4 => format!("{weight:e}"),
+        _ if weight > 0.0 && weight < 1e-4 => format!("{weight:e}"),
         _ => format!("{weight}"),
     }
 }

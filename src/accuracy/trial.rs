@@ -40,6 +40,8 @@ const FOR_ONE: f64 = 0.5;
 const ENOUGH_RUNS: usize = 5;
 const MOST_RUNS: usize = 9;
 
+/// How many times too long the scene's own picture must be, by the first look, not to be tried.
+const SURELY: f64 = 1.5;
 /// Of the time that the scene's own picture would just fit into: what leaves room for others.
 const ROOM: f64 = 2.0;
 
@@ -131,7 +133,7 @@ impl Bench<'_> {
                 Unmeasured::TooShort { own, enough: ROOM * own / FOR_OWN }
             }
         };
-        if own > FOR_OWN * (until - self.clock.wall()) {
+        if own > SURELY * FOR_OWN * (until - self.clock.wall()) {
             return Err(stopped());
         }
 

@@ -160,8 +160,10 @@ pub(in crate::accuracy) fn report(
             row,
             verdict: Verdict::Front,
         };
-        let settings = mine.map(setting).collect();
-        let ends = ["first".to_owned(), "last".to_owned()];
+        let settings: Vec<Setting> = mine.map(setting).collect();
+        let label =
+            |setting: Option<&Setting>| setting.map(|s| s.label.clone()).unwrap_or_default();
+        let ends = [label(settings.first()), label(settings.last())];
         let (vain, left_out) = (Vec::new(), Vec::new());
         Tried { name, ends, settings, vain, left_out, sentence: String::new() }
     };
