@@ -1,8 +1,8 @@
 //! The knobs: every setting that buys accuracy with time, in one table.
 //!
-//! **Invariant:** a knob is one entry of [`KNOBS`] and nothing else; one whose effect the scene does
-//! not call for is not looked at. Unit costs are constants, so what is chosen by them is the same on
-//! every machine and run.
+//! **Invariant:** a knob is a field of [`PlanOptions`] and one entry of [`KNOBS`]; one whose effect the
+//! scene does not call for is not looked at. Unit costs are constants, so what is chosen by them is the
+//! same on every machine and run.
 
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
