@@ -12,7 +12,7 @@ use super::measure::{Clock, Span};
 use super::reference::Studio;
 use super::trial::{Candidate, Picture};
 use crate::plan::{Antialias, Plan};
-use crate::trace::{Counters, Sampling};
+use crate::trace::{Counters, Pixels, Sampling};
 
 /// Pixels that are looked at: enough to tell dear from cheap.
 const PIXELS: usize = 64;
@@ -45,20 +45,24 @@ pub fn at_once(
     let pixels = f64::from(region.width) * f64::from(region.height);
     // So few that what they take is little of what all take.
     let few = &list[..PIXELS.min((pixels / PART) as usize).max(1).min(list.len())];
+    // Half of the time for each look; of those that are not done the others tell.
     let began = clock.wall();
-    let in_time = Deadline { clock, until, watch: studio.watch };
-    let studio = Studio { watch: &in_time, ..*studio };
-    let plain = Plan { antialias: Antialias::Off, ..candidate.plan.clone() };
-    let done = studio.first_colors(&plain, few, Sampling::Planned).0.len();
-    let a_sample = (clock.wall() - began) / done.max(1) as f64;
+    let half = (until - began).max(0.0) / 2.0;
+    let look = |antialias: Antialias, until: f64| {
+        let in_time = Deadline { clock, until, watch: studio.watch };
+        let studio = Studio { watch: &in_time, ..*studio };
+        let plan = Plan { antialias, ..candidate.plan.clone() };
+        let Pixels { radiance, counters } = studio.pixels(&plan, few, Sampling::Planned);
+        (radiance.iter().flatten().count().max(1) as f64, counters.camera as f64)
+    };
+    let (done, _) = look(Antialias::Off, began + half);
+    let a_sample = (clock.wall() - began) / done;
     let samples = match candidate.plan.antialias {
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
-        Antialias::Adaptive { .. } => {
-            match studio.colors(&candidate.plan, few, Sampling::Planned) {
-                Some((_, counters)) => counters.camera as f64 / few.len().max(1) as f64,
-                None => 1.0,
-            }
+        adaptive @ Antialias::Adaptive { .. } => {
+            let (done, camera) = look(adaptive, clock.wall() + half);
+            (camera / done).max(1.0)
         }
     };
     a_sample * samples * pixels
