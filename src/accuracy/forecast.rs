@@ -16,8 +16,10 @@ use crate::trace::{Counters, Pixels, Sampling};
 
 /// Pixels that are looked at: enough to tell dear from cheap.
 const PIXELS: usize = 64;
-/// Of all pixels of a small picture.
-const PART: f64 = 16.0;
+/// How many times more pixels are looked at next, where it was told too soon: before this part of the time
+/// there is.
+const MORE: usize = 4;
+const ENOUGH: f64 = 0.25;
 /// Of all audited pixels of a small picture.
 const FEWEST: usize = 16;
 /// Of the time that is left: what looking at one setting may take.
@@ -43,26 +45,32 @@ pub fn at_once(
 ) -> f64 {
     let region = candidate.plan.frame.region;
     let pixels = f64::from(region.width) * f64::from(region.height);
-    // So few that what they take is little of what all take.
-    let few = &list[..PIXELS.min((pixels / PART) as usize).max(1).min(list.len())];
-    // Half of the time for each look; of those that are not done the others tell.
-    let began = clock.wall();
-    let half = (until - began).max(0.0) / 2.0;
-    let look = |antialias: Antialias, until: f64| {
+    // The tree of boxes is no part of it.
+    studio.geometry(&candidate.plan);
+    let half = (until - clock.wall()).max(0.0) / 2.0;
+    let look = |antialias: Antialias, few: usize, until: f64| {
+        let began = clock.wall();
         let in_time = Deadline { clock, until, watch: studio.watch };
         let studio = Studio { watch: &in_time, ..*studio };
         let plan = Plan { antialias, ..candidate.plan.clone() };
-        let Pixels { radiance, counters } = studio.pixels(&plan, few, Sampling::Planned);
-        (radiance.iter().flatten().count().max(1) as f64, counters.camera as f64)
+        let Pixels { radiance, counters } = studio.pixels(&plan, &list[..few], Sampling::Planned);
+        // Of those that are not done the others tell.
+        let done = radiance.iter().flatten().count().max(1) as f64;
+        ((clock.wall() - began) / done, counters.camera as f64 / done)
     };
-    let (done, _) = look(Antialias::Off, began + half);
-    let a_sample = (clock.wall() - began) / done;
+    // More and more, until what they take is something that a clock can tell, beside all that it takes to
+    // begin.
+    let (began, mut few) = (clock.wall(), PIXELS.min(list.len()));
+    let (mut a_sample, _) = look(Antialias::Off, few, began + half);
+    while few < list.len() && clock.wall() - began < ENOUGH * half {
+        few = (MORE * few).min(list.len());
+        (a_sample, _) = look(Antialias::Off, few, began + half);
+    }
     let samples = match candidate.plan.antialias {
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
         adaptive @ Antialias::Adaptive { .. } => {
-            let (done, camera) = look(adaptive, clock.wall() + half);
-            (camera / done).max(1.0)
+            look(adaptive, PIXELS.min(few), clock.wall() + half).1.max(1.0)
         }
     };
     a_sample * samples * pixels

@@ -152,13 +152,14 @@ const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
 /// each shape costs more than the kernels save.
 const SINGLE: f64 = 1.11;
 
-/// `1/255`, or `1e-6`: read again it is the same number.
+/// `1/255`, `0.3` or `1e-6`: read again it is the same number.
 fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
-    match parts {
-        2.0..=9999.0 if 1.0 / parts == weight => format!("1/{parts}"),
-        _ if weight > 0.0 && weight < 1e-4 => format!("{weight:e}"),
-        _ => format!("{weight}"),
+    let (plain, short) = (format!("{weight}"), format!("{weight:e}"));
+    match format!("{parts}") {
+        few if few.len() < 5 && parts > 1.0 && 1.0 / parts == weight => format!("1/{few}"),
+        _ if short.len() < plain.len() => short,
+        _ => plain,
     }
 }
 

@@ -152,7 +152,12 @@ fn candidates<'a>(
 }
 
 /// Which of a knob's settings have a row, and which have none.
-fn tried(turned: &[Turned], pictures: &[Picture], alike: &Alike) -> Tried {
+fn tried(
+    turned: &[Turned],
+    pictures: &[Picture],
+    alike: &Alike,
+    is_same: &dyn Fn(&Picture, &Picture) -> bool,
+) -> Tried {
     let label = |turned: &Turned| (turned.knob.label)(turned.setting);
     let ends = [turned.first(), turned.last()].map(|end| end.map(label).unwrap_or_default());
     let name = turned.first().map_or("", |turned| turned.knob.name);
@@ -166,7 +171,9 @@ fn tried(turned: &[Turned], pictures: &[Picture], alike: &Alike) -> Tried {
     };
     for this in turned {
         let timed = alike.timed(this.candidate);
-        let row = pictures.iter().position(|picture| picture.candidate == timed);
+        let made = pictures.iter().find(|picture| picture.candidate == timed);
+        // What was found to be the same only when it was made shares a row, too.
+        let row = made.and_then(|made| pictures.iter().position(|other| is_same(made, other)));
         match row {
             Some(row) => tried.settings.push(Setting {
                 label: label(this),
@@ -213,7 +220,12 @@ pub fn accuracy(
     let bench = Bench { studio, depths, options, clock, until: began + options.budget };
     let Trial { reference, depth, pictures, alike } = bench.run(&candidates, &knobs, &list)?;
 
-    let knobs = turned.iter().map(|turned| tried(turned, &pictures, &alike)).collect();
+    let is_same = |a: &Picture, b: &Picture| {
+        let factor = |picture: &Picture| candidates[picture.candidate].factor;
+        a.counters == b.counters && factor(a) == factor(b) && a.colors == b.colors
+    };
+    let tried = |turned: &Vec<Turned>| tried(turned, &pictures, &alike, &is_same);
+    let knobs = turned.iter().map(tried).collect();
     let rows = pictures.into_iter().map(|Picture { candidate, times, counters, colors }| {
         let off = audit::by_place(&list, reference.deviations(&colors));
         Row {

@@ -149,10 +149,10 @@ fn row(report: &Report, knob: &Tried, line: &Line, width: Width) -> String {
 
 /// Half of what runs lie apart, of the middle one; nothing of a single run.
 fn apart(times: &Times) -> String {
+    let middle = Span::of(&times.cpu).median;
     match times.ends() {
-        Some((least, most)) if times.cpu.len() > 1 => {
-            let half = 50.0 * (most - least) / Span::of(&times.cpu).median.max(f64::MIN_POSITIVE);
-            format!("{:.0}%", half.min(99.0))
+        Some((least, most)) if times.cpu.len() > 1 && middle > 0.0 => {
+            format!("{:.0}%", (50.0 * (most - least) / middle).min(99.0))
         }
         _ => String::new(),
     }
@@ -254,7 +254,10 @@ pub(super) fn faster(ratio: f64) -> String {
     match ratio {
         LARGE.. => format!("{} faster", times(ratio)),
         // Less is nothing that anybody would notice.
-        _ => format!("{} faster", percent((1.0 - 1.0 / ratio).max(0.001))),
+        _ => match 1.0 - 1.0 / ratio {
+            part if 100.0 * part < 0.1 => "0.1 % faster".to_owned(),
+            part => format!("{} faster", percent(part)),
+        },
     }
 }
 

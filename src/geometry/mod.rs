@@ -342,20 +342,6 @@ impl Geometry {
         (crossing.t <= limit).then_some((crossing, leaving))
     }
 
-    /// What it takes to find where a ray meets an object, in equations of a sphere.
-    fn price(&self, entry: &Entry) -> u64 {
-        match entry.solid {
-            Solid::Sphere(_) | Solid::Plane(_) | Solid::Box(_) => 1,
-            Solid::Ellipsoid(_) => 3,
-            Solid::Placed(i) => self.placed[i as usize].body.price(),
-            Solid::Whole(i) => {
-                let price =
-                    |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
-                self.wholes[i as usize].price(price)
-            }
-        }
-    }
-
     #[inline(never)]
     fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<(Crossing, bool)> {
         let met = self.placed[i as usize].crossings(ray).into_iter().find(|met| sides.see(met))?;

@@ -5,6 +5,9 @@
 
 use std::ops::AddAssign;
 
+use super::{Entry, Geometry, Solid};
+use crate::shape::body::Local;
+
 /// How much work it was to find what rays meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
@@ -65,5 +68,21 @@ impl<T: Tally> Tally for &mut T {
     #[inline(always)]
     fn root_solve(&mut self, price: impl FnOnce() -> u64) {
         (**self).root_solve(price);
+    }
+}
+
+impl Geometry {
+    /// What it takes to find where a ray meets an object, in equations of a sphere.
+    pub(super) fn price(&self, entry: &Entry) -> u64 {
+        match entry.solid {
+            Solid::Sphere(_) | Solid::Plane(_) | Solid::Box(_) => 1,
+            Solid::Ellipsoid(_) => 3,
+            Solid::Placed(i) => self.placed[i as usize].body.price(),
+            Solid::Whole(i) => {
+                let price =
+                    |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
+                self.wholes[i as usize].price(price)
+            }
+        }
     }
 }
