@@ -460,12 +460,27 @@ fn wrong_usage_is_two() {
     }
     place.run("a.scene -o a.gif").ends(2, &[".gif", ".png"]);
     place.run("a.scene --size -1x5").ends(2, &["-1x5", "each from 1 to 1000000"]);
-    place.run("a.scene --threads -1").ends(2, &["-1", "1..=1024"]);
+    place.run("a.scene --threads -1").ends(2, &["-1", "a whole number from 1 to 1024"]);
+    place.run("a.scene --depth 0").ends(2, &["a whole number from 1 to"]);
+    place.run("a.scene --time-budget 3d").ends(2, &["a number alone is seconds"]);
     place.run("check a.scene -I no_such").ends(2, &["`-I no_such`: there is no such folder"]);
     place.run("a.scene -D x=2").ends(2, &["`x` is a word of the language"]);
     place.run("a.scene --stats xml").ends(2, &["xml", "possible values: json"]);
     place.run("a.scene -o a.jpg --size 70000x1").ends(2, &["at most 65535 pixels"]);
     place.run("explain unknwon-word").ends(2, &["did you mean `unknown-word`?"]);
+}
+
+#[test]
+fn an_option_that_is_known_elsewhere_is_told_where() {
+    let place = Place::new();
+    let run = place.run("accuracy a.scene --antialias 3");
+    let run = run.ends(2, &["it is an option of `lucarne render`", "`--knobs antialias`"]);
+    assert!(!run.stderr().contains("as a value"), "{}", run.stderr());
+    place.run("accuracy a.scene -o a.png").ends(2, &["`--svg OUT.svg`"]);
+    place.run("plan a.scene --time-budget 3s").ends(2, &["an option of `lucarne render`"]);
+    for words in ["a.scene -w 640", "a.scene +W320 +H240", "accuracy a.scene -w 640"] {
+        place.run(words).ends(2, &["is an option of POV-Ray's", "`--size 320x240`"]);
+    }
 }
 
 #[test]
@@ -829,16 +844,36 @@ fn a_reader_that_leaves_early_is_no_error() {
 #[test]
 fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let place = Place::new();
-    let run = place.run("accuracy a.scene --size 24x18 --budget 8s --threads 1").ends(0, &[]);
+    let run = place.run("accuracy a.scene --size 24x18 --budget 6s --threads 1").ends(0, &[]);
     let table = run.stdout();
-    assert!(table.starts_with("a.scene 24×18: 432 audited pixels (seed 1), "), "{table}");
+    let answer = table.lines().next().expect("a line");
+    assert!(answer.starts_with("use --antialias ") || answer.starts_with("keep "), "{table}");
+    assert!(table.contains("\na.scene 24×18: 432 audited pixels (seed 1), "), "{table}");
     assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
-    assert!(table.contains(" rays/px boxes/px roots/px "), "{table}");
+    assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
     // Nothing reflects.
     assert!(!table.contains("depth"), "{table}");
     assert_eq!(run.stderr(), "", "a bar only on a terminal");
     assert_eq!(place.names(), ["a.scene", "broken.scene"]);
+    let words = "accuracy a.scene --size 24x18 --budget 2s --wide --knobs precision";
+    assert!(place.run(words).ends(0, &[]).stdout().contains(" rays/px boxes/px roots/px "));
+}
+
+#[test]
+fn accuracy_ends_at_once_where_there_is_nothing_to_measure() {
+    let place = Place::new();
+    place.write("bare.scene", "camera { } background { rgb 0.5 }");
+    let run = place.run("accuracy bare.scene --allow all").ends(0, &[]);
+    assert!(run.stdout().starts_with("antialias does nothing here: there is nothing to see.\n"));
+    // A place that cannot be written is known before, too.
+    let words = "accuracy a.scene --size 24x18 --budget 600s --svg no/such/d.svg";
+    place.run(words).ends(3, &["there is no folder `no/such`"]);
+    // A budget that the picture alone is too much for is refused, with one that is not.
+    let words = "accuracy a.scene --size 4000x3000 --budget 2s";
+    let run =
+        place.run(words).ends(4, &["2 s are too few", "`--budget ", "is enough, or `--size "]);
+    assert!(run.stdout().is_empty());
 }
 
 #[test]
@@ -879,7 +914,7 @@ fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
     place.run("accuracy m.scene --budget 0").ends(2, &["such as 500ms, 60s or 5m"]);
     place
         .run("accuracy m.scene --budget 1ms")
-        .ends(4, &["0.001 s are too few", "nothing was measured"]);
+        .ends(4, &["0.001 s are too few", "nothing was measured", "`--budget "]);
     place.run("accuracy m.scene --svg d.png").ends(2, &["is an .svg"]);
     place.run("accuracy broken.scene").ends(1, &["unknown-word"]);
     place.run("accuracy no.scene").ends(3, &["no.scene"]);
@@ -944,7 +979,7 @@ fn a_promise_that_cannot_be_kept_is_told_and_ends_with_5() {
         5,
         &[
             "note: no settings are known to keep 1.0e-6; the best that can be reached here is ",
-            " fresh pixels; these are the finest settings it tries: `--antialias 64` is finer",
+            " fresh pixels; the pixels are so noisy that not even their reference tells so small",
         ],
     );
     assert!(!run.stderr().contains("choosing better"), "{}", run.stderr());

@@ -35,11 +35,11 @@ mod mirrors;
 mod other_words;
 #[path = "hard/page.rs"]
 mod page;
+#[path = "hard/round.rs"]
+mod round;
 #[path = "benches/numerics/rows.rs"]
 #[allow(dead_code, reason = "the benchmark tells the rows apart by name")]
 mod rows;
-#[path = "hard/round.rs"]
-mod round;
 #[path = "hard/scaled.rs"]
 mod scaled;
 #[path = "hard/scene.rs"]

@@ -84,7 +84,7 @@ fn where_the_scenes_own_settings_do_not_fit_the_first_pass_is_made_with_what_doe
     // Not even the cheapest.
     let spent = spent(60.0);
     assert!(!spent.traced.complete && spent.is_less && spent.audit.is_none());
-    assert!(spent.flags.starts_with("--depth 1 --adc-bailout 0.1 "), "{}", spent.flags);
+    assert!(spent.flags.starts_with("--depth 1 --adc-bailout 1/10 "), "{}", spent.flags);
     assert_eq!(spent.flags, spent.least);
 }
 
@@ -105,19 +105,33 @@ fn a_budget_is_kept_and_what_was_given_up_for_it_is_told() {
         let options = Options { budget, ..asked(48, 36) };
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
         assert!(clock.wall() <= 1.05 * budget, "{} of {budget}", clock.wall());
-        let cut = report.cut.join(", ");
-        assert!(cut.contains(" of 250 surfaces deep in the reference"), "{cut}");
+        let (depth, most) = report.cut.depth.expect("not all the way");
+        assert!(depth < most && most == 250, "{depth}");
+        let cut = table::cut(&report).join(", ");
+        assert!(cut.ends_with(&format!("{depth} of 250 surfaces deep in the reference")), "{cut}");
         let depth = report.knobs.iter().find(|knob| knob.name == "depth").expect("called for");
         assert!(depth.left_out.contains(&"250".to_owned()), "{depth:?}");
         assert!(depth.settings.iter().any(|setting| setting.is_own && setting.row == 0));
-        let all: usize = report.knobs.iter().map(|k| k.settings.len() + k.left_out.len()).sum();
+        let count = |k: &Tried| k.settings.len() + k.left_out.len() + k.vain.len();
+        let all: usize = report.knobs.iter().map(count).sum();
         assert_eq!(all, 14 + 7 + 5 + 2, "each is measured or listed as left out");
     }
     let options = Options { budget: 100.0, ..asked(48, 36) };
     let clock = Ticking::new(1.0);
     let none = accuracy(&world, &origins, &options, &clock, &Unwatched);
-    assert_eq!(none, Err(Unmeasured::TooShort));
+    let Err(Unmeasured::TooShort { own, enough }) = none else { panic!("{none:?}") };
     assert!(clock.wall() <= 110.0, "{}", clock.wall());
+    // What is said to be enough is, and is known long before the time is up.
+    assert!(own > 70.0 && enough > 2.0 * own, "{own} {enough}");
+    let clock = Ticking::new(1.0);
+    let options = Options { budget: 1500.0, ..asked(160, 120) };
+    let none = accuracy(&world, &origins, &options, &clock, &Unwatched);
+    let Err(Unmeasured::TooShort { enough, .. }) = none else { panic!("{none:?}") };
+    assert!(clock.wall() <= 200.0, "{}", clock.wall());
+    let options = Options { budget: enough, ..options };
+    let clock = Ticking::new(1.0);
+    let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
+    assert!(report.rows.len() > 1, "{}", report.rows.len());
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Which settings are worth their cost: a partial order, and what it says of each.
 //!
 //! **Invariant:** one setting is cheaper than another when its counted cost is less and, in the seconds,
-//! its middle run is shorter than the other's shortest. So no verdict goes against a column that the
+//! its middle run is shorter than the other's shortest (of a row with too few runs, by more than those of
+//! others lie apart). So no verdict goes against a column that the
 //! reader sees, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
 //! order and a product order over shared resamples are transitive, and so are they together. What is
 //! not proven is never taken for equal: equal is only what was the same work, or the same error to the
@@ -23,6 +24,9 @@ pub struct Point {
     pub cost: f64,
     /// CPU seconds; those that are the same work share their runs.
     pub cpu: Span,
+    /// How far those may be off, as a part of them: nothing where there are runs enough, elsewhere as far
+    /// as the runs of others lie apart.
+    pub doubt: f64,
     /// The error as measured, with its 95 % interval.
     pub error: Estimate,
     /// That of the resamples, which all points share.
@@ -45,6 +49,15 @@ impl Point {
     }
 }
 
+impl Point {
+    /// By the clock: what is surely longer than the other takes less than this.
+    fn is_quicker(&self, than: &Self) -> bool {
+        // A clock too coarse to see a run says nothing of it.
+        let surely = (1.0 + self.doubt) * (1.0 + than.doubt);
+        0.0 < self.cpu.min && surely * self.cpu.median < than.cpu.min
+    }
+}
+
 /// What is to be said of a setting; how many times as long as another it takes is of the shortest runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
@@ -62,29 +75,42 @@ pub enum Verdict {
 /// Points in order of cost and of error.
 pub struct Order {
     points: Vec<Point>,
+    /// Which point gains over which: each resample of each pair is looked at once.
+    gains: Vec<Vec<bool>>,
+    dominates: Vec<Vec<bool>>,
 }
 
 impl Order {
     pub fn of(points: Vec<Point>) -> Self {
-        Self { points }
+        let mut order = Self { points, gains: Vec::new(), dominates: Vec::new() };
+        let all = || 0..order.points.len();
+        let pairs = |is: &dyn Fn(usize, usize) -> bool| -> Vec<Vec<bool>> {
+            all().map(|a| all().map(|b| is(a, b)).collect()).collect()
+        };
+        let gains = pairs(&|a, over| order.each_error(a, over, |a, over| a * WORTH < over));
+        let dominates = pairs(&|a, b| {
+            let cheaper = order.is_cheaper(a, b);
+            (cheaper || order.is_same_work(a, b))
+                && order.is_no_worse(a, b)
+                && (cheaper || order.is_better(a, b))
+        });
+        (order.gains, order.dominates) = (gains, dominates);
+        order
     }
 
     pub fn is_same_work(&self, a: usize, b: usize) -> bool {
         let (a, b) = (&self.points[a], &self.points[b]);
-        a.work == b.work && a.cost == b.cost && a.cpu == b.cpu
+        a.work == b.work && a.cost == b.cost && a.cpu == b.cpu && a.doubt == b.doubt
     }
 
     /// By what was counted, and by the clock.
     pub fn is_cheaper(&self, a: usize, b: usize) -> bool {
-        let (a, b) = (&self.points[a], &self.points[b]);
-        // A clock too coarse to see a run says nothing of it.
-        a.cost < b.cost && 0.0 < a.cpu.min && a.cpu.median < b.cpu.min
+        self.points[a].cost < self.points[b].cost && self.is_quicker(a, b)
     }
 
     /// By the clock alone.
     pub fn is_quicker(&self, a: usize, b: usize) -> bool {
-        let (a, b) = (&self.points[a], &self.points[b]);
-        0.0 < a.cpu.min && a.cpu.median < b.cpu.min
+        self.points[a].is_quicker(&self.points[b])
     }
 
     /// How many times as long as `a`, if it is dearer, `b` takes.
@@ -116,15 +142,12 @@ impl Order {
 
     /// Its error is proven to be the smaller by more than a hundredth.
     pub fn gains(&self, a: usize, over: usize) -> bool {
-        self.each_error(a, over, |a, over| a * WORTH < over)
+        self.gains[a][over]
     }
 
     /// No dearer, no worse, and one of both it is better.
     pub fn dominates(&self, a: usize, b: usize) -> bool {
-        let cheaper = self.is_cheaper(a, b);
-        (cheaper || self.is_same_work(a, b))
-            && self.is_no_worse(a, b)
-            && (cheaper || self.is_better(a, b))
+        self.dominates[a][b]
     }
 
     /// The points of a list by counted cost; of the same cost, as they came.
@@ -175,237 +198,4 @@ impl Order {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::random::{Random, long};
-
-    /// As much work as `cost` says, and an error that is sure.
-    fn point(cost: f64, cpu: &[f64], error: f64) -> Point {
-        let counters = Counters { camera: (cost * 1e6) as u64, ..Counters::default() };
-        let sure = Estimate { value: error, low: error, high: error };
-        Point {
-            work: (counters, 1.0),
-            cost,
-            cpu: Span::of(cpu),
-            error: sure,
-            resamples: vec![error; 4],
-            resolution: 0.0,
-        }
-    }
-
-    /// The same, of an error that is not.
-    fn unsure(cost: f64, (low, value, high): (f64, f64, f64), resamples: [f64; 4]) -> Point {
-        let error = Estimate { value, low, high };
-        Point { error, resamples: resamples.to_vec(), ..point(cost, &[cost], value) }
-    }
-
-    fn verdicts(points: &[Point]) -> Vec<Verdict> {
-        Order::of(points.to_vec()).verdicts(&(0..points.len()).collect::<Vec<_>>())
-    }
-
-    /// Anything: twins, near misses, clocks that contradict the counters, errors that cross.
-    fn anything(random: &mut Random) -> Order {
-        let count = 2 + random.below(7);
-        let runs = [1, 2, 5, 9][random.below(4)];
-        let noise = [0.0, 0.02, 0.3][random.below(3)];
-        let resolution = [0.0, 0.0, 0.15][random.below(3)];
-        let mut points: Vec<Point> = Vec::new();
-        for _ in 0..count {
-            let cost = [1.0, 1.0, 1.02, 1.1, 1.5, 2.0][random.below(6)];
-            let truth = cost * [1.0, 1.0, 1.0, 0.7, 1.4, 1.0, 1.0, 0.0][random.below(8)];
-            let run = |_| truth * (1.0 + random.number(0.0, noise));
-            let cpu: Vec<f64> = (0..runs).map(run).collect();
-            let value = [0.1, 0.1, 0.1005, 0.2, 0.3][random.below(5)];
-            let spread = [0.0, 0.0, 0.01, 0.15][random.below(4)];
-            let mut new = point(cost, &cpu, value);
-            new.resamples = (0..3).map(|_| value + random.number(-spread, spread)).collect();
-            let low = value - random.number(0.0, 0.8 * spread);
-            new.error = Estimate { value, low, high: value + random.number(0.0, 0.8 * spread) };
-            new.resolution = resolution;
-            if random.below(3) == 0 {
-                new.work.0.shadow = random.below(2) as u64;
-            }
-            if let Some(twin) = points.iter().find(|other| other.work == new.work) {
-                new.cpu = twin.cpu;
-            }
-            points.push(new);
-        }
-        Order::of(points)
-    }
-
-    #[test]
-    fn domination_is_irreflexive_antisymmetric_and_transitive() {
-        let mut random = Random(11);
-        let (mut pairs, mut chains) = (0, 0);
-        for _ in 0..3000 * long() {
-            let order = anything(&mut random);
-            let all = 0..order.points.len();
-            for a in all.clone() {
-                assert!(!order.dominates(a, a) && !order.is_cheaper(a, a) && !order.gains(a, a));
-                for b in all.clone() {
-                    assert!(!order.dominates(a, b) || !order.dominates(b, a));
-                    assert!(!order.is_cheaper(a, b) || !order.is_cheaper(b, a));
-                    pairs += usize::from(order.dominates(a, b));
-                    for c in all.clone() {
-                        let follows = |is: &dyn Fn(usize, usize) -> bool| {
-                            assert!(!is(a, b) || !is(b, c) || is(a, c), "{:?}", order.points);
-                        };
-                        follows(&|a, b| order.dominates(a, b));
-                        follows(&|a, b| order.is_cheaper(a, b));
-                        follows(&|a, b| order.is_cheaper(a, b) || order.is_same_work(a, b));
-                        follows(&|a, b| order.gains(a, b));
-                        follows(&|a, b| order.is_no_worse(a, b));
-                        chains += usize::from(order.dominates(a, b) && order.dominates(b, c));
-                    }
-                }
-            }
-        }
-        assert!(pairs > 5000 && chains > 1000, "{pairs} {chains}");
-    }
-
-    /// Of the numbers that a table shows, none may speak against what stands beside them.
-    #[test]
-    fn a_verdict_claims_nothing_that_the_numbers_do_not_show() {
-        let mut random = Random(12);
-        let mut seen = [0; 4];
-        for _ in 0..3000 * long() {
-            let order = anything(&mut random);
-            let all: Vec<usize> = (0..order.points.len()).collect();
-            let verdicts = order.verdicts(&all);
-            for (i, verdict) in verdicts.iter().enumerate() {
-                let point = |of: usize| &order.points[of];
-                let shown = |of: usize| point(of).error.value.max(point(of).resolution);
-                let cheaper = |a: usize, b: usize| {
-                    let (a, b) = (point(a), point(b));
-                    a.cost < b.cost && a.cpu.min > 0.0 && a.cpu.median < b.cpu.min
-                };
-                let place = match *verdict {
-                    Verdict::Front => {
-                        let cheaper = all.iter().filter(|&&other| order.is_cheaper(other, i));
-                        assert!(cheaper.clone().all(|&other| order.gains(i, other)));
-                        assert!(cheaper.clone().all(|&other| shown(i) < shown(other)));
-                        0
-                    }
-                    Verdict::Dominated { by, times, error } => {
-                        assert!(cheaper(by, i) || order.is_same_work(by, i));
-                        assert!(times.is_none_or(|times| times > 1.0));
-                        assert_eq!(times.is_none(), order.is_same_work(by, i));
-                        assert!(error <= 1.0 && shown(by) <= shown(i));
-                        assert!(point(by).error.low <= point(i).error.high.max(shown(i)));
-                        // Two that are not resolved are not compared.
-                        let resolved = point(i).error.value >= point(i).resolution;
-                        assert!(resolved || order.has_same_errors(by, i));
-                        assert!(!matches!(verdicts[by], Verdict::Dominated { .. }));
-                        1
-                    }
-                    Verdict::Unproven { over, times } => {
-                        assert!(cheaper(over, i) && !order.gains(i, over) && times > 1.0);
-                        // Where the intervals have nothing in common it would be proven.
-                        let high = point(i).error.high.max(point(i).resolution);
-                        let resolved = point(over).error.value >= point(over).resolution;
-                        assert!(!resolved || high * WORTH >= point(over).error.low);
-                        2
-                    }
-                    Verdict::Tied { with } => {
-                        assert!(!cheaper(with, i) && !cheaper(i, with));
-                        assert!(!order.gains(with, i) && !order.gains(i, with) && with != i);
-                        3
-                    }
-                };
-                seen[place] += 1;
-            }
-            // Nothing lies left of and below all that is not dominated.
-            for &i in &all {
-                let point = |of: usize| &order.points[of];
-                let beats = |other: &&usize| {
-                    let (a, b) = (point(**other), point(i));
-                    a.cpu.min <= b.cpu.min && a.error.value <= b.error.value
-                };
-                let stands = |other: &usize| !matches!(verdicts[*other], Verdict::Dominated { .. });
-                assert!(all.iter().filter(beats).any(stands));
-            }
-        }
-        assert!(seen.iter().all(|&times| times > 200), "{seen:?}");
-    }
-
-    #[test]
-    fn the_front_goes_down_as_cost_goes_up() {
-        let points = [(1.0, 0.5), (4.0, 0.1), (2.0, 0.2), (8.0, 0.2)];
-        let verdicts = verdicts(&points.map(|(cost, error)| point(cost, &[cost], error)));
-        assert_eq!(verdicts[..3], [Verdict::Front; 3]);
-        // Of those that dominate it, the cheapest.
-        let times = Some(4.0);
-        assert_eq!(verdicts[3], Verdict::Dominated { by: 2, times, error: 1.0 });
-    }
-
-    #[test]
-    fn the_same_work_is_tied_or_the_worse_of_two() {
-        let mut points = [point(1.0, &[3.0; 9], 0.5), point(1.0, &[3.0; 9], 0.5)];
-        assert_eq!(verdicts(&points), [Verdict::Front, Verdict::Tied { with: 0 }]);
-        // As much work, but for less error.
-        points[1] = point(1.0, &[3.0; 9], 0.4);
-        let dominated = Verdict::Dominated { by: 1, times: None, error: 0.8 };
-        assert_eq!(verdicts(&points), [dominated, Verdict::Front]);
-    }
-
-    #[test]
-    fn where_counters_and_clock_disagree_nothing_is_cheaper() {
-        let second =
-            |cpu: &[f64]| verdicts(&[point(1.0, &[1.0, 1.1, 1.3], 0.5), point(1.2, cpu, 0.5)])[1];
-        let dominated = |times| Verdict::Dominated { by: 0, times: Some(times), error: 1.0 };
-        assert_eq!(second(&[1.2, 1.2, 1.5]), dominated(1.2));
-        // Its shortest run is no longer than the other's middle one, or shorter than all.
-        assert_eq!(second(&[1.1, 1.2, 1.5]), Verdict::Tied { with: 0 });
-        assert_eq!(second(&[0.8, 0.9, 0.9]), Verdict::Tied { with: 0 });
-        // How far the runs of others lie apart is nothing to these two.
-        let noisy = point(9.0, &[9.0, 30.0, 90.0], 0.1);
-        let points = [point(1.0, &[1.0, 1.1], 0.5), point(1.2, &[1.2, 1.3], 0.5), noisy];
-        assert_eq!(verdicts(&points)[1], dominated(1.2));
-        // A clock that does not see a run cannot say how many times as long another is.
-        assert_eq!(
-            verdicts(&[point(1.0, &[0.0], 0.5), point(2.0, &[0.1], 0.5)])[1],
-            Verdict::Tied { with: 0 }
-        );
-    }
-
-    #[test]
-    fn a_gain_that_is_not_proven_is_not_on_the_front_and_no_proof_against_it() {
-        // Of the resamples one is worse, and the intervals have something in common.
-        let second = |bounds, resamples| {
-            verdicts(&[point(1.0, &[1.0], 0.5), unsure(2.0, bounds, resamples)])[1]
-        };
-        let unproven = Verdict::Unproven { over: 0, times: 2.0 };
-        assert_eq!(second((0.4, 0.45, 0.52), [0.44, 0.51, 0.45, 0.46]), unproven);
-        // A gain below a hundredth is none.
-        assert_eq!(second((0.497, 0.498, 0.499), [0.498; 4]), unproven);
-        let dominated = second((0.4, 0.55, 0.6), [0.5, 0.6, 0.52, 0.5]);
-        assert!(
-            matches!(dominated, Verdict::Dominated { by: 0, .. }),
-            "no gain at all for twice the work"
-        );
-    }
-
-    #[test]
-    fn intervals_with_nothing_in_common_prove_a_gain_whatever_a_single_resample_says() {
-        let of_first = unsure(1.0, (0.4, 0.45, 0.5), [0.3, 0.41, 0.45, 0.5]);
-        let second = |high| {
-            verdicts(&[of_first.clone(), unsure(2.0, (0.3, 0.35, high), [0.7, 0.3, 0.35, 0.4])])[1]
-        };
-        assert_eq!(second(0.39), Verdict::Front);
-        assert_eq!(second(0.41), Verdict::Unproven { over: 0, times: 2.0 });
-    }
-
-    #[test]
-    fn of_two_errors_below_the_floor_nothing_is_said() {
-        let points = [(1.0, 0.5), (2.0, 0.02), (4.0, 0.01), (8.0, 0.06), (16.0, 0.01)];
-        let mut points = points.map(|(cost, error)| point(cost, &[cost], error));
-        points.iter_mut().for_each(|point| point.resolution = 0.05);
-        // As much work as the one before, and the same picture.
-        points[4] = points[2].clone();
-        let verdicts = verdicts(&points);
-        assert_eq!(verdicts[..2], [Verdict::Front; 2]);
-        assert_eq!(verdicts[2], Verdict::Unproven { over: 1, times: 2.0 });
-        assert!(matches!(verdicts[3], Verdict::Dominated { by: 1, .. }), "{verdicts:?}");
-        assert_eq!(verdicts[4], Verdict::Tied { with: 2 });
-    }
-}
+mod tests;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Estimate, Metric, Report, Verdict};
+use super::{Estimate, Metric, Report, Verdict, answer, table};
 use crate::geometry;
 use crate::trace::Counters;
 
@@ -27,7 +27,7 @@ struct Whole<'a> {
     metric: &'a str,
     seed: u64,
     audited_pixels: usize,
-    cut: &'a [String],
+    cut: Vec<String>,
     reference_samples: u32,
     noise_floor: Numbers,
     /// The fewest of a row, and the most.
@@ -35,6 +35,8 @@ struct Whole<'a> {
     /// The part of the threads' time that tracing had.
     share_of_time: f64,
     does_nothing: &'a [String],
+    /// What to use, as sentences.
+    answer: Vec<String>,
     knobs: Vec<KnobJson<'a>>,
     rows: Vec<RowJson<'a>>,
 }
@@ -50,6 +52,8 @@ struct Numbers {
 struct KnobJson<'a> {
     name: &'a str,
     sentence: &'a str,
+    /// Settings that change no audited pixel, and were not timed.
+    same_picture: &'a [String],
     left_out: &'a [String],
     settings: Vec<SettingJson<'a>>,
 }
@@ -115,6 +119,8 @@ struct Rays {
 struct Work {
     box_visits: u64,
     root_solves: u64,
+    /// What those took, in equations of a sphere.
+    solving: u64,
 }
 
 #[derive(Serialize)]
@@ -162,6 +168,7 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
     let knobs = report.knobs.iter().map(|knob| KnobJson {
         name: knob.name,
         sentence: &knob.sentence,
+        same_picture: &knob.vain,
         left_out: &knob.left_out,
         settings: knob
             .settings
@@ -186,13 +193,13 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
             work,
             evaluations: _,
         } = row.counters;
-        let geometry::Work { box_visits, root_solves } = work;
+        let geometry::Work { box_visits, root_solves, solving } = work;
         RowJson {
             name: &row.name,
             cpu_s: &row.times.cpu,
             wall_s: &row.times.wall,
             rays: Rays { camera, shadow, reflection, transmission, total_reflection },
-            work: Work { box_visits, root_solves },
+            work: Work { box_visits, root_solves, solving },
             cost: report.cost(place),
             errors: Errors { rmse, p99, bad },
             verdict: row.verdict.into(),
@@ -206,12 +213,13 @@ pub fn line(report: &Report, file: &str, host: &Host) -> String {
         metric: Metric::name(report.metric),
         seed: report.seed,
         audited_pixels: report.audited,
-        cut: &report.cut,
+        cut: table::cut(report),
         reference_samples: report.reference_samples,
         noise_floor: Numbers { rmse, p99, bad },
         runs: report.runs().into(),
         share_of_time: report.share_of_time(host.threads),
         does_nothing: &report.idle,
+        answer: answer::of(report, &report.order()),
         knobs: knobs.collect(),
         rows: rows.collect(),
     };

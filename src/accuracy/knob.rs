@@ -1,8 +1,8 @@
 //! The knobs: every setting that buys accuracy with time, in one table.
 //!
-//! **Invariant:** a knob is one entry of [`KNOBS`] and nothing else; one whose effect the scene does
-//! not call for is not looked at. Unit costs are constants, so what is chosen by them is the same on
-//! every machine and run.
+//! **Invariant:** a knob is a field of [`PlanOptions`] and one entry of [`KNOBS`]; one whose effect the
+//! scene does not call for is not looked at. Unit costs are constants, so what is chosen by them is the
+//! same on every machine and run.
 
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
@@ -36,6 +36,8 @@ pub struct Knob {
 /// What a scene must call for.
 #[derive(Debug, Clone, Copy)]
 pub enum Need {
+    /// Anything that is not one colour all over.
+    Edges,
     /// One of these effects.
     Effect(&'static [Effect]),
     /// Something that rays can meet in 32 bits.
@@ -47,6 +49,7 @@ pub enum Need {
 impl Need {
     pub fn is_met(self, world: &World, plan: &Plan) -> bool {
         match self {
+            Self::Edges => !world.objects.is_empty() || plan.simulates(Effect::Patterns),
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
             Self::SinglePrecision => world.objects.iter().any(Object::has_single_kernel),
             Self::IteratedRoots => world.has_iterated_roots(),
@@ -58,27 +61,27 @@ impl Need {
 pub const KNOBS: &[Knob] = &[
     Knob {
         name: "antialias",
-        needs: Need::Effect(&[Effect::Antialiasing]),
+        needs: Need::Edges,
         idle: "there is nothing to see",
-        settings: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0],
+        settings: &RUNGS,
         between: false,
-        set: |options, place| options.antialias = LADDER[place as usize % LADDER.len()],
+        set: |options, place| options.antialias = rung(place),
         get: |options| {
             LADDER.iter().position(|&rung| rung == options.antialias).unwrap_or(0) as f64
         },
-        least: |place| match LADDER[place as usize % LADDER.len()] {
+        least: |place| match rung(place) {
             Antialias::Off | Antialias::Adaptive { .. } => 1.0,
             Antialias::Grid(n) => f64::from(n * n),
         },
         factor: |_| 1.0,
-        label: |place| match LADDER[place as usize % LADDER.len()] {
+        label: |place| match rung(place) {
             Antialias::Off => "off".to_owned(),
             Antialias::Adaptive { threshold, grid } => {
                 format!("adaptive {threshold} {grid}×{grid}")
             }
             Antialias::Grid(n) => format!("{n}×{n}"),
         },
-        flag: |place| match LADDER[place as usize % LADDER.len()] {
+        flag: |place| match rung(place) {
             Antialias::Off => "--antialias off".to_owned(),
             Antialias::Adaptive { threshold, grid } => {
                 format!("--antialias adaptive:{threshold}:{grid}")
@@ -109,11 +112,8 @@ pub const KNOBS: &[Knob] = &[
         get: |options| options.adc_bailout.unwrap_or(0.0),
         least: |_| 1.0,
         factor: |_| 1.0,
-        label: |weight| match 1.0 / weight {
-            parts if parts.is_finite() && parts.round() == parts => format!("1/{parts}"),
-            _ => format!("{weight}"),
-        },
-        flag: |weight| format!("--adc-bailout {weight}"),
+        label: share,
+        flag: |weight| format!("--adc-bailout {}", share(weight)),
     },
     Knob {
         name: "precision",
@@ -152,6 +152,17 @@ const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
 /// each shape costs more than the kernels save.
 const SINGLE: f64 = 1.11;
 
+/// `1/255`, `0.3` or `1e-6`: read again it is the same number.
+fn share(weight: f64) -> String {
+    let parts = (1.0 / weight).round();
+    let (plain, short) = (format!("{weight}"), format!("{weight:e}"));
+    match format!("{parts}") {
+        few if few.len() < 5 && parts > 1.0 && 1.0 / parts == weight => format!("1/{few}"),
+        _ if short.len() < plain.len() => short,
+        _ => plain,
+    }
+}
+
 fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }
 }
@@ -173,6 +184,23 @@ const LADDER: [Antialias; 14] = [
     Antialias::Grid(24),
     Antialias::Grid(32),
 ];
+
+/// Their places, as settings.
+const RUNGS: [f64; LADDER.len()] = {
+    let mut places = [0.0; LADDER.len()];
+    let mut place = 1;
+    while place < places.len() {
+        places[place] = places[place - 1] + 1.0;
+        place += 1;
+    }
+    places
+};
+
+/// What stands at a place of [`RUNGS`].
+fn rung(place: f64) -> Antialias {
+    debug_assert!(RUNGS.contains(&place), "{place} is no rung");
+    LADDER[(place as usize).min(LADDER.len() - 1)]
+}
 
 impl Knob {
     /// The setting that costs least in any scene.
@@ -204,6 +232,7 @@ impl Knob {
 const REFLECTION: f64 = 0.15;
 const TRANSMISSION: f64 = 6.1;
 const BOX_VISIT: f64 = 0.24;
+/// Of a sphere's equation; others are counted as so many of it.
 const ROOT_SOLVE: f64 = 0.24;
 
 /// What was counted, in rays of the camera that meet nothing.
@@ -217,12 +246,12 @@ pub fn cost(counters: &Counters) -> f64 {
         work,
         evaluations: _,
     } = *counters;
-    let Work { box_visits, root_solves } = work;
+    let Work { box_visits, root_solves: _, solving } = work;
     camera as f64
         + REFLECTION * (reflection + total_reflection) as f64
         + TRANSMISSION * transmission as f64
         + BOX_VISIT * box_visits as f64
-        + ROOT_SOLVE * root_solves as f64
+        + ROOT_SOLVE * solving as f64
 }
 
 #[cfg(test)]
@@ -248,7 +277,6 @@ mod tests {
         assert!(LADDER.contains(&Antialias::default()));
         let options = PlanOptions::new(Frame::whole(1, 1));
         assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 4×4");
-        assert_eq!(KNOBS[0].settings.len(), LADDER.len());
     }
 
     #[test]
@@ -257,7 +285,7 @@ mod tests {
         assert_eq!(cheapest, ["off", "1", "1/10", "double", "1e-2"]);
         let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
         let finest: Vec<String> = KNOBS.iter().map(finest).collect();
-        assert_eq!(finest, ["32×32", "250", "1/1000000", "double", "all digits"]);
+        assert_eq!(finest, ["32×32", "250", "1e-6", "double", "all digits"]);
     }
 
     #[test]
@@ -269,5 +297,8 @@ mod tests {
         let cut = KNOBS.iter().find(|knob| knob.name == "adc-bailout").expect("a knob");
         assert_eq!(cut.with(0.05)[..3], [0.1, 0.05, 1.0 / 64.0]);
         assert_eq!((cut.label)(1.0 / 255.0), "1/255");
+        assert_eq!((cut.flag)(1.0 / 64.0), "--adc-bailout 1/64");
+        let labels = [0.0, 0.05, 0.3, 1.0, 2e-5].map(cut.label);
+        assert_eq!(labels, ["0", "1/20", "0.3", "1", "2e-5"]);
     }
 }

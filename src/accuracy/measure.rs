@@ -18,6 +18,25 @@ pub struct Times {
     pub wall: Vec<f64>,
 }
 
+/// Fewer runs do not tell how far runs lie apart.
+const TELL: usize = 3;
+
+impl Times {
+    /// How much longer the longest run took than the shortest, of the shortest, in CPU seconds; `None` where
+    /// there are too few runs to tell.
+    pub fn apart(&self) -> Option<f64> {
+        let (least, most) = self.ends()?;
+        (self.cpu.len() >= TELL && least > 0.0).then_some(most / least - 1.0)
+    }
+
+    /// The shortest run and the longest, in CPU seconds.
+    pub fn ends(&self) -> Option<(f64, f64)> {
+        let least = self.cpu.iter().copied().reduce(f64::min)?;
+        let most = self.cpu.iter().copied().reduce(f64::max)?;
+        Some((least, most))
+    }
+}
+
 /// The least and the middle one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Span {

@@ -5,6 +5,8 @@
 //! time for the same reference; only seconds differ. Nothing here prints or reads disks.
 
 mod afford;
+mod alike;
+mod answer;
 mod audit;
 mod begin;
 mod choose;
@@ -18,6 +20,7 @@ mod measure;
 mod promise;
 mod reference;
 mod refine;
+mod report;
 mod sentence;
 mod spend;
 mod statistics;
@@ -30,14 +33,15 @@ pub use front::{Order, Verdict};
 pub use knob::{KNOBS, Knob, Need};
 pub use measure::{Clock, Span, Times};
 pub use promise::{Audit, Kept, Step, TooSmall, keep};
+pub use report::{Cut, Line, Report, Row, Setting, Tried};
 pub use spend::{First, Spent, spend};
 pub use statistics::{Estimate, Metric};
 
-use crate::plan::{Frame, PlanOptions, Region, plan};
-use crate::trace::{Counters, TraceOptions, Watch};
+use crate::plan::{Frame, PlanOptions, plan};
+use crate::trace::{TraceOptions, Watch};
 use crate::world::{Origins, World};
 use afford::Depths;
-use front::Point;
+use alike::Alike;
 use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
 use trial::{Bench, Candidate, Picture, Trial};
@@ -55,171 +59,16 @@ pub struct Options<'a> {
     pub trace: TraceOptions,
 }
 
-/// Seconds of tracing below which it is not told whether the machine was busy.
-const LEAST_TO_TELL: f64 = 0.5;
-
 /// Why there is no report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unmeasured {
     Stopped,
-    /// The scene's own picture and the roughest reference take longer than the budget.
-    TooShort,
-}
-
-/// What the settings cost and buy.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Report {
-    pub frame: Frame,
-    pub metric: Metric,
-    pub seed: u64,
-    pub audited: usize,
-    /// What had to be given up to keep the budget, settings aside.
-    pub cut: Vec<String>,
-    /// Of each audited pixel.
-    pub reference_samples: u32,
-    /// The reference's own error, in each of [`Metric::ALL`].
-    pub floors: [f64; 3],
-    pub knobs: Vec<Tried>,
-    /// What the caller wants said of knobs that do nothing here.
-    pub idle: Vec<String>,
-    /// The first is the picture as `render` makes it.
-    pub rows: Vec<Row>,
-}
-
-/// A knob, and what came of turning it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Tried {
-    pub name: &'static str,
-    /// From cheap to dear.
-    pub settings: Vec<Setting>,
-    /// What did not fit into the budget.
-    pub left_out: Vec<String>,
-    /// What it bought, or that it buys nothing here.
-    pub sentence: String,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
-    pub label: String,
-    pub flag: String,
-    /// The scene's own, or `render`'s.
-    pub is_own: bool,
-    /// Which of the rows.
-    pub row: usize,
-    /// Among the settings of its knob.
-    pub verdict: Verdict,
-}
-
-/// One picture: all settings as the scene has them, but one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// `depth 3`; `*` for the first.
-    pub name: String,
-    /// Of all rows that are the same work: their runs are runs of each.
-    pub times: Times,
-    /// Of the whole picture.
-    pub counters: Counters,
-    /// The unit cost of a ray in this row's arithmetic, in rays of the camera.
-    pub factor: f64,
-    /// In each of [`Metric::ALL`].
-    pub errors: [Estimate; 3],
-    /// Among all rows.
-    pub verdict: Verdict,
-    /// The audited pixels' colours, linear and clamped.
-    pub colors: Vec<[f64; 3]>,
-    /// Of the metric asked.
-    pub resamples: Vec<f64>,
-}
-
-impl Report {
-    /// As it is shown.
-    pub fn error(&self, row: usize) -> Estimate {
-        self.shown(self.metric, row)
-    }
-
-    /// An error with what can be said of it: below what the reference resolves, nothing but that it
-    /// lies between 0 and there, or where its own interval ends if that is further.
-    pub fn shown(&self, metric: Metric, row: usize) -> Estimate {
-        let (error, resolution) = (self.rows[row].errors[metric as usize], self.resolution(metric));
-        match error.value < resolution {
-            true => Estimate { value: resolution, low: 0.0, high: error.high.max(resolution) },
-            false => error,
-        }
-    }
-
-    /// Errors below this cannot be told from the reference's own.
-    pub fn resolution(&self, metric: Metric) -> f64 {
-        4.0 * self.floors[metric as usize]
-    }
-
-    pub fn is_resolved(&self, metric: Metric, row: usize) -> bool {
-        self.rows[row].errors[metric as usize].value >= self.resolution(metric)
-    }
-
-    /// What the rows cost, counted.
-    pub fn cost(&self, row: usize) -> f64 {
-        self.rows[row].factor * knob::cost(&self.rows[row].counters)
-    }
-
-    /// The fewest runs of a row, and the most.
-    pub fn runs(&self) -> (usize, usize) {
-        let runs = || self.rows.iter().map(|row| row.times.cpu.len());
-        (runs().min().unwrap_or(0), runs().max().unwrap_or(0))
-    }
-
-    /// The part of its threads' time that tracing had, all runs together: much less than 1 where the
-    /// machine had other things to do. 1 where runs are too short to tell.
-    pub fn share_of_time(&self, threads: usize) -> f64 {
-        let total = |of: fn(&Times) -> &[f64]| -> f64 {
-            self.rows.iter().flat_map(|row| of(&row.times)).sum()
-        };
-        let (cpu, wall) = (total(|times| &times.cpu), total(|times| &times.wall));
-        let whole = wall * threads.max(1) as f64;
-        if wall >= LEAST_TO_TELL { (cpu / whole).min(1.0) } else { 1.0 }
-    }
-
-    /// Puts settings in order and says what they are worth.
-    fn judge(&mut self) {
-        let order = self.order();
-        let all: Vec<usize> = (0..self.rows.len()).collect();
-        for (row, verdict) in self.rows.iter_mut().zip(order.verdicts(&all)) {
-            row.verdict = verdict;
-        }
-        for tried in &mut self.knobs {
-            let rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
-            let sorted = order.from_cheap_to_dear(&rows);
-            let place = |row| sorted.iter().position(|&other| other == row);
-            for (setting, verdict) in tried.settings.iter_mut().zip(order.verdicts(&rows)) {
-                setting.verdict = verdict;
-            }
-            tried.settings.sort_by_key(|setting| place(setting.row));
-        }
-        for knob in 0..self.knobs.len() {
-            self.knobs[knob].sentence = sentence::of(self, &order, &self.knobs[knob]);
-        }
-    }
-
-    /// Which rows are cheaper, which better.
-    pub fn order(&self) -> Order {
-        let point = |row: usize| {
-            let this = &self.rows[row];
-            Point {
-                work: (this.counters, this.factor),
-                cost: self.cost(row),
-                cpu: Span::of(&this.times.cpu),
-                error: this.errors[self.metric as usize],
-                resamples: this.resamples.clone(),
-                resolution: self.resolution(self.metric),
-            }
-        };
-        Order::of((0..self.rows.len()).map(point).collect())
-    }
-
-    /// Of a count of the whole picture.
-    pub fn a_pixel(&self, count: f64) -> f64 {
-        let Region { width, height, .. } = self.frame.region;
-        count / (f64::from(width) * f64::from(height))
-    }
+    /// The scene's own picture takes about `own` seconds or more, which is too much of the budget; about
+    /// `enough` are enough for something beside it.
+    TooShort {
+        own: f64,
+        enough: f64,
+    },
 }
 
 /// Every knob at its dearest, antialiasing aside: what the reference is traced with.
@@ -261,6 +110,87 @@ pub fn idle(world: &World, origins: &Origins, frame: Frame, knobs: &[Knob]) -> V
     knobs.iter().filter(is_idle).map(say).collect()
 }
 
+/// A setting of a knob, and the candidate that has it.
+struct Turned<'a> {
+    knob: &'a Knob,
+    setting: f64,
+    candidate: usize,
+}
+
+/// The scene's own settings and each other that the knobs have, one turned at a time; and every knob's, from
+/// coarse to fine.
+fn candidates<'a>(
+    world: &World,
+    origins: &Origins,
+    own: PlanOptions,
+    knobs: &[&'a Knob],
+) -> (Vec<Candidate>, Vec<Vec<Turned<'a>>>) {
+    let factor = |options: &PlanOptions| {
+        knobs.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
+    };
+    let candidate = |name: String, least: f64, options: &PlanOptions| Candidate {
+        name,
+        plan: plan(world, origins, options),
+        least,
+        factor: factor(options),
+    };
+    let mut candidates = vec![candidate("*".to_owned(), 1.0, &own)];
+    let of_knob = |&knob: &&'a Knob| {
+        let mine = (knob.get)(&own);
+        let mut turn = |setting: f64| {
+            if setting == mine {
+                return Turned { knob, setting, candidate: 0 };
+            }
+            let mut options = own;
+            (knob.set)(&mut options, setting);
+            let name = format!("{} {}", knob.name, (knob.label)(setting));
+            candidates.push(candidate(name, (knob.least)(setting), &options));
+            Turned { knob, setting, candidate: candidates.len() - 1 }
+        };
+        knob.with(mine).into_iter().map(&mut turn).collect()
+    };
+    let turned = knobs.iter().map(of_knob).collect();
+    (candidates, turned)
+}
+
+/// Which of a knob's settings have a row, and which have none.
+fn tried(
+    turned: &[Turned],
+    pictures: &[Picture],
+    alike: &Alike,
+    is_same: &dyn Fn(&Picture, &Picture) -> bool,
+) -> Tried {
+    let label = |turned: &Turned| (turned.knob.label)(turned.setting);
+    let ends = [turned.first(), turned.last()].map(|end| end.map(label).unwrap_or_default());
+    let name = turned.first().map_or("", |turned| turned.knob.name);
+    let mut tried = Tried {
+        name,
+        ends,
+        settings: Vec::new(),
+        vain: Vec::new(),
+        left_out: Vec::new(),
+        sentence: String::new(),
+    };
+    for this in turned {
+        let timed = alike.timed(this.candidate);
+        let made = pictures.iter().find(|picture| picture.candidate == timed);
+        // What was found to be the same only when it was made shares a row, too.
+        let row = made.and_then(|made| pictures.iter().position(|other| is_same(made, other)));
+        match row {
+            Some(row) => tried.settings.push(Setting {
+                label: label(this),
+                flag: (this.knob.flag)(this.setting),
+                is_own: this.candidate == 0,
+                row,
+                verdict: Verdict::Front,
+            }),
+            None if alike.is_vain(this.candidate) => tried.vain.push(label(this)),
+            None => tried.left_out.push(label(this)),
+        }
+    }
+    tried
+}
+
 /// Tries every setting of every knob that there is time for, the others as the scene has them.
 ///
 /// # Errors
@@ -273,7 +203,6 @@ pub fn accuracy(
     watch: &dyn Watch,
 ) -> Result<Report, Unmeasured> {
     let began = clock.wall();
-    let until = began + options.budget;
     let own = own(world, options.frame);
     let called = called_for(world, origins, own, options.knobs);
     let geometry = Geometries::default();
@@ -285,72 +214,20 @@ pub fn accuracy(
     let list = audit::shuffled(list, options.seed);
     watch.built();
 
-    let factor = |options: &PlanOptions| {
-        called.iter().map(|knob| (knob.factor)((knob.get)(options))).product::<f64>()
-    };
-    let mut candidates = vec![Candidate {
-        name: "*".to_owned(),
-        plan: plan(world, origins, &own),
-        least: 1.0,
-        factor: factor(&own),
-    }];
-    let mut settings = Vec::new();
-    for (number, knob) in called.iter().enumerate() {
-        let mine = (knob.get)(&own);
-        for setting in knob.with(mine) {
-            let is_own = setting == mine;
-            settings.push((number, setting, if is_own { 0 } else { candidates.len() }));
-            if !is_own {
-                let mut turned = own;
-                (knob.set)(&mut turned, setting);
-                candidates.push(Candidate {
-                    name: format!("{} {}", knob.name, (knob.label)(setting)),
-                    plan: plan(world, origins, &turned),
-                    least: (knob.least)(setting),
-                    factor: factor(&turned),
-                });
-            }
-        }
-    }
+    let (candidates, turned) = candidates(world, origins, own, &called);
+    let numbers = |turned: &Vec<Turned>| turned.iter().map(|turned| turned.candidate).collect();
+    let knobs: Vec<Vec<usize>> = turned.iter().map(numbers).collect();
     let depths = Depths { origins, deepest: dearest(own, options.knobs) };
     let most_depth = depths.most();
-    let bench = Bench { studio, depths, options, clock, until };
-    let Trial { reference, depth, pictures } = bench.run(&candidates, &list)?;
+    let bench = Bench { studio, depths, options, clock, until: began + options.budget };
+    let Trial { reference, depth, pictures, alike } = bench.run(&candidates, &knobs, &list)?;
 
-    let mut knobs: Vec<Tried> = called
-        .iter()
-        .map(|knob| Tried {
-            name: knob.name,
-            settings: Vec::new(),
-            left_out: Vec::new(),
-            sentence: String::new(),
-        })
-        .collect();
-    for (number, setting, candidate) in settings {
-        let (knob, tried) = (called[number], &mut knobs[number]);
-        let label = (knob.label)(setting);
-        match pictures.iter().position(|picture| picture.candidate == candidate) {
-            None => tried.left_out.push(label),
-            Some(row) => {
-                let (flag, is_own) = ((knob.flag)(setting), candidate == 0);
-                let verdict = Verdict::Front;
-                tried.settings.push(Setting { label, flag, is_own, row, verdict });
-            }
-        }
-    }
-    let mut cut = Vec::new();
-    let audited = reference.pixels();
-    if audited < list.len() {
-        cut.push(format!("{audited} of {} audited pixels", list.len()));
-    }
-    if reference.samples() < Reference::samples_at(Reference::COARSEST) {
-        cut.push(format!("{} samples of each in the reference", reference.samples()));
-    }
-    if depth < most_depth {
-        cut.push(format!("{depth} of {most_depth} surfaces deep in the reference"));
-    }
-
-    let floors = Metric::ALL.map(|metric| reference.floor(metric));
+    let is_same = |a: &Picture, b: &Picture| {
+        let factor = |picture: &Picture| candidates[picture.candidate].factor;
+        a.counters == b.counters && factor(a) == factor(b) && a.colors == b.colors
+    };
+    let tried = |turned: &Vec<Turned>| tried(turned, &pictures, &alike, &is_same);
+    let knobs = turned.iter().map(tried).collect();
     let rows = pictures.into_iter().map(|Picture { candidate, times, counters, colors }| {
         let off = audit::by_place(&list, reference.deviations(&colors));
         Row {
@@ -368,10 +245,15 @@ pub fn accuracy(
         frame: options.frame,
         metric: options.metric,
         seed: options.seed,
-        audited,
-        cut,
+        audited: reference.pixels(),
+        cut: Cut {
+            pixels: (reference.pixels() < list.len()).then_some(list.len()),
+            samples: (reference.samples() < Reference::samples_at(Reference::COARSEST))
+                .then_some(reference.samples()),
+            depth: (depth < most_depth).then_some((depth, most_depth)),
+        },
         reference_samples: reference.samples(),
-        floors,
+        floors: Metric::ALL.map(|metric| reference.floor(metric)),
         rows: rows.collect(),
         knobs,
         idle: Vec::new(),

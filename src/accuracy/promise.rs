@@ -29,6 +29,8 @@ const TIMED: usize = 256;
 /// where those are too many, fewer pixels are looked at, and at least so many.
 const MOST_RAYS: f64 = 4e9;
 const LEAST_KEPT: usize = 256;
+/// Of the promised error: what need not be told from nothing.
+const SMALL: f64 = 0.25;
 /// Samples of a pixel from which on more of them are dearer than to try the dearest settings.
 const DEAREST: u32 = 1000;
 
@@ -46,9 +48,15 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// Its interval ends below `most`, and all that a reference can see was looked at.
+    /// Its interval ends below `most`, the reference tells so small an error, and all that it can see was
+    /// looked at.
     pub fn proves(&self, most: f64) -> bool {
-        self.error.high <= most && self.depth.is_none()
+        self.shows(most) && self.depth.is_none()
+    }
+
+    /// The same, of what was looked at.
+    fn shows(&self, most: f64) -> bool {
+        self.error.high.max(self.resolution) <= most
     }
 }
 
@@ -79,9 +87,9 @@ pub enum Step {
     Learning { pixels: usize, samples: u32, seconds: f64 },
     /// Trying the settings of this knob on these pixels, which takes no longer.
     Trying { knob: &'static str, seconds: f64 },
-    /// Not even the dearest settings keep the promise: this is the error they are known to have, and what
-    /// is below `resolution` cannot be told.
-    Unreachable { error: Estimate, resolution: f64 },
+    /// Not even the dearest settings are known to keep the promise: so many pixels say that their error is
+    /// this, and what is below `resolution` cannot be told.
+    Unreachable { error: Estimate, resolution: f64, pixels: usize },
     /// Rendering with the settings of these flags, and then finding out more of what pixels look like.
     Rendering { flags: String, seconds: f64, audit: f64 },
     /// Choosing better ones: the first picture did not prove the promise.
@@ -117,7 +125,7 @@ pub fn keep(
 
 /// What was traced to find things out.
 #[derive(Debug, Clone, Copy, Default)]
-struct Spent {
+struct Effort {
     seconds: f64,
     samples: f64,
     cost: f64,
@@ -136,7 +144,7 @@ struct Search<'a> {
     cut: Option<u32>,
     /// To choose by, to audit by, and to audit a second picture by.
     sets: Vec<Vec<(u32, u32)>>,
-    spent: Cell<Spent>,
+    effort: Cell<Effort>,
     clock: &'a dyn Clock,
     watch: &'a dyn Watch,
     tell: &'a dyn Fn(Step),
@@ -161,9 +169,9 @@ impl<'a> Search<'a> {
         let few = &few[..few.len().min(TIMED)];
         let began = clock.wall();
         let rough = Reference::new(&studio, &deep, few, options.seed, Reference::ROUGH)?;
-        let spent = Cell::default();
+        let effort = Cell::default();
         let samples = f64::from(rough.samples()) * few.len() as f64;
-        add(&spent, clock.wall() - began, samples, &rough.counters);
+        add(&effort, clock.wall() - began, samples, &rough.counters);
         let a_sample = rough.counters.rays() as f64 / samples;
         let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))) as usize;
         for set in &mut sets {
@@ -182,7 +190,7 @@ impl<'a> Search<'a> {
             depth,
             cut,
             sets,
-            spent,
+            effort,
             clock,
             watch,
             tell,
@@ -190,7 +198,7 @@ impl<'a> Search<'a> {
     }
 
     fn a_sample(&self) -> f64 {
-        let Spent { seconds, samples, .. } = self.spent.get();
+        let Effort { seconds, samples, .. } = self.effort.get();
         seconds / samples.max(1.0)
     }
 
@@ -201,13 +209,15 @@ impl<'a> Search<'a> {
         let all = f64::from(samples) * pixels as f64;
         (self.tell)(Step::Learning { pixels, samples, seconds: self.a_sample() * all });
         let began = self.clock.wall();
-        let finer = Reference::new(&self.studio, &self.deep, list, self.options.seed, step)?;
-        add(&self.spent, self.clock.wall() - began, all, &finer.counters);
+        let told = Studio { watch: self.watch, ..self.studio };
+        let finer = Reference::new(&told, &self.deep, list, self.options.seed, step)?;
+        add(&self.effort, self.clock.wall() - began, all, &finer.counters);
         Some(finer)
     }
 
     fn is_enough(&self, known: &Reference, error: f64) -> bool {
-        4.0 * known.floor(self.options.metric) <= error || known.is_finest()
+        let resolution = 4.0 * known.floor(self.options.metric);
+        resolution <= error.max(SMALL * self.promise) || known.is_finest() || known.is_exact()
     }
 
     /// Until its own error is below a quarter of that, or it is as fine as it gets.
@@ -227,7 +237,11 @@ impl<'a> Search<'a> {
     fn to_resolve(&self, known: &Reference, error: f64) -> f64 {
         let (mut floor, mut step, mut samples) =
             (known.floor(self.options.metric), known.step(), 0.0);
-        while 4.0 * floor > error && step < Reference::finest_within(usize::MAX) {
+        let error = error.max(SMALL * self.promise);
+        while 4.0 * floor > error
+            && !known.is_exact()
+            && step < Reference::finest_within(usize::MAX)
+        {
             step += 1;
             samples += f64::from(Reference::samples_at(step));
             floor *= 0.6;
@@ -297,29 +311,36 @@ impl<'a> Search<'a> {
         let choice = match unreachable {
             Some(choice) => choice,
             None => {
-                self.chosen(tuned, &reference, &[&|error| error.high <= AIM * promise], None)?
+                let tells = 4.0 * reference.floor(self.options.metric) <= promise;
+                let keeps = |error: &Estimate| tells && error.high <= AIM * promise;
+                self.chosen(tuned, &reference, &[&keeps], None)?
             }
         };
         let is_dearest = self.tuning(tuned, &reference).is_dearest(&choice.options);
         let mut goal = promise;
-        if is_dearest && choice.error.high > promise {
+        let resolution = 4.0 * reference.floor(self.options.metric);
+        if is_dearest && choice.error.high.max(resolution) > promise {
             goal = choice.error.value.max(promise);
-            let resolution = 4.0 * reference.floor(self.options.metric);
-            (self.tell)(Step::Unreachable { error: choice.error, resolution });
+            let (error, pixels) = (choice.error, tuned.len());
+            (self.tell)(Step::Unreachable { error, resolution, pixels });
         }
         let fresh = self.resolved(None, audited, goal)?;
         let (first, fresh) = self.rendered(&choice, audited, fresh, is_dearest);
         // A better picture proves no more where the reference does not look all the way, nor does the
         // same one.
         let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
-        if audit.error.high <= promise || is_dearest {
+        if audit.shows(promise) || is_dearest {
             return Some(first);
         }
         (self.tell)(Step::Refining(audit));
         // What audited it now helps to choose.
         let both: Vec<_> = tuned.iter().chain(audited).copied().collect();
         let reference = reference.and(fresh);
-        let expected = |error: &Estimate| expected(error, both.len(), again.len());
+        let tells = 4.0 * reference.floor(self.options.metric) <= promise;
+        let expected = |error: &Estimate| match tells {
+            true => expected(error, both.len(), again.len()),
+            false => f64::INFINITY,
+        };
         let keeps: [&dyn Fn(&Estimate) -> bool; 4] = [
             &|error| expected(error) <= promise,
             &|error| expected(error) <= 0.7 * promise,
@@ -348,7 +369,7 @@ impl<'a> Search<'a> {
         let flags = self.easel.flags(&choice.options);
         let region = self.options.frame.region;
         let pixels = f64::from(region.width) * f64::from(region.height);
-        let Spent { seconds, cost, .. } = self.spent.get();
+        let Effort { seconds, cost, .. } = self.effort.get();
         (self.tell)(Step::Rendering {
             flags: flags.clone(),
             seconds: seconds / cost.max(1.0) * choice.cost * pixels,
@@ -380,9 +401,9 @@ fn expected(error: &Estimate, known: usize, fresh: usize) -> f64 {
     error.value + width * (1.0 + (1.0 + 1.0 / more).sqrt())
 }
 
-fn add(spent: &Cell<Spent>, seconds: f64, samples: f64, counters: &Counters) {
-    let before = spent.get();
-    spent.set(Spent {
+fn add(effort: &Cell<Effort>, seconds: f64, samples: f64, counters: &Counters) {
+    let before = effort.get();
+    effort.set(Effort {
         seconds: before.seconds + seconds,
         samples: before.samples + samples,
         cost: before.cost + cost(counters),

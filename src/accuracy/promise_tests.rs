@@ -8,7 +8,7 @@ use crate::trace::Unwatched;
 /// Neither watches nor hears.
 const NOBODY: (&dyn Watch, &dyn Fn(Step)) = (&Unwatched, &|_| ());
 
-/// Of the gallery and the examples: mirrors, glass, beams, patterns, crowds.
+/// Of the gallery and the examples: mirrors, glass, beams, patterns, crowds, what crossings are stepped to.
 const SCENES: [(&str, &str); 20] = [
     ("gallery/first", include_str!("../../scenes/gallery/first.scene")),
     ("gallery/city", include_str!("../../scenes/gallery/city.scene")),
@@ -18,17 +18,17 @@ const SCENES: [(&str, &str); 20] = [
     ("gallery/chess", include_str!("../../scenes/gallery/chess.scene")),
     ("finishes/reflection", include_str!("../../scenes/finishes/reflection.scene")),
     ("finishes/phong", include_str!("../../scenes/finishes/phong.scene")),
-    ("finishes/metallic", include_str!("../../scenes/finishes/metallic.scene")),
+    ("shapes/blob", include_str!("../../scenes/shapes/blob.scene")),
     ("lights/spotlight", include_str!("../../scenes/lights/spotlight.scene")),
     ("lights/fade_distance", include_str!("../../scenes/lights/fade_distance.scene")),
-    ("lights/parallel", include_str!("../../scenes/lights/parallel.scene")),
+    ("csg/merge", include_str!("../../scenes/csg/merge.scene")),
     ("textures/gradient", include_str!("../../scenes/textures/gradient.scene")),
     ("textures/transmit", include_str!("../../scenes/textures/transmit.scene")),
     ("textures/color_map", include_str!("../../scenes/textures/color_map.scene")),
-    ("shapes/box", include_str!("../../scenes/shapes/box.scene")),
+    ("shapes/torus", include_str!("../../scenes/shapes/torus.scene")),
     ("csg/inverse", include_str!("../../scenes/csg/inverse.scene")),
     ("atmosphere/sky_sphere", include_str!("../../scenes/atmosphere/sky_sphere.scene")),
-    ("cameras/orthographic", include_str!("../../scenes/cameras/orthographic.scene")),
+    ("interiors/interior", include_str!("../../scenes/interiors/interior.scene")),
     ("transforms/matrix", include_str!("../../scenes/transforms/matrix.scene")),
 ];
 
@@ -129,6 +129,41 @@ fn a_promise_that_the_dearest_settings_miss_is_missed_in_one_picture() {
     let Step::Unreachable { error, .. } = steps[known] else { return };
     let audit = kept.audit.expect("done");
     assert!(error.low < audit.error.high && audit.error.low < error.high, "{error:?} {audit:?}");
+}
+
+#[test]
+fn an_error_that_no_reference_can_tell_is_not_promised() {
+    // Each pixel has a thousand squares of the checker.
+    let noise = "camera { location <0, 0, 6> look_at 0 angle 40 }
+        plane { z, -9 pigment { checker rgb 0 rgb 1 scale 0.01 } finish { ambient 1 diffuse 0 } }";
+    let (world, origins) = compiled(noise, 0.0);
+    for promise in [0.001, 0.002, 0.004, 0.008] {
+        let kept = keep(&world, &origins, &asked(20, 20), promise, &Ticking::new(1.0), NOBODY);
+        let audit = kept.expect("large enough").expect("not stopped").audit.expect("done");
+        assert!(!audit.proves(promise) || audit.resolution <= promise, "{promise}: {audit:?}");
+    }
+}
+
+#[test]
+fn where_nothing_is_to_be_told_apart_a_promise_takes_no_time() {
+    let flat = "camera { location -9*z look_at 0 }
+        plane { -z, 0 pigment { rgb 0.5 } finish { ambient 1 diffuse 0 } }";
+    let (world, origins) = compiled(flat, 0.0);
+    let samples = std::sync::Mutex::new(0);
+    let tell = |step| {
+        if let Step::Learning { samples: more, .. } = step {
+            *samples.lock().expect("one thread") += more;
+        }
+    };
+    let clock = Ticking::new(1.0);
+    let kept = keep(&world, &origins, &asked(48, 36), 0.01, &clock, (&Unwatched, &tell));
+    let audit = kept.expect("large enough").expect("not stopped").audit.expect("done");
+    assert!(audit.proves(0.01), "{audit:?}");
+    // The coarsest reference of each kind is as good as any.
+    assert_eq!(
+        samples.into_inner().expect("one thread"),
+        2 * Reference::samples_at(Reference::COARSEST)
+    );
 }
 
 #[test]

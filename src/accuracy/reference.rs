@@ -3,6 +3,7 @@
 //! **Invariant:** made of two halves that share no sample; half their difference is the reference's
 //! own error, and is reported.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::statistics::{Deviation, Metric};
@@ -81,7 +82,7 @@ impl Studio<'_> {
     }
 
     /// The colours of the first pixels of a list: of all of them, unless it was stopped.
-    fn first_colors(
+    pub fn first_colors(
         &self,
         plan: &Plan,
         list: &[(u32, u32)],
@@ -102,6 +103,28 @@ impl Studio<'_> {
         let (colors, counters) = self.first_colors(plan, list, sampling);
         (colors.len() == list.len()).then_some((colors, counters))
     }
+}
+
+/// Passes on how far a part has come as so much of the whole.
+struct Part<'a> {
+    watch: &'a dyn Watch,
+    /// What was done before this part.
+    before: AtomicUsize,
+    all: usize,
+}
+
+impl Watch for Part<'_> {
+    fn progress(&self, done: usize, _: usize) {
+        self.watch.progress(self.before.load(Ordering::Relaxed) + done, self.all);
+    }
+
+    fn should_stop(&self) -> bool {
+        self.watch.should_stop()
+    }
+}
+
+fn is_rounding(a: &[f64; 3], b: &[f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= ROUNDING)
 }
 
 /// Two independent estimates of each pixel of a list.
@@ -157,6 +180,8 @@ impl Reference {
         let step = step.min(SIDES.len() - 1);
         let mut reference =
             Self { halves: Default::default(), step, seed, counters: Counters::default() };
+        let part = Part { watch: studio.watch, before: AtomicUsize::new(0), all: 2 * list.len() };
+        let studio = &Studio { watch: &part, ..*studio };
         let block = list.len().div_ceil(BLOCKS).max(LEAST_BLOCK);
         for pixels in list.chunks(block) {
             let mut half = |number: u64| {
@@ -164,6 +189,7 @@ impl Reference {
                 let seed = seed.wrapping_mul(steps).wrapping_add(step_seed).wrapping_sub(2);
                 let sampling = Sampling::Jittered { side: SIDES[step], seed };
                 let (colors, work) = studio.first_colors(plan, pixels, sampling);
+                part.before.fetch_add(pixels.len(), Ordering::Relaxed);
                 reference.counters += work;
                 colors
             };
@@ -180,9 +206,9 @@ impl Reference {
         reference
     }
 
-    /// Of twice the samples; `Ok(false)` where it is as fine as it gets.
+    /// Of twice the samples; `Some(false)` where it is as fine as it gets.
     pub fn double(&mut self, studio: &Studio, plan: &Plan, list: &[(u32, u32)]) -> Option<bool> {
-        if self.is_finest() {
+        if self.is_finest() || self.is_exact() {
             return Some(false);
         }
         let finer = Self::new(studio, plan, list, self.seed, self.step + 1)?;
@@ -194,6 +220,16 @@ impl Reference {
 
     pub fn is_finest(&self) -> bool {
         self.step + 1 == SIDES.len()
+    }
+
+    /// Its own error is no more than what sums are rounded by: more samples make it no less.
+    pub fn is_exact(&self) -> bool {
+        self.halves[0].iter().zip(&self.halves[1]).all(|(a, b)| is_rounding(a, b))
+    }
+
+    /// As far as it can tell, these are the pixels' colours.
+    pub fn has(&self, colors: &[[f64; 3]]) -> bool {
+        self.is_exact() && self.halves[0].iter().zip(colors).all(|(a, color)| is_rounding(a, color))
     }
 
     /// How many pixels.

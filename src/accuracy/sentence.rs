@@ -12,15 +12,17 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         return format!("{name}: nothing was tried.");
     };
     let audited = report.audited;
-    let floor = report.floors[Metric::Rmse as usize];
     let most = settings.iter().map(|setting| changed(report, setting, dear)).max().unwrap_or(0);
-    if settings.len() < 2 {
+    if settings.len() < 2 && tried.vain.is_empty() {
         return format!("{name}: only {} was tried; a larger `--budget` tries more.", cheap.label);
     }
     if most == 0 {
+        let [coarse, fine] = match tried.left_out.is_empty() {
+            true => tried.ends.each_ref().map(String::as_str),
+            false => [cheap.label.as_str(), dear.label.as_str()],
+        };
         return format!(
-            "{name} buys nothing here: from {} to {} not one of {audited} audited pixels changes.",
-            cheap.label, dear.label
+            "{name} buys nothing here: from {coarse} to {fine} not one of {audited} audited pixels changes."
         );
     }
     let best = best(order, settings);
@@ -45,28 +47,7 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         );
     }
     if !order.gains(best.row, cheap.row) {
-        let change = settings.iter().map(|setting| change(report, setting, dear));
-        let most_change = change.fold(0.0, f64::max);
-        let why = match most_change {
-            ..=ROUNDING => "as sums are rounded".to_owned(),
-            _ => format!("below the noise floor of {}", table::amount(Metric::Rmse, floor)),
-        };
-        if most_change <= floor.max(ROUNDING) {
-            return format!(
-                "{name} buys nothing here: {most} of {audited} audited pixels change, by {} at most, {why}.",
-                table::amount(Metric::Rmse, most_change)
-            );
-        }
-        let change = |setting: &Setting| {
-            let (a, b) = (&report.rows[setting.row].resamples, &report.rows[dear.row].resamples);
-            let (low, high) = difference(a, b);
-            low.abs().max(high.abs())
-        };
-        let most_change = settings.iter().map(change).fold(0.0, f64::max);
-        return format!(
-            "{name} has no proven effect: {most} of {audited} audited pixels change, and the error by at most {}.",
-            table::amount(report.metric, most_change)
-        );
+        return no_effect(report, tried, dear, most);
     }
     let (from, to) = (report.error(cheap.row), report.error(best.row));
     let differs = |setting: &Setting| changed(report, setting, dear) > 0;
@@ -86,6 +67,37 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
         table::error(report, best.row),
         table::error(report, cheap.row),
         price(order, cheap, best),
+    )
+}
+
+/// Of a knob under which `changed` pixels change, and the error is not proven to.
+fn no_effect(report: &Report, tried: &Tried, dear: &Setting, changed: usize) -> String {
+    let (name, settings, audited) = (tried.name, &tried.settings, report.audited);
+    // The error of a pixel's colour is of the kind of both but a share.
+    let (floor, of) = match report.metric {
+        Metric::Rmse | Metric::P99 => (report.floors[report.metric as usize], "the"),
+        Metric::Bad => (report.floors[Metric::Rmse as usize], "the RMSE's"),
+    };
+    let of_color = settings.iter().map(|setting| change(report, setting, dear)).fold(0.0, f64::max);
+    if of_color <= floor.max(ROUNDING) {
+        let why = match of_color {
+            ..=ROUNDING => "as sums are rounded".to_owned(),
+            _ => format!("below {of} noise floor of {}", table::amount(Metric::Rmse, floor)),
+        };
+        return format!(
+            "{name} buys nothing here: {changed} of {audited} audited pixels change, by {} at most, {why}.",
+            table::amount(Metric::Rmse, of_color)
+        );
+    }
+    let of_error = |setting: &Setting| {
+        let (a, b) = (&report.rows[setting.row].resamples, &report.rows[dear.row].resamples);
+        let (low, high) = difference(a, b);
+        low.abs().max(high.abs())
+    };
+    let of_error = settings.iter().map(of_error).fold(0.0, f64::max);
+    format!(
+        "{name} has no proven effect: {changed} of {audited} audited pixels change, and the error by at most {}.",
+        table::amount(report.metric, of_error)
     )
 }
 
@@ -148,6 +160,23 @@ mod tests {
             sentence([(0.3, 0.1), (0.32, 0.1)], 0.001),
             "knob has no proven effect: 1 of 4800 audited pixels change, and the error by at most 0."
         );
+    }
+
+    #[test]
+    fn the_noise_floor_is_that_of_the_head() {
+        let mut report = report(&[(1.0, 0.1, 0.0), (2.0, 0.1, 0.0)], &["knob"], 0.0);
+        report.floors = [0.001, 0.002, 0.0];
+        (report.rows[0].colors, report.rows[1].colors) = (vec![[0.3; 3]], vec![[0.3005; 3]]);
+        let said = [
+            (Metric::Rmse, "the noise floor of 0.00100."),
+            (Metric::P99, "the noise floor of 0.00200."),
+            (Metric::Bad, "the RMSE's noise floor of 0.00100."),
+        ];
+        for (metric, floor) in said {
+            report.metric = metric;
+            report.judge();
+            assert!(report.knobs[0].sentence.ends_with(floor), "{}", report.knobs[0].sentence);
+        }
     }
 
     #[test]

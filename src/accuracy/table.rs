@@ -1,23 +1,74 @@
 //! The report as a table that a person reads in ten seconds.
 
-use std::fmt::Write;
-
-use super::{Estimate, Metric, Report, Setting, Span, Tried, Verdict};
+use super::{Cut, Estimate, Line, Metric, Report, Setting, Span, Times, Tried, Verdict, answer};
 use crate::math::elementary::log10;
 
-/// The whole report.
-pub fn text(report: &Report, file: &str, threads: usize) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write(&mut out, report, file, threads);
-    out
+/// How much of it is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Width {
+    /// No line is longer than [`COLUMNS`].
+    Narrow,
+    /// All that was counted, and verdicts in full.
+    Wide,
 }
 
-fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::fmt::Result {
+/// As wide as a page of text.
+const COLUMNS: usize = 100;
+
+/// The whole report: first what to use, then what each setting costs and buys.
+pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String {
+    let mut lines = answer::of(report, &report.order());
+    lines.push(String::new());
+    lines.extend(heads(report, file, threads, width));
+    lines.push(String::new());
+    lines.push(match width {
+        Width::Narrow => format!(
+            "  {:17} {:>6} {:>4} {:>6} {:>9} {:18} worth it?",
+            "setting",
+            "CPU s",
+            "±",
+            "rays",
+            heading(report.metric),
+            "95 % interval"
+        ),
+        Width::Wide => format!(
+            "  {:18} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
+            "setting",
+            "CPU min..med",
+            "wall min..med",
+            "runs",
+            "rays/px",
+            "boxes/px",
+            "roots/px",
+            "cost/px",
+            heading(report.metric),
+            "95 % interval"
+        ),
+    });
+    for knob in &report.knobs {
+        lines.push(knob.name.to_owned());
+        lines.extend(knob.lines().map(|line| row(report, knob, &line, width)));
+        let also = |what: &str, labels: &[String]| {
+            (!labels.is_empty()).then(|| format!("  {what}: {}", labels.join(", ")))
+        };
+        lines.extend(also("the same picture", &knob.vain));
+        lines.extend(also("not tried within the budget", &knob.left_out));
+    }
+    lines.push(String::new());
+    lines.extend(report.knobs.iter().map(|knob| knob.sentence.clone()));
+    lines.extend(report.idle.iter().map(|sentence| format!("{sentence}.")));
+    let broken = |line: &String| match width {
+        Width::Narrow => wrapped(line),
+        Width::Wide => format!("{line}\n"),
+    };
+    lines.iter().map(broken).collect()
+}
+
+/// What was measured, and how the table is to be read.
+fn heads(report: &Report, file: &str, threads: usize, width: Width) -> Vec<String> {
     let region = report.frame.region;
     let floor = report.floors[report.metric as usize];
-    writeln!(
-        out,
+    let mut lines = vec![format!(
         "{file} {}×{}: {} audited pixels (seed {}), reference of {} samples each, noise floor {}",
         region.width,
         region.height,
@@ -25,92 +76,145 @@ fn write(out: &mut String, report: &Report, file: &str, threads: usize) -> std::
         report.seed,
         report.reference_samples,
         amount(report.metric, floor)
-    )?;
-    if !report.cut.is_empty() {
-        writeln!(out, "to keep the budget only {}", report.cut.join(", "))?;
+    )];
+    let cut = cut(report);
+    if !cut.is_empty() {
+        lines.push(format!("to keep the budget only {}", cut.join(", ")));
     }
-    writeln!(
-        out,
-        "seconds of {}, {}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s",
-        runs(report),
-        count(threads, "thread")
-    )?;
-    writeln!(out, "faster is less cost counted, and a middle run below the other's shortest")?;
+    let (runs, threads_told) = (runs(report), count(threads, "thread"));
+    match width {
+        Width::Narrow => lines.extend([
+            format!(
+                "seconds: the middle of {runs}, {threads_told}; rays of a pixel; * is the scene's own, or `render`'s"
+            ),
+            "no: that is faster, with so much of the error where it is less; unsure: that is faster, and not proven worse"
+                .to_owned(),
+        ]),
+        Width::Wide => lines.extend([
+            format!(
+                "seconds of {runs}, {threads_told}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s"
+            ),
+            "faster is less cost counted, and a middle run below the other's shortest".to_owned(),
+        ]),
+    }
     let share = report.share_of_time(threads);
     if share < BUSY {
-        let percent = 100.0 * share;
-        writeln!(
-            out,
-            "the machine is busy: of their time the threads had {percent:.0} %, and seconds say less than cost"
-        )?;
+        lines.push(format!(
+            "the machine is busy: of their time the threads had {:.0} %, and seconds say less than cost",
+            100.0 * share
+        ));
     }
-    writeln!(out)?;
-    writeln!(
-        out,
-        "  {:18} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
-        "setting",
-        "CPU min..med",
-        "wall min..med",
-        "runs",
-        "rays/px",
-        "boxes/px",
-        "roots/px",
-        "cost/px",
-        heading(report.metric),
-        "95 % interval"
-    )?;
-    for knob in &report.knobs {
-        writeln!(out, "{}", knob.name)?;
-        for setting in &knob.settings {
-            let row = &report.rows[setting.row];
-            writeln!(
-                out,
-                "{} {:18} {:>14} {:>14} {:>4} {:>8.2} {:>8.2} {:>8.2} {:>8.2}  {:>9} {:18} {}",
-                if setting.is_own { '*' } else { ' ' },
-                setting.label,
-                span(Span::of(&row.times.cpu)),
-                span(Span::of(&row.times.wall)),
-                row.times.cpu.len(),
-                report.a_pixel(row.counters.rays() as f64),
-                report.a_pixel(row.counters.work.box_visits as f64),
-                report.a_pixel(row.counters.work.root_solves as f64),
-                report.a_pixel(report.cost(setting.row)),
-                error(report, setting.row),
-                bounds(report, report.error(setting.row)),
-                verdict(report, knob, setting)
-            )?;
+    lines
+}
+
+/// What had to be given up to keep the budget, settings aside.
+pub(super) fn cut(report: &Report) -> Vec<String> {
+    let Cut { pixels, samples, depth } = report.cut;
+    let pixels = pixels.map(|all| format!("{} of {all} audited pixels", report.audited));
+    let samples = samples.map(|samples| format!("{samples} samples of each in the reference"));
+    let depth =
+        depth.map(|(deep, most)| format!("{deep} of {most} surfaces deep in the reference"));
+    [pixels, samples, depth].into_iter().flatten().collect()
+}
+
+/// The settings of a line.
+fn row(report: &Report, knob: &Tried, line: &Line, width: Width) -> String {
+    let row = &report.rows[line.first.row];
+    let star = if line.is_own { '*' } else { ' ' };
+    let cpu = Span::of(&row.times.cpu);
+    let rays = report.a_pixel(row.counters.rays() as f64);
+    let error_told = error(report, line.first.row);
+    let bounds = bounds(report, report.error(line.first.row));
+    let verdict = verdict(report, knob, line.first, width);
+    match width {
+        Width::Narrow => format!(
+            "{star} {:17} {:>6} {:>4} {:>6} {error_told:>9} {bounds:18} {verdict}",
+            line.label,
+            seconds(cpu.median),
+            apart(&row.times),
+            short(rays),
+        ),
+        Width::Wide => format!(
+            "{star} {:18} {:>14} {:>14} {:>4} {rays:>8.2} {:>8.2} {:>8.2} {:>8.2}  {error_told:>9} {bounds:18} {verdict}",
+            line.label,
+            span(cpu),
+            span(Span::of(&row.times.wall)),
+            row.times.cpu.len(),
+            report.a_pixel(row.counters.work.box_visits as f64),
+            report.a_pixel(row.counters.work.root_solves as f64),
+            report.a_pixel(report.cost(line.first.row)),
+        ),
+    }
+}
+
+/// Half of what runs lie apart, of the middle one; nothing of a single run.
+fn apart(times: &Times) -> String {
+    let middle = Span::of(&times.cpu).median;
+    match times.ends() {
+        Some((least, most)) if times.cpu.len() > 1 && middle > 0.0 => {
+            format!("{:.0}%", (50.0 * (most - least) / middle).min(99.0))
         }
-        if !knob.left_out.is_empty() {
-            writeln!(out, "  not tried within the budget: {}", knob.left_out.join(", "))?;
+        _ => String::new(),
+    }
+}
+
+/// A number with three or four digits.
+fn short(n: f64) -> String {
+    match n {
+        100.0.. => format!("{n:.0}"),
+        10.0.. => format!("{n:.1}"),
+        _ => format!("{n:.2}"),
+    }
+}
+
+/// On lines that are short enough, broken between words; what goes on is set in.
+fn wrapped(line: &str) -> String {
+    // A line of the table is short enough, and its blanks stay.
+    if line.chars().count() <= COLUMNS {
+        return format!("{line}\n");
+    }
+    let (mut out, mut length) = (String::new(), 0);
+    for word in line.split(' ') {
+        let long = word.chars().count();
+        if length > 0 && length + 1 + long > COLUMNS {
+            out.push_str("\n   ");
+            length = 3;
         }
+        if length > 0 {
+            out.push(' ');
+            length += 1;
+        }
+        out.push_str(word);
+        length += long;
     }
-    writeln!(out)?;
-    for knob in &report.knobs {
-        writeln!(out, "{}", knob.sentence)?;
-    }
-    for sentence in &report.idle {
-        writeln!(out, "{sentence}.")?;
-    }
-    Ok(())
+    out + "\n"
 }
 
 /// On the front, or what is to be preferred: first among the settings of its own knob.
-fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
+fn verdict(report: &Report, knob: &Tried, setting: &Setting, width: Width) -> String {
     let name = |row: usize| {
         let mine = knob.settings.iter().find(|other| other.row == row);
-        mine.map_or(report.rows[row].name.as_str(), |mine| mine.label.as_str())
+        let name = mine.map_or(report.rows[row].name.as_str(), |mine| mine.label.as_str());
+        match width {
+            Width::Narrow => name.trim_start_matches("antialias ").trim_start_matches("adaptive "),
+            Width::Wide => name,
+        }
+        .to_owned()
     };
     let verdict = match setting.verdict {
         Verdict::Front => report.rows[setting.row].verdict,
         other => other,
     };
-    match verdict {
-        Verdict::Front => "front".to_owned(),
-        Verdict::Tied { with } => format!("tied with {}", name(with)),
-        Verdict::Unproven { over, times } => {
+    match (verdict, width) {
+        (Verdict::Front, _) => "front".to_owned(),
+        (Verdict::Tied { with }, _) => format!("tied with {}", name(with)),
+        (Verdict::Unproven { over, times }, Width::Wide) => {
             format!("no proven gain over {}, for {}", name(over), more(times))
         }
-        Verdict::Dominated { by, times, error } => {
+        (Verdict::Unproven { over, times }, Width::Narrow) => {
+            format!("unsure: {} {}", name(over), faster(times))
+        }
+        (Verdict::Dominated { by, times, error }, Width::Wide) => {
             let times = times.map_or_else(|| "is the same work".to_owned(), less);
             let below = if report.is_resolved(report.metric, by) { "" } else { "< " };
             let error = match 100.0 * error {
@@ -119,6 +223,14 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting) -> String {
                 _ => "with no more error".to_owned(),
             };
             format!("no: {} {times}, {error}", name(by))
+        }
+        (Verdict::Dominated { by, times, error }, Width::Narrow) => {
+            let times = times.map_or_else(|| "same work".to_owned(), faster);
+            let error = match 100.0 * error {
+                percent if percent < 99.0 => format!(", {percent:.0} %"),
+                _ => String::new(),
+            };
+            format!("no: {} {times}{error}", name(by))
         }
     }
 }
@@ -134,6 +246,18 @@ fn less(ratio: f64) -> String {
     match ratio {
         LARGE.. => format!("is {} faster", times(ratio)),
         _ => format!("takes {} less time", percent(1.0 - 1.0 / ratio)),
+    }
+}
+
+/// How much faster the faster of two is.
+pub(super) fn faster(ratio: f64) -> String {
+    match ratio {
+        LARGE.. => format!("{} faster", times(ratio)),
+        // Less is nothing that anybody would notice.
+        _ => match 1.0 - 1.0 / ratio {
+            part if 100.0 * part < 0.1 => "0.1 % faster".to_owned(),
+            part => format!("{} faster", percent(part)),
+        },
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::reference::clamped;
 use super::statistics::Deviation;
+use super::table::Width;
 use super::*;
 use crate::plan::{Antialias, Effect};
 use crate::road::{Options as RoadOptions, Road};
@@ -29,6 +30,17 @@ light_source { <4, 7, 5>, rgb 1 }
 sphere { <-0.6, {}, 0>, 1 pigment { rgb <1, 0.6, 0.2> } }
 box { <0.4, -1, -1>, <1.6, 0.3, 1> rotate 30*y pigment { rgb <0.3, 0.5, 1> } }
 plane { y, -1 pigment { rgb 0.7 } }
+";
+
+/// What bends light, and what crossings are stepped to.
+const GLASS: &str = "
+camera { location <0, 2, 7> look_at 0 angle 40 }
+light_source { <4, 7, 5>, rgb 1 }
+background { rgb <0.6, 0.7, 0.9> }
+plane { y, -1 pigment { checker rgb 0.9, rgb 0.2 } }
+sphere { <-1.3, {}, 0>, 1 pigment { rgbt <1, 1, 1, 0.95> } finish { ambient 0 diffuse 0.05 phong 0.6 } interior { ior 1.5 } }
+torus { 0.7, 0.25 rotate 60*x translate <1, -0.2, -0.5> pigment { rgb <1, 0.6, 0.2> } finish { phong 0.5 } }
+blob { threshold 0.5 sphere { <0.6, -0.6, 1.5>, 0.6, 1 } sphere { <1.1, -0.5, 1.6>, 0.6, 1 } pigment { rgb <0.3, 0.5, 1> } }
 ";
 
 pub(super) fn compiled(text: &str, number: f64) -> (World, Origins) {
@@ -99,9 +111,12 @@ impl Truth {
 #[test]
 fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
     let frame = Frame::whole(96, 72);
-    for (text, antialias) in
-        [(BALLS, Antialias::Grid(2)), (BALLS, Antialias::default()), (PLAIN, Antialias::Off)]
-    {
+    for (text, antialias) in [
+        (BALLS, Antialias::Grid(2)),
+        (BALLS, Antialias::default()),
+        (PLAIN, Antialias::Off),
+        (GLASS, Antialias::default()),
+    ] {
         let (world, origins) = compiled(text, 0.0);
         let truth = Truth::new(&world, &origins, frame, 2);
         let own = own(&world, frame);
@@ -188,7 +203,9 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     let ring = format!("{PLAIN} {torus}");
     assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);
     // A sky, and nothing that a ray could meet.
-    assert_eq!(names("camera { } background { rgb 0.5 }"), ["antialias"]);
+    assert_eq!(names("camera { } background { rgb 0.5 }"), [""; 0]);
+    let sky = "camera { } sky_sphere { pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
+    assert_eq!(names(sky), ["antialias"]);
     // A scene that reflects and says how deep not to look is told what that costs it.
     let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
     assert_eq!(names(&flat), ["antialias", "depth", "adc-bailout", "precision"]);
@@ -210,7 +227,7 @@ fn of_a_knob_that_is_not_called_for_it_is_said_why() {
 fn of_every_knob_the_cheap_settings_are_tried_and_none_twice_before() {
     let (world, origins) = compiled(BALLS, 0.0);
     let mut left = Vec::new();
-    for budget in [4e3, 1.2e4, 4e4, 4e5] {
+    for budget in [2e4, 4e4, 1e5, 4e5] {
         let options = Options { budget, knobs: &KNOBS[..4], ..asked(160, 120) };
         let clock = Ticking::new(1.0);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
@@ -238,6 +255,96 @@ fn of_every_knob_the_cheap_settings_are_tried_and_none_twice_before() {
         left.push(report.knobs.iter().map(|knob| knob.left_out.len()).sum::<usize>());
     }
     assert!(left.is_sorted_by(|a, b| a >= b) && left[0] > left[3], "{left:?}");
+}
+
+#[test]
+fn what_changes_no_audited_pixel_is_not_timed() {
+    // One colour: a glowing wall, and a mirror behind the camera.
+    let flat = "camera { location -9*z look_at 0 } plane { -z, 0 pigment { rgb 0.5 } finish { ambient 1 diffuse 0 } }
+        sphere { -20*z, 1 pigment { rgb 1 } finish { ambient 0 diffuse 0 reflection 1 } }";
+    let (world, origins) = compiled(flat, 0.0);
+    let (clock, whole) = (Ticking::new(1.0), 4e5);
+    let options = Options { budget: whole, ..asked(160, 120) };
+    let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
+    assert!(clock.wall() < 0.1 * whole, "{}", clock.wall());
+    assert_eq!(report.rows.len(), 1, "nothing but the scene's own picture");
+    let knob = |name| report.knobs.iter().find(|knob| knob.name == name).expect("called for");
+    assert_eq!((knob("antialias").vain.len(), knob("antialias").settings.len()), (13, 1));
+    // Depth is the same work, ray by ray, and so are its lines.
+    let depth: Vec<String> = knob("depth").lines().map(|line| line.label).collect();
+    assert_eq!(depth, ["1 … 250"]);
+    for (name, from, to) in
+        [("antialias", "off", "32×32"), ("depth", "1", "250"), ("precision", "single", "double")]
+    {
+        let said = format!("{name} buys nothing here: from {from} to {to} not one of ");
+        assert!(knob(name).sentence.starts_with(&said), "{}", knob(name).sentence);
+    }
+    let table = table::text(&report, "a.scene", 1, Width::Narrow);
+    assert!(table.starts_with("keep the scene's own settings: no knob changes"), "{table}");
+    assert!(
+        table.contains("\n* 1 … 250 ") && table.contains("\n  the same picture: off, "),
+        "{table}"
+    );
+}
+
+#[test]
+fn of_two_lines_of_a_knob_no_two_point_at_each_other() {
+    let (world, origins) = compiled(BALLS, 0.0);
+    let options = Options { knobs: &KNOBS[1..3], ..asked(40, 30) };
+    let clock = Ticking::new(1.0 / 1024.0);
+    let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
+    for knob in &report.knobs {
+        for setting in &knob.settings {
+            let cost = |row| report.cost(row);
+            match setting.verdict {
+                Verdict::Tied { with } => assert!(cost(with) <= cost(setting.row)),
+                Verdict::Unproven { over, .. } => assert!(cost(over) < cost(setting.row)),
+                Verdict::Front | Verdict::Dominated { .. } => (),
+            }
+        }
+    }
+}
+
+#[test]
+fn of_single_runs_only_what_lies_far_apart_is_told_apart() {
+    let mut report =
+        svg::tests::report(&[(1.0, 0.1, 0.0), (1.06, 0.1, 0.0), (3.0, 0.1, 0.0)], &["k"], 0.0);
+    let verdicts = |report: &mut Report| {
+        report.judge();
+        report.rows.iter().map(|row| row.verdict).collect::<Vec<_>>()
+    };
+    assert!(matches!(verdicts(&mut report)[1], Verdict::Dominated { by: 0, .. }));
+    // The runs of the others lie 5 % apart.
+    report.rows[1].times.cpu.truncate(1);
+    assert_eq!(verdicts(&mut report)[1], Verdict::Tied { with: 0 });
+    assert!(matches!(verdicts(&mut report)[2], Verdict::Dominated { by: 0, .. }));
+    // Nothing says how far runs lie apart.
+    report.rows.iter_mut().for_each(|row| row.times.cpu.truncate(1));
+    assert_eq!(verdicts(&mut report)[2], Verdict::Tied { with: 0 });
+}
+
+#[test]
+fn a_root_that_takes_long_to_find_costs_more_than_one_that_does_not() {
+    let cost = |solid: &str| {
+        let text = format!("camera {{ location -4*z look_at 0 angle 20 }} {solid}");
+        let (world, origins) = compiled(&format!("{text} light_source {{ -9*z, rgb 1 }}"), 0.0);
+        let options =
+            PlanOptions { antialias: Antialias::Off, ..own(&world, Frame::whole(40, 30)) };
+        let counted = TraceOptions { count_work: true, ..ONE_THREAD };
+        let traced = trace(&world, &plan(&world, &origins, &options), &counted, &Unwatched);
+        assert!(traced.counters.work.solving >= traced.counters.work.root_solves);
+        knob::cost(&traced.counters) / traced.counters.camera as f64
+    };
+    let paint = "pigment { rgb 1 }";
+    let sphere = cost(&format!("sphere {{ 0, 1 {paint} }}"));
+    let torus = cost(&format!("torus {{ 0.7, 0.3 {paint} }}"));
+    let stone = cost(&format!(
+        "isosurface {{ function {{ x*x + y*y + z*z - 1 }} contained_by {{ box {{ -1.1, 1.1 }} }} {paint} }}"
+    ));
+    assert!(torus > 3.0 * sphere && stone > 5.0 * torus, "{sphere} {torus} {stone}");
+    // A part of something else is paid for, too.
+    let cut = cost(&format!("difference {{ torus {{ 0.7, 0.3 }} sphere {{ 0, 0.5 }} {paint} }}"));
+    assert!(cut > torus, "{cut} {torus}");
 }
 
 #[test]
@@ -291,14 +398,16 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let clock = Ticking::new(1.0 / 1024.0);
     let report =
         accuracy(&world, &origins, &asked(40, 30), &clock, &Unwatched).expect("not stopped");
-    let table = table::text(&report, "a.scene", 1);
+    let table = table::text(&report, "a.scene", 1, Width::Wide);
     let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
     assert_eq!(stars.len(), 4, "{table}");
     assert!(stars[0].contains("adaptive 0.05 4×4") && stars[1].contains("5 "), "{table}");
     // What the reference cannot resolve is no number.
     let coarse = Report { floors: [0.1; 3], ..report.clone() };
     assert_eq!(table::error(&coarse, 0), "< 0.400");
-    assert!(table::text(&coarse, "a.scene", 1).contains(" < 0.400 [0, 0.400] "));
+    let narrow = table::text(&coarse, "a.scene", 1, Width::Narrow);
+    assert!(narrow.contains(" < 0.400 [0, 0.400] "), "{narrow}");
+    assert!(narrow.lines().all(|line| line.chars().count() <= 100), "{narrow}");
     let host = json::Host {
         os: "linux".to_owned(),
         arch: "x86_64".to_owned(),
@@ -321,7 +430,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let svg = svg::text(&report, "a<b>.scene", &host);
     balanced(&svg);
     svg::tests::is_legible(&svg);
-    let points = report.knobs.iter().map(|knob| knob.settings.len()).sum::<usize>();
+    let points = report.knobs.iter().map(|knob| knob.lines().count()).sum::<usize>();
     assert_eq!(svg.matches("<g class=\"k").count(), points + report.knobs.len());
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
 }

@@ -7,7 +7,8 @@
 //! as many, so that whatever else the machine does meets all of them alike.
 
 use super::afford::{self, Affordable, Deadline, Depths};
-use super::forecast::{Forecast, forecast};
+use super::alike::{Alike, alike};
+use super::forecast::{Forecast, at_once, forecast};
 use super::measure::{Clock, Span, Timer, Times};
 use super::reference::{Reference, Studio, colors_of};
 use super::statistics::{Deviation, Metric};
@@ -16,16 +17,20 @@ use crate::plan::{Arithmetic, Plan};
 use crate::trace::{Counters, Watch};
 
 /// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then
-/// a forecast, then one picture of each other setting, then a finer reference, then one picture of each
-/// setting that was not tried yet.
+/// a forecast, then what tells settings that need not be tried, then one picture of each other setting, then
+/// a finer reference, then one picture of each setting that was not tried yet.
 const FOR_OWN: f64 = 0.7;
 const FOR_REFERENCE: f64 = 0.3;
 const FOR_FORECAST: f64 = 0.05;
+const FOR_ALIKE: f64 = 0.1;
 const FOR_PICTURES: f64 = 0.4;
 const FOR_FINER: f64 = 0.6;
 const FOR_THE_REST: f64 = 0.4;
-/// Of all the time: what finding the intervals of all settings may take.
+/// Of all the time: what it may take to tell whether the scene's own picture fits; what finding the
+/// intervals of all settings may take; what is kept for the verdicts and the report.
+const FOR_A_LOOK: f64 = 0.05;
 const FOR_STATISTICS: f64 = 0.1;
+const FOR_THE_REPORT: f64 = 0.02;
 /// What one picture may take: so many times as long as was forecast, or this part of the time for pictures
 /// that is left.
 const AS_FORECAST: f64 = 2.0;
@@ -34,6 +39,11 @@ const FOR_ONE: f64 = 0.5;
 /// tell close ones apart. Then all should have more, as far as time goes.
 const ENOUGH_RUNS: usize = 5;
 const MOST_RUNS: usize = 9;
+
+/// How many times too long the scene's own picture must be, by the first look, not to be tried.
+const SURELY: f64 = 1.5;
+/// Of the time that the scene's own picture would just fit into: what leaves room for others.
+const ROOM: f64 = 2.0;
 
 /// Of the time for more runs: what the prediction may be wrong by.
 const PREDICTED: f64 = 0.8;
@@ -64,6 +74,8 @@ pub struct Trial {
     pub depth: u32,
     /// In the order of the candidates; the first is that of the first.
     pub pictures: Vec<Picture>,
+    /// What had no need of one.
+    pub alike: Alike,
 }
 
 /// What a trial is made with.
@@ -102,20 +114,35 @@ impl Bench<'_> {
         })
     }
 
-    /// Tries the candidates, the first being the scene's own settings.
-    pub fn run(&self, candidates: &[Candidate], list: &[(u32, u32)]) -> Result<Trial, Unmeasured> {
+    /// Tries the candidates, the first being the scene's own settings; `knobs` are those of each knob, from
+    /// coarse to fine.
+    pub fn run(
+        &self,
+        candidates: &[Candidate],
+        knobs: &[Vec<usize>],
+        list: &[(u32, u32)],
+    ) -> Result<Trial, Unmeasured> {
+        let Options { metric, seed, .. } = *self.options;
+        let began = self.clock.wall();
+        let (until, look_until) = (self.until, self.after(FOR_A_LOOK, self.until));
+        let own = at_once(&self.studio, &candidates[0], list, (self.clock, look_until));
         let stopped = || match self.studio.watch.should_stop() {
             true => Unmeasured::Stopped,
-            false => Unmeasured::TooShort,
+            false => {
+                let own = own.max(self.clock.wall() - began);
+                Unmeasured::TooShort { own, enough: ROOM * own / FOR_OWN }
+            }
         };
-        let Options { metric, seed, .. } = *self.options;
+        if own > SURELY * FOR_OWN * (until - self.clock.wall()) {
+            return Err(stopped());
+        }
 
         // Intervals take their time, too: for fewer pixels less.
         let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
         let whole = self.until - self.clock.wall();
         let most = (FOR_STATISTICS * whole / all_rows) as usize;
         let list = &list[..list.len().min(most.max(afford::LEAST))];
-        let until = self.until - all_rows * list.len() as f64;
+        let until = until - all_rows * list.len() as f64 - FOR_THE_REPORT * whole;
 
         let own = self.picture((0, &candidates[0]), list, self.after(FOR_OWN, until));
         let own = own.ok_or_else(stopped)?;
@@ -133,8 +160,13 @@ impl Bench<'_> {
         pictures[0].colors.truncate(list.len());
         let mut forecast =
             forecast(&self.studio, candidates, list, (self.clock, self.after(FOR_FORECAST, until)));
+        let alike_until = self.after(FOR_ALIKE, until);
+        let is_exact = reference.has(&pictures[0].colors);
+        let time = (self.clock, alike_until);
+        let alike = alike(&self.studio, candidates, knobs, &forecast, list, is_exact, time);
+        let timed: Vec<usize> = (0..candidates.len()).filter(|&c| alike.is_timed(c)).collect();
         let first_until = self.after(FOR_PICTURES, until);
-        self.others(candidates, &mut forecast, &deep, list, first_until, &mut pictures)?;
+        self.others((candidates, &timed), &mut forecast, &deep, list, first_until, &mut pictures)?;
 
         // As fine a reference as is needed, or as there is time for.
         let finer_until = self.after(FOR_FINER, until);
@@ -151,9 +183,9 @@ impl Bench<'_> {
             }
         }
         let rest_until = self.after(FOR_THE_REST, until);
-        self.others(candidates, &mut forecast, &deep, list, rest_until, &mut pictures)?;
+        self.others((candidates, &timed), &mut forecast, &deep, list, rest_until, &mut pictures)?;
         self.more_runs(candidates, until, &mut pictures)?;
-        Ok(Trial { reference, depth: deep.max_trace_level, pictures })
+        Ok(Trial { reference, depth: deep.max_trace_level, pictures, alike })
     }
 
     /// More runs of the pictures, while there is time. Those that are the same work share theirs.
@@ -210,11 +242,11 @@ impl Bench<'_> {
         }
     }
 
-    /// One picture of each candidate not tried yet that there is time for: those that should take least
+    /// One picture of each of `timed` not tried yet that there is time for: those that should take least
     /// first, of whichever knob, until one does not fit. None looks deeper than the reference.
     fn others(
         &self,
-        candidates: &[Candidate],
+        (candidates, timed): (&[Candidate], &[usize]),
         forecast: &mut Forecast,
         deep: &Plan,
         list: &[(u32, u32)],
@@ -224,7 +256,7 @@ impl Bench<'_> {
         let untried = |number: &usize| pictures.iter().all(|picture| picture.candidate != *number);
         let shallow =
             |number: &usize| candidates[*number].plan.max_trace_level <= deep.max_trace_level;
-        let mut order: Vec<usize> = (0..candidates.len()).filter(untried).filter(shallow).collect();
+        let mut order: Vec<usize> = timed.iter().copied().filter(untried).filter(shallow).collect();
         order.sort_by(|&a, &b| forecast.compare(candidates, a, b));
         for number in order {
             let seconds = forecast.seconds(number, pictures);

@@ -6,19 +6,21 @@ use std::path::Path;
 use std::thread::available_parallelism;
 
 use lucarne::accuracy::json::{self, Host};
+use lucarne::accuracy::table::Width;
 use lucarne::accuracy::{
     Clock, KNOBS, Knob, LEAST_PIXELS, Options, Report, Unmeasured, accuracy, idle, svg, table,
 };
+use lucarne::plan::Frame;
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
 
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
+use super::life::duration;
 use super::messages;
-use super::output::write_whole;
-use super::progress::Progress;
-use super::promise::Told;
+use super::output::{can_be_made, write_whole};
+use super::progress::{self, Progress};
 use super::stats::{Stopwatch, cpu_seconds};
 use super::text::{name_of, read_main};
 
@@ -40,7 +42,9 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         let sentence = format!("the diagram is an .svg, and `{}` is not", path.display());
         return Err(Failure::usage(sentence));
     }
+    svg_path.map_or(Ok(()), can_be_made)?;
     let bytes = read_main(&arguments.file)?;
+    let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
     let name = name_of(&arguments.file);
@@ -58,16 +62,17 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
 
     let asked = |knob: &&Knob| arguments.knobs.is_empty() || arguments.knobs.contains(&knob.name);
     let knobs: Vec<Knob> = KNOBS.iter().filter(asked).copied().collect();
-    let idle = match arguments.knobs.is_empty() {
-        true => Vec::new(),
-        false => idle(&world, &origins, frame, &knobs),
-    };
-    if !knobs.is_empty() && idle.len() == knobs.len() {
+    let mut idle = idle(&world, &origins, frame, &knobs);
+    if idle.len() == knobs.len() {
         match arguments.json {
             true => messages::print(&(json::nothing(&name, &idle) + "\n"))?,
             false => messages::print(&(idle.join(".\n") + ".\n"))?,
         }
         return Ok(Exit::Done);
+    }
+    if arguments.knobs.is_empty() {
+        // Nobody asked about them.
+        idle.clear();
     }
     let cores = available_parallelism().map_or(1, NonZero::get);
     let threads = arguments.threads.map_or(cores, usize::from);
@@ -81,12 +86,15 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     };
     let pixels = u64::from(frame.region.width) * u64::from(frame.region.height);
     if pixels < LEAST_PIXELS as u64 {
-        let sentence = format!("{pixels} pixels are too few to find an error by");
+        let sentence = match pixels {
+            1 => "1 pixel is too few to find an error by".to_owned(),
+            _ => format!("{pixels} pixels are too few to find an error by"),
+        };
         return Err(Failure::usage(sentence).help(format!("{LEAST_PIXELS} are the least")));
     }
-    let progress = Progress::start();
-    let told = Told::new(&progress, &clock, "measuring");
-    let report = accuracy(&world, &origins, &options, &clock, &told);
+    drop(life);
+    let progress = Progress::start("measuring");
+    let report = accuracy(&world, &origins, &options, &clock, &progress);
     progress.end();
     let report = match report {
         Ok(report) => Report { idle, ..report },
@@ -94,25 +102,50 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
             messages::eprint("interrupted: nothing was reported\n");
             return Ok(Exit::Interrupted);
         }
-        Err(Unmeasured::TooShort) => {
-            let sentence = format!(
-                "{} s are too few for the scene's own picture and a reference: nothing was measured",
-                arguments.budget
-            );
-            let failure = Failure { exit: Exit::Limit, sentence, help: None };
-            return Err(failure.help("a longer `--budget`, or a smaller `--size`"));
+        Err(Unmeasured::TooShort { own, enough }) => {
+            return Err(too_short(arguments.budget, (own, enough), frame));
         }
     };
     let host = host(cores, threads);
+    let width = if arguments.wide { Width::Wide } else { Width::Narrow };
     match arguments.json {
         true => messages::print(&(json::line(&report, &name, &host) + "\n"))?,
-        false => messages::print(&table::text(&report, &name, threads))?,
+        false => messages::print(&table::text(&report, &name, threads, width))?,
     }
     if let Some(path) = svg_path {
         write_whole(path, svg::text(&report, &short(&name), &host).as_bytes())?;
         messages::eprint(&format!("{}: the work-precision diagram\n", path.display()));
     }
     Ok(Exit::Done)
+}
+
+/// A budget that not even the scene's own picture fits into, and what would do.
+fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
+    let sentence = format!(
+        "{budget} s are too few: the scene's own picture alone takes about {} or more; nothing was measured",
+        duration(own)
+    );
+    let (part, side) = (frame.region, (budget / enough).sqrt());
+    // Where lines of the picture are left out, their pixels are fewer in both directions.
+    let smaller = |side_of: u32| (side * f64::from(side_of) / 8.0).floor() * 8.0;
+    let (width, height) = (smaller(part.width), smaller(part.height));
+    let is_whole = (part.width, part.height) == (frame.width, frame.height);
+    let instead = match is_whole && width >= 16.0 && height >= 16.0 {
+        true => format!("`--size {width}x{height}`"),
+        false => "a smaller `--size`".to_owned(),
+    };
+    Failure::limit(sentence).help(format!("`--budget {}` is enough, or {instead}", round(enough)))
+}
+
+/// A time of so many seconds or a little more, as it is typed.
+fn round(seconds: f64) -> String {
+    match seconds {
+        ..=1.0 => "1s".to_owned(),
+        ..=10.0 => format!("{}s", seconds.ceil()),
+        ..=90.0 => format!("{}s", 10.0 * (seconds / 10.0).ceil()),
+        ..=5400.0 => format!("{}m", (seconds / 60.0).ceil()),
+        _ => format!("{}h", (seconds / 3600.0).ceil()),
+    }
 }
 
 fn short(file: &str) -> String {

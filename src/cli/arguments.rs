@@ -11,7 +11,8 @@ use super::exit::Failure;
 use super::messages;
 use super::scene::SceneArguments;
 use super::values::{
-    MetricArgument, antialias, error, knob, region, seconds, size, tolerance, weight,
+    MetricArgument, antialias, depth, error, knob, region, seconds, size, threads, tolerance,
+    weight,
 };
 
 /// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
@@ -74,8 +75,9 @@ pub struct RenderArguments {
     #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "time_budget"])]
     pub max_error: Option<f64>,
-    /// Make the best picture there is time for, and say how far off it is; exit with 4 if not even
-    /// one ray a pixel fits, and with 5 if there is no time to find out how far off it is
+    /// Make the best picture there is time for (500ms, 60s, 5m; a number alone is seconds), and say how
+    /// far off it is; exit with 4 if not even one ray a pixel fits, and with 5 if there is no time to
+    /// find out how far off it is
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance"])]
@@ -87,8 +89,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 1, requires = "promise")]
     pub seed: u64,
     /// Threads to trace with [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Print times, memory, rays and what they took, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
@@ -204,7 +205,8 @@ pub struct AccuracyArguments {
     /// The knobs to turn, separated by commas [default: all that the scene calls for]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
     pub knobs: Vec<&'static str>,
-    /// How long it may take, such as 60s or 5m: more time, more runs and dearer settings
+    /// How long it may take, such as 60s or 5m (a number alone is seconds): more time, more runs and
+    /// dearer settings
     #[arg(long, value_name = "T", value_parser = seconds, default_value = "60s")]
     pub budget: f64,
     /// What is called an error
@@ -213,6 +215,9 @@ pub struct AccuracyArguments {
     /// Print one JSON object instead of the table
     #[arg(long)]
     pub json: bool,
+    /// Print all columns of the table: every time, boxes and roots, and verdicts in full
+    #[arg(long, conflicts_with = "json")]
+    pub wide: bool,
     /// Also draw the work-precision diagram
     #[arg(long, value_name = "OUT.svg")]
     pub svg: Option<PathBuf>,
@@ -220,8 +225,7 @@ pub struct AccuracyArguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
     /// Threads to trace with [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
     #[command(flatten)]
     pub frame: FrameArguments,
@@ -257,10 +261,9 @@ pub struct PictureArguments {
     #[arg(long, value_name = "off|N|adaptive", value_parser = antialias, default_value = "adaptive")]
     antialias: Antialias,
     /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     depth: Option<u32>,
-    /// Follow no reflection of less weight than this, instead of the scene's adc_bailout
+    /// Follow no reflection of less weight than this (0.01, 1/255), instead of the scene's adc_bailout
     #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
     adc_bailout: Option<f64>,
     /// The arithmetic that rays and shapes meet in
@@ -366,5 +369,30 @@ mod tests {
     fn the_description_of_the_arguments_is_consistent() {
         use clap::CommandFactory;
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_knob_is_a_flag_that_makes_the_same_picture_and_is_no_promises() {
+        use lucarne::accuracy::KNOBS;
+        let frame = Frame::whole(640, 480);
+        let asked = |flags: &str| {
+            let words = format!("lucarne render a.scene {flags}");
+            match Arguments::try_parse_from(words.split(' ')).map(|asked| asked.command) {
+                Ok(Command::Render(render)) => Some(render.picture.options(frame)),
+                _ => None,
+            }
+        };
+        for knob in KNOBS {
+            for &setting in knob.settings {
+                let flag = (knob.flag)(setting);
+                let mut options = PlanOptions::new(frame);
+                (knob.set)(&mut options, setting);
+                let asked_for = asked(&flag).expect(&flag);
+                assert_eq!((knob.get)(&asked_for), (knob.get)(&options), "{flag}");
+                for promise in ["--max-error 0.1", "--time-budget 3s"] {
+                    assert!(asked(&format!("{flag} {promise}")).is_none(), "{flag} {promise}");
+                }
+            }
+        }
     }
 }

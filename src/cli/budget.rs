@@ -8,7 +8,6 @@ use lucarne::color::Rgb;
 use lucarne::film::{Depth, Film, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::plan::Region;
-use lucarne::trace::Traced;
 use lucarne::world::{Origins, World};
 
 use super::exit::Exit;

@@ -10,6 +10,8 @@ mod exit;
 mod explain;
 mod files;
 mod fmt;
+mod hint;
+mod life;
 mod messages;
 mod output;
 mod plan;
@@ -28,22 +30,38 @@ use std::panic;
 use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 use lucarne::diagnostic::suggest::closest;
 
 use arguments::{Arguments, Command};
-use exit::{Exit, Outcome};
+use exit::{Exit, Failure, Outcome};
 
 /// Reads the command line, does what it says, and tells how it went.
 pub fn main() -> ExitCode {
     guarded(|| {
-        let arguments = Arguments::parse_from(complete(std::env::args_os().collect()));
-        run(arguments).unwrap_or_else(|failure| {
+        parsed(complete(std::env::args_os().collect())).and_then(run).unwrap_or_else(|failure| {
             messages::fail(&failure);
             failure.exit
         })
     })
     .into()
+}
+
+/// What the words say. Where an option is unknown that is known elsewhere, that is told; what else cannot be
+/// read ends the program.
+fn parsed(words: Vec<OsString>) -> Result<Arguments, Failure> {
+    let command = words.get(1).map(|word| word.to_string_lossy().into_owned());
+    Arguments::try_parse_from(words).map_err(|error| {
+        let unknown = match (error.kind(), error.get(ContextKind::InvalidArg)) {
+            (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) => Some(word.as_str()),
+            _ => None,
+        };
+        let hint = unknown.zip(command.as_deref()).and_then(|(word, command)| {
+            hint::of(&Arguments::command(), command, word.split(['=', ' ']).next().unwrap_or(word))
+        });
+        hint.unwrap_or_else(|| error.exit())
+    })
 }
 
 fn run(arguments: Arguments) -> Outcome {

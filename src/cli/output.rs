@@ -91,10 +91,10 @@ impl Output {
         }
         let Self::File { path, format } = self else { return Ok(()) };
         // To open a pipe is to wait for its other end.
-        if fs::metadata(path).is_ok_and(|about| !about.is_file()) {
-            let help = "`-o -` writes a PNG to standard output";
-            return Err(cannot(path, "it is not a file").help(help));
-        }
+        can_be_made(path).map_err(|failure| match path.exists() {
+            true => failure.help("`-o -` writes a PNG to standard output"),
+            false => failure,
+        })?;
         if let Ok(file) = fs::File::open(path) {
             let mut start = Vec::new();
             let read = file.take(64).read_to_end(&mut start);
@@ -104,8 +104,6 @@ impl Output {
                 return Err(Failure::file(sentence).help("`--force` overwrites it"));
             }
         }
-        // The one sure way to know that a file can be made there is to make one.
-        temporary(path).map(drop)?;
         match free_bytes(folder(path)) {
             Some(free) if free < format.least_bytes(depth, width, height) => {
                 Err(cannot(path, "the disk is full"))
@@ -135,6 +133,15 @@ impl Output {
             Self::File { path, .. } => write_whole(path, bytes),
         }
     }
+}
+
+/// Fails when it is clear that no file can be made at this place, or what is there is none.
+pub fn can_be_made(path: &Path) -> Result<(), Failure> {
+    if fs::metadata(path).is_ok_and(|about| !about.is_file()) {
+        return Err(cannot(path, "it is not a file"));
+    }
+    // The one sure way to know is to make one.
+    temporary(path).map(drop)
 }
 
 /// Writes a file that is whole or not there.

@@ -1,6 +1,7 @@
 //! A bar while the tracer works, and Ctrl-C.
 //!
-//! **Invariant:** the bar stands on standard error, and only on a terminal; it never stands still.
+//! **Invariant:** the bar stands on standard error, and only on a terminal, elsewhere a line comes now and
+//! then; it never stands still.
 
 use std::io::IsTerminal;
 use std::process;
@@ -12,6 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lucarne::trace::Watch;
 
 use super::exit::Exit;
+use super::life::{Life, NOW_AND_THEN};
 use super::messages;
 use super::stats::cpu_seconds;
 
@@ -35,16 +37,23 @@ pub fn hear_interrupts(before_tracing: &'static str) {
     });
 }
 
+/// Tells of work that has no bar, where standard error is no terminal.
+pub fn life(name: &'static str) -> Option<Life> {
+    let say = |line: &str| messages::eprint(line);
+    (!std::io::stderr().is_terminal()).then(|| Life::begin(name, NOW_AND_THEN, say))
+}
+
 /// Watches one trace.
 pub struct Progress {
     bar: ProgressBar,
+    life: Option<Life>,
     started: f64,
     built: OnceLock<f64>,
 }
 
 impl Progress {
-    /// From here on Ctrl-C stops the trace.
-    pub fn start() -> Self {
+    /// From here on Ctrl-C stops the trace; `name` is what is being done.
+    pub fn start(name: &'static str) -> Self {
         let bar = match std::io::stderr().is_terminal() {
             true => ProgressBar::new(1),
             false => ProgressBar::hidden(),
@@ -58,7 +67,7 @@ impl Progress {
         // A piece may take long: the time goes on, and is seen to.
         bar.enable_steady_tick(TICK);
         TRACING.store(true, Ordering::SeqCst);
-        Self { bar, started: cpu_seconds(), built: OnceLock::new() }
+        Self { bar, life: life(name), started: cpu_seconds(), built: OnceLock::new() }
     }
 
     /// CPU seconds from the start until the tree of boxes stood.
@@ -69,6 +78,11 @@ impl Progress {
     /// Ctrl-C was heard.
     pub fn is_stopped(&self) -> bool {
         STOP.load(Ordering::Relaxed)
+    }
+
+    /// Something else is being done from here on.
+    pub fn next(&self, name: &'static str) {
+        self.life.iter().for_each(|life| life.next(name));
     }
 
     /// Says something while the bar stands.
@@ -85,6 +99,7 @@ impl Watch for Progress {
     fn progress(&self, done: usize, total: usize) {
         self.bar.set_length(total as u64);
         self.bar.set_position(done as u64);
+        self.life.iter().for_each(|life| life.progress(done, total));
     }
 
     fn built(&self) {

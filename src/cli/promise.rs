@@ -1,19 +1,16 @@
 //! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
 
-use std::io::IsTerminal;
-use std::sync::Mutex;
-
-use lucarne::accuracy::{self, Audit, Clock, KNOBS, Options, Step, TooSmall, table};
+use lucarne::accuracy::{self, Audit, KNOBS, Metric, Options, Step, TooSmall, table};
 use lucarne::film::Depth;
 use lucarne::picture::Format;
 use lucarne::plan::{Frame, PlanOptions, plan};
-use lucarne::trace::{TraceOptions, Traced, Watch, trace};
+use lucarne::trace::{TraceOptions, Traced, trace};
 use lucarne::world::{Origins, World};
 
 use super::arguments::RenderArguments;
 use super::budget::spend;
 use super::exit::{Exit, Failure};
-use super::messages;
+use super::life::duration;
 use super::progress::Progress;
 use super::stats::Stopwatch;
 
@@ -62,71 +59,24 @@ fn keep(
     clock: &Stopwatch,
     progress: &Progress,
 ) -> Result<Made, Failure> {
-    let told = Told::new(progress, clock, "choosing settings");
     let tell = |step: Step| {
-        let (name, note) = match &step {
-            Step::Choosing => {
-                ("choosing settings", Some("choosing settings on a few pixels".to_owned()))
-            }
-            Step::Learning { pixels, samples, seconds } => {
-                let takes = format!(
-                    "finding out what {pixels} pixels look like, by {samples} samples of each, takes about {}",
-                    duration(*seconds)
-                );
-                ("finding out", (*seconds >= WORTH_TELLING).then_some(takes))
-            }
-            Step::Trying { knob, seconds } => {
-                let takes = format!(
-                    "trying settings of {knob} on them takes at most about {}",
-                    duration(*seconds)
-                );
-                ("trying settings", (*seconds >= WORTH_TELLING).then_some(takes))
-            }
-            Step::Unreachable { error, resolution } => {
-                let amount = |error| table::amount(options.metric, error);
-                let best = match error.value < *resolution {
-                    true => format!("below {}", amount(resolution.max(error.high))),
-                    false => format!("about {}", amount(error.value)),
-                };
-                let note = format!(
-                    "no settings are known to keep {}; the best that can be reached here is {best}: rendering that",
-                    amount(promise)
-                );
-                ("choosing settings", Some(note))
-            }
-            Step::Rendering { flags, seconds, audit } => {
-                let audit = match *audit >= WORTH_TELLING {
-                    true => format!(", and to find out the error {}", duration(*audit)),
-                    false => String::new(),
-                };
-                let seconds = duration(*seconds);
-                let note =
-                    format!("rendering with {flags}\nnote: that takes about {seconds}{audit}");
-                ("rendering", Some(note))
-            }
-            Step::Refining(audit) => {
-                let note = format!("{}: not proven, choosing better settings", error(audit));
-                ("choosing settings", Some(note))
-            }
-        };
-        told.now.lock().iter_mut().for_each(|now| **now = Now::new(name, clock));
+        progress.next(name(&step));
+        let note = note(&step, options.metric, promise);
         note.iter().for_each(|note| progress.say(&format!("note: {note}\n")));
     };
-    let kept = accuracy::keep(world, origins, options, promise, clock, (&told, &tell));
+    let kept = accuracy::keep(world, origins, options, promise, clock, (progress, &tell));
     let kept = kept.map_err(|TooSmall| {
         let Frame { region, .. } = options.frame;
         let (width, height) = (region.width, region.height);
         Failure::usage(format!("{width}×{height} pixels are too few to prove an error by"))
             .help("`--max-error` needs about 16×16")
     })?;
+    let interrupted = |traced| Made { traced, said: String::new(), exit: Exit::Interrupted };
     let Some(kept) = kept else {
         let gamma = world.settings.assumed_gamma;
-        let traced = Traced::unbegun(options.frame, gamma);
-        return Ok(Made { traced, said: String::new(), exit: Exit::Interrupted });
+        return Ok(interrupted(Traced::unbegun(options.frame, gamma)));
     };
-    let Some(audit) = kept.audit else {
-        return Ok(Made { traced: kept.traced, said: String::new(), exit: Exit::Interrupted });
-    };
+    let Some(audit) = kept.audit else { return Ok(interrupted(kept.traced)) };
     let proven = audit.proves(promise);
     let may_be = audit.error.value <= promise || audit.error.value < audit.resolution;
     let sign = match (proven, may_be) {
@@ -139,89 +89,97 @@ fn keep(
     let better = match (proven, audit.depth, kept.is_dearest) {
         (true, ..) => "",
         (false, Some(_), _) => "; what lies deeper took too long to look at",
+        (false, None, _) if audit.resolution > promise => {
+            "; the pixels are so noisy that not even their reference tells so small an error"
+        }
+        (false, None, true) if audit.error.value <= promise => {
+            "; so few pixels prove no less: a larger `--size` has more"
+        }
         (false, None, true) => {
             "; these are the finest settings it tries: `--antialias 64` is finer, and `--time-budget` \
              comes as near sooner"
         }
         (false, None, false) => "; no settings are known to be better",
     };
+    let flags = match kept.flags.as_str() {
+        "" => "any settings make it",
+        flags => flags,
+    };
     let said = format!(
-        "{} {sign} {amount}, on {} fresh pixels{refined}{better}\nthe same picture: {}\n",
+        "{} {sign} {amount}, on {} fresh pixels{refined}{better}\nthe same picture: {flags}\n",
         error(&audit),
-        audit.pixels,
-        kept.flags
+        audit.pixels
     );
     Ok(Made { traced: kept.traced, said, exit: if proven { Exit::Done } else { Exit::Promise } })
 }
 
-/// `8 s`, `3 min`: as well as a forecast knows it.
-fn duration(seconds: f64) -> String {
-    match seconds {
-        5400.0.. => format!("{:.1} h", seconds / 3600.0),
-        90.0.. => format!("{:.0} min", seconds / 60.0),
-        10.0.. => format!("{seconds:.0} s"),
-        _ => format!("{seconds:.1} s"),
-    }
-}
-
-/// Where no bar can be seen, a line now and then says how far it has come.
-pub(super) struct Told<'a> {
-    progress: &'a Progress,
-    clock: &'a Stopwatch,
-    now: Mutex<Now>,
-}
-
 /// What is being done.
-struct Now {
-    name: &'static str,
-    /// When it was begun, and when the last line was written.
-    began: f64,
-    last: f64,
-}
-
-impl Now {
-    fn new(name: &'static str, clock: &Stopwatch) -> Self {
-        let began = clock.wall();
-        Self { name, began, last: began }
+fn name(step: &Step) -> &'static str {
+    match step {
+        Step::Choosing | Step::Unreachable { .. } | Step::Refining(_) => "choosing settings",
+        Step::Learning { .. } => "finding out what pixels look like",
+        Step::Trying { .. } => "trying settings",
+        Step::Rendering { .. } => "rendering",
     }
 }
 
+/// What is said of it; nothing of what takes no time.
+fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
+    let amount = |error| table::amount(metric, error);
+    match step {
+        Step::Choosing => Some("choosing settings on a few pixels".to_owned()),
+        Step::Learning { seconds, .. } | Step::Trying { seconds, .. }
+            if *seconds < WORTH_TELLING =>
+        {
+            None
+        }
+        Step::Learning { pixels, samples, seconds } => Some(format!(
+            "finding out what {pixels} pixels look like, by {samples} samples of each, takes about {}",
+            duration(*seconds)
+        )),
+        Step::Trying { knob, seconds } => Some(format!(
+            "trying settings of {knob} on them, cheap ones first; all of them would take about {}",
+            duration(*seconds)
+        )),
+        Step::Unreachable { error, pixels, .. } if error.value <= promise => Some(format!(
+            "{pixels} pixels cannot prove {}: of the finest settings they say {} [{}, {}]; rendering those",
+            amount(promise),
+            amount(error.value),
+            amount(error.low),
+            amount(error.high)
+        )),
+        Step::Unreachable { error, resolution, .. } => {
+            let best = match error.value < *resolution {
+                true => format!("below {}", amount(resolution.max(error.high))),
+                false => format!("about {}", amount(error.value)),
+            };
+            Some(format!(
+                "no settings are known to keep {}; the best that can be reached here is {best}: rendering that",
+                amount(promise)
+            ))
+        }
+        Step::Rendering { flags, seconds, audit } => {
+            let audit = match *audit >= WORTH_TELLING {
+                true => format!(", and to find out the error {}", duration(*audit)),
+                false => String::new(),
+            };
+            let flags = match flags.as_str() {
+                "" => "any settings",
+                flags => flags,
+            };
+            let seconds = duration(*seconds);
+            Some(format!("rendering with {flags}\nnote: that takes about {seconds}{audit}"))
+        }
+        Step::Refining(audit) => {
+            Some(format!("{}: not proven, choosing better settings", error(audit)))
+        }
+    }
+}
+
+/// An error that nobody asks about.
+const NOTHING: f64 = 1e-9;
 /// Seconds that one wants to be told of beforehand.
 const WORTH_TELLING: f64 = 5.0;
-/// Seconds from one line to the next.
-const NOW_AND_THEN: f64 = 10.0;
-
-impl<'a> Told<'a> {
-    pub(super) fn new(progress: &'a Progress, clock: &'a Stopwatch, name: &'static str) -> Self {
-        Self { progress, clock, now: Mutex::new(Now::new(name, clock)) }
-    }
-}
-
-impl Watch for Told<'_> {
-    fn progress(&self, done: usize, total: usize) {
-        self.progress.progress(done, total);
-        if std::io::stderr().is_terminal() {
-            return;
-        }
-        // Whoever comes while a line is written has nothing new to say.
-        let Ok(mut now) = self.now.try_lock() else { return };
-        let time = self.clock.wall();
-        if time - now.last >= NOW_AND_THEN {
-            now.last = time;
-            let percent = 100 * done / total.max(1);
-            let passed = duration(time - now.began);
-            messages::eprint(&format!("note: {}: {percent} % after {passed}\n", now.name));
-        }
-    }
-
-    fn built(&self) {
-        self.progress.built();
-    }
-
-    fn should_stop(&self) -> bool {
-        self.progress.should_stop()
-    }
-}
 
 /// `error 0.0088 [0.0081, 0.0096]`, and what the reference did not look at.
 pub(super) fn error(audit: &Audit) -> String {
@@ -229,8 +187,13 @@ pub(super) fn error(audit: &Audit) -> String {
     // Below what the reference resolves nothing is known but that it lies there.
     let error = match audit.error.value < audit.resolution {
         true => {
-            let most = amount(audit.resolution.max(audit.error.high));
-            format!("< {most} (it could not be told better than that)")
+            let most = audit.resolution.max(audit.error.high);
+            // Sums are rounded by as much.
+            let why = match most {
+                ..=NOTHING => "",
+                _ => " (it could not be told better than that)",
+            };
+            format!("< {}{why}", amount(most))
         }
         false => {
             let [value, low, high] =
@@ -239,7 +202,7 @@ pub(super) fn error(audit: &Audit) -> String {
         }
     };
     let depth = match audit.depth {
-        Some(1) => " against a reference only 1 surface deep".to_owned(),
+        Some(1) => " against a reference only one surface deep".to_owned(),
         Some(depth) => format!(" against a reference only {depth} surfaces deep"),
         None => String::new(),
     };

@@ -14,7 +14,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
 use super::messages;
 use super::output::Output;
-use super::progress::Progress;
+use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
 use super::text::{name_of, read_main};
@@ -35,6 +35,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.check(frame.region, depth, arguments.force)?;
     fits(frame.region)?;
 
+    let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let options = arguments.scene.options(&arguments.file, Some(frame));
     let mut road = Road::new(&files, options);
@@ -61,7 +62,8 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let picture = &arguments.picture;
     let options = picture.options(frame);
     watch.lap();
-    let progress = Progress::start();
+    drop(life);
+    let progress = Progress::start("rendering");
     let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
     let threads = TraceOptions { threads, count_work: arguments.stats.is_some() };
     let (scene, written) = ((&world, &origins), (depth, format));

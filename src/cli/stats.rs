@@ -60,7 +60,7 @@ impl Stats {
             work,
             evaluations: _,
         } = *counters;
-        let geometry::Work { box_visits, root_solves } = work;
+        let geometry::Work { box_visits, root_solves, solving: _ } = work;
         self.rays = Rays { camera, shadow, reflection, transmission, total_reflection };
         self.work = Work { box_visits, root_solves };
     }

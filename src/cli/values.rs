@@ -87,9 +87,30 @@ fn adaptive(text: &str) -> Option<Antialias> {
     Some(Antialias::Adaptive { threshold, grid })
 }
 
+/// A number, or two with a slash between them: `1/255`.
+fn fraction(text: &str) -> Option<f64> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    match text.split_once('/') {
+        Some((parts, of)) => Some(number(parts)? / number(of)?),
+        None => number(text),
+    }
+}
+
+/// `0.004` or `1/255`.
 pub fn weight(text: &str) -> Result<f64, String> {
-    let weight = text.parse().ok().filter(|weight: &f64| (0.0..=1.0).contains(weight));
-    weight.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+    let weight = fraction(text).filter(|weight| (0.0..=1.0).contains(weight));
+    weight.ok_or_else(|| "expected a number from 0 to 1, such as 0.01 or 1/255".to_owned())
+}
+
+/// How many surfaces deep.
+pub fn depth(text: &str) -> Result<u32, String> {
+    let depth = text.parse().ok().filter(|&depth| depth > 0);
+    depth.ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
+}
+
+pub fn threads(text: &str) -> Result<u16, String> {
+    let threads = text.parse().ok().filter(|threads| (1..=1024).contains(threads));
+    threads.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
 }
 
 pub fn tolerance(text: &str) -> Result<f64, String> {
@@ -99,11 +120,9 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 
 /// `0.01`, `1%` or `2/255`.
 pub fn error(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let error = match (text.trim().strip_suffix('%'), text.split_once('/')) {
-        (Some(percent), _) => number(percent).map(|percent| percent / 100.0),
-        (None, Some((parts, of))) => number(parts).zip(number(of)).map(|(parts, of)| parts / of),
-        (None, None) => number(text),
+    let error = match text.trim().strip_suffix('%') {
+        Some(percent) => percent.trim().parse().ok().map(|percent: f64| percent / 100.0),
+        None => fraction(text),
     };
     let error = error.filter(|&error| error > 0.0 && error <= 1.0);
     error.ok_or_else(|| {
@@ -120,7 +139,9 @@ pub fn seconds(text: &str) -> Result<f64, String> {
         .unwrap_or((text, 1.0));
     let seconds = number.parse().ok().map(|n: f64| n * unit);
     let seconds = seconds.filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e9);
-    seconds.ok_or_else(|| "expected a time, such as 500ms, 60s or 5m".to_owned())
+    seconds.ok_or_else(|| {
+        "expected a time, such as 500ms, 60s or 5m; a number alone is seconds".to_owned()
+    })
 }
 
 pub fn knob(text: &str) -> Result<&'static str, String> {
@@ -242,7 +263,15 @@ mod tests {
             assert!(error(wrong).is_err(), "{wrong}");
         }
         assert_eq!(weight("0"), Ok(0.0));
-        assert!(weight("-1").is_err() && weight("nan").is_err());
+        assert_eq!((weight("1/64"), weight("1/255")), (Ok(0.015625), Ok(1.0 / 255.0)));
+        for wrong in ["-1", "nan", "1/0", "0/0", "2/1", "1/", "/2", "1/2/3"] {
+            assert!(weight(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!((depth("1"), depth("4294967295")), (Ok(1), Ok(u32::MAX)));
+        assert_eq!((threads("1"), threads("1024")), (Ok(1), Ok(1024)));
+        for wrong in ["0", "-1", "1.5", "", "4294967296"] {
+            assert!(depth(wrong).is_err() && threads(wrong).is_err(), "{wrong}");
+        }
         assert_eq!(knob("depth"), Ok("depth"));
         assert!(knob("depht").is_err_and(|sentence| sentence.contains("antialias, depth")));
     }

@@ -42,6 +42,11 @@ pub struct Closed {
 }
 
 impl Closed {
+    /// How many operations it makes at a point; those inside a loop count once.
+    pub fn operations(&self) -> usize {
+        self.function.operations()
+    }
+
     /// `None` where `asked` does not know what the function asks.
     pub fn new(
         mut function: Function,

@@ -86,7 +86,7 @@ impl Geometry {
             let entry = &self.entries[place];
             let rank = (entry.clear, entry.object);
             if first.is_none_or(|first| rank < first.0) {
-                tally.root_solve();
+                tally.root_solve(|| self.price(entry));
                 let hit = |(crossing, leaving)| {
                     (rank, Hit { contested: true, ..self.hit(entry, ray, crossing, leaving) })
                 };
@@ -102,8 +102,9 @@ impl Geometry {
     pub(super) fn end_of_first<T: Tally>(&self, ray: &Ray, tally: T) -> f64 {
         let mut limit = f64::INFINITY;
         let look = |place: usize, tally: &mut T| {
-            tally.root_solve();
-            let crossing = self.first_crossing::<TIGHT>(&self.entries[place], ray, limit);
+            let entry = &self.entries[place];
+            tally.root_solve(|| self.price(entry));
+            let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
             if let Some((Crossing { t, error }, _)) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
@@ -160,8 +161,8 @@ impl<T: Tally> Seeker for Race<'_, T> {
 
     #[inline(always)]
     fn look(&mut self, place: usize) -> f64 {
-        self.tally.root_solve();
         let entry = &self.geometry.entries[place];
+        self.tally.root_solve(|| self.geometry.price(entry));
         let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
         if let Some((Crossing { t, error }, leaving)) = crossing {
             if t < self.t {

@@ -82,8 +82,8 @@ impl<T: Tally> Shade<'_, T> {
         if !entry.blocks {
             return false;
         }
-        self.tally.root_solve();
         let Self { geometry, ray, distance, .. } = *self;
+        self.tally.root_solve(|| geometry.price(entry));
         if let Solid::Whole(whole) = entry.solid {
             return geometry.whole_shadows(whole, ray, distance);
         }

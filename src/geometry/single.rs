@@ -45,8 +45,8 @@ impl Geometry {
         let (mut best, mut best_t, mut rival_t) = (None, f64::INFINITY, f64::INFINITY);
         let mut limit = f64::INFINITY;
         let look = |place: usize, tally: &mut &mut T| {
-            tally.root_solve();
             let entry = &self.entries[place];
+            tally.root_solve(|| self.price(entry));
             if let Some((Crossing { t, error }, leaving)) = self.met(entry, &rounded, limit) {
                 limit = limit.min(t + 2.0 * error);
                 if t < best_t {
@@ -86,7 +86,7 @@ impl Geometry {
             if !entry.blocks {
                 return false;
             }
-            tally.root_solve();
+            tally.root_solve(|| self.price(entry));
             if let Solid::Whole(whole) = entry.solid {
                 return self.whole_shadows(whole, ray, distance);
             }

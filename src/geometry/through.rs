@@ -91,7 +91,7 @@ impl Geometry {
         counts: fn(&Entry) -> bool,
         tally: &mut impl Tally,
     ) -> Seen {
-        tally.root_solve();
+        tally.root_solve(|| self.price(entry));
         let chord = match &entry.solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),

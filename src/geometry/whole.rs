@@ -44,6 +44,18 @@ impl Whole {
         Self { nodes: csg::Tree::new(&whole.nodes), leaves, always, tree }
     }
 
+    /// What it takes to find where a line crosses it, from what that takes of each leaf: twice as much
+    /// (as of `Local::price`), of leaves in a tree for those that lie along a line.
+    pub fn price(&self, leaf: impl Fn(&u32) -> u64) -> u64 {
+        let always: u64 = self.always.iter().map(&leaf).sum();
+        let along = self.tree.iter().map(|(_, order)| {
+            let all: u64 = order.iter().map(&leaf).sum();
+            let count = order.len().max(1);
+            all * 2 * u64::from(count.ilog2() + 1) / count as u64
+        });
+        6 + 2 * (always + along.sum::<u64>())
+    }
+
     /// Shows `look` every leaf that the line of a ray may meet, on both sides of its start.
     pub fn search(&self, ray: &Ray, mut look: impl FnMut(u32)) {
         self.always.iter().for_each(|&leaf| look(leaf));

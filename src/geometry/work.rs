@@ -5,6 +5,9 @@
 
 use std::ops::AddAssign;
 
+use super::{Entry, Geometry, Solid};
+use crate::shape::body::Local;
+
 /// How much work it was to find what rays meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
@@ -12,12 +15,15 @@ pub struct Work {
     pub box_visits: u64,
     /// How often the equation of a shape was solved for a ray.
     pub root_solves: u64,
+    /// What that took, in equations of a sphere: see [`crate::shape::body::Local::price`].
+    pub solving: u64,
 }
 
 impl AddAssign for Work {
     fn add_assign(&mut self, other: Self) {
         self.box_visits += other.box_visits;
         self.root_solves += other.root_solves;
+        self.solving += other.solving;
     }
 }
 
@@ -25,7 +31,8 @@ impl AddAssign for Work {
 pub(super) trait Tally {
     const COUNTS: bool;
     fn box_visits(&mut self, count: u64);
-    fn root_solve(&mut self);
+    /// Of a shape of this price, which is asked for where it is counted.
+    fn root_solve(&mut self, price: impl FnOnce() -> u64);
 }
 
 /// Takes note of nothing, and is nothing.
@@ -36,7 +43,7 @@ impl Tally for Uncounted {
     #[inline(always)]
     fn box_visits(&mut self, _: u64) {}
     #[inline(always)]
-    fn root_solve(&mut self) {}
+    fn root_solve(&mut self, _: impl FnOnce() -> u64) {}
 }
 
 impl Tally for Work {
@@ -46,8 +53,9 @@ impl Tally for Work {
         self.box_visits += count;
     }
     #[inline(always)]
-    fn root_solve(&mut self) {
+    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
         self.root_solves += 1;
+        self.solving += price();
     }
 }
 
@@ -58,7 +66,23 @@ impl<T: Tally> Tally for &mut T {
         (**self).box_visits(count);
     }
     #[inline(always)]
-    fn root_solve(&mut self) {
-        (**self).root_solve();
+    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
+        (**self).root_solve(price);
+    }
+}
+
+impl Geometry {
+    /// What it takes to find where a ray meets an object, in equations of a sphere.
+    pub(super) fn price(&self, entry: &Entry) -> u64 {
+        match entry.solid {
+            Solid::Sphere(_) | Solid::Plane(_) | Solid::Box(_) => 1,
+            Solid::Ellipsoid(_) => 3,
+            Solid::Placed(i) => self.placed[i as usize].body.price(),
+            Solid::Whole(i) => {
+                let price =
+                    |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
+                self.wholes[i as usize].price(price)
+            }
+        }
     }
 }

@@ -177,6 +177,10 @@ impl Local for Algebraic {
         true
     }
 
+    fn price(&self) -> u64 {
+        4 * self.terms.len() as u64 - 18
+    }
+
     fn reach(&self) -> f64 {
         self.closed.map_or(f64::INFINITY, |closed| closed.reach())
     }

@@ -54,6 +54,11 @@ pub trait Local {
         false
     }
 
+    /// What it takes to find where a line crosses it, in equations of a sphere. Of pictures of one body
+    /// (2026-11-22), what they take longer than one of a sphere, for each line that is tried: half of it to
+    /// twice as much.
+    fn price(&self) -> u64;
+
     /// It has no inside: a ray goes through and is neither in it before nor after.
     fn is_sheet(&self) -> bool {
         false
@@ -234,6 +239,12 @@ macro_rules! bodies {
             fn is_iterated(&self) -> bool {
                 match self {
                     $(Self::$kind(body) => body.is_iterated(),)*
+                }
+            }
+
+            fn price(&self) -> u64 {
+                match self {
+                    $(Self::$kind(body) => body.price(),)*
                 }
             }
 

@@ -130,6 +130,10 @@ impl Local for Cone {
         ((base - across).min(cap - narrow), (base + across).max(cap + narrow))
     }
 
+    fn price(&self) -> u64 {
+        10
+    }
+
     fn reach(&self) -> f64 {
         std::f64::consts::SQRT_2
     }

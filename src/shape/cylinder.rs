@@ -56,6 +56,10 @@ impl Local for Cylinder {
         (-half, half)
     }
 
+    fn price(&self) -> u64 {
+        8
+    }
+
     fn reach(&self) -> f64 {
         std::f64::consts::SQRT_2
     }

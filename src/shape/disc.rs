@@ -43,6 +43,10 @@ impl Local for Disc {
         (-half, half)
     }
 
+    fn price(&self) -> u64 {
+        6
+    }
+
     fn reach(&self) -> f64 {
         f64::INFINITY
     }

@@ -321,6 +321,10 @@ impl Local for Isosurface {
         (-half, half)
     }
 
+    fn price(&self) -> u64 {
+        100 * self.function.operations() as u64
+    }
+
     fn reach(&self) -> f64 {
         self.container.reach()
     }

@@ -372,6 +372,10 @@ impl Local for Lathe {
         true
     }
 
+    fn price(&self) -> u64 {
+        40 + 6 * self.outline.pieces.len() as u64
+    }
+
     fn reach(&self) -> f64 {
         self.outline.reach()
     }

@@ -149,6 +149,10 @@ impl Local for Ovus {
         (-self.greatest(-along), self.greatest(along))
     }
 
+    fn price(&self) -> u64 {
+        20
+    }
+
     fn reach(&self) -> f64 {
         1.0
     }

@@ -356,6 +356,11 @@ impl Local for Parametric {
         (whole.low.max(-half), whole.high.min(half))
     }
 
+    fn price(&self) -> u64 {
+        let operations = |function: &Arc<Closed>| function.operations() as u64;
+        150 * self.functions.iter().map(operations).sum::<u64>()
+    }
+
     fn reach(&self) -> f64 {
         self.container.reach()
     }

@@ -106,6 +106,11 @@ impl Local for Polygon {
         (low - slack, high + slack)
     }
 
+    /// Not measured: as of shapes like it.
+    fn price(&self) -> u64 {
+        8 + self.edges.len() as u64
+    }
+
     fn reach(&self) -> f64 {
         self.reach
     }

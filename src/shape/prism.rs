@@ -366,6 +366,10 @@ impl Local for Prism {
         self.outline.pieces.iter().any(|piece| !piece.is_straight())
     }
 
+    fn price(&self) -> u64 {
+        30 + 4 * self.outline.pieces.len() as u64
+    }
+
     fn reach(&self) -> f64 {
         let height = self.heights[0].abs().max(self.heights[1].abs());
         let width = self.outline.reach() * if self.conic { height } else { 1.0 };

@@ -232,6 +232,10 @@ impl Local for Sor {
         true
     }
 
+    fn price(&self) -> u64 {
+        35 + 4 * self.segments.len() as u64
+    }
+
     fn reach(&self) -> f64 {
         let squares = self.segments.iter().map(|segment| {
             let height = segment.low.abs().max(segment.high.abs());

@@ -197,6 +197,10 @@ impl Local for Superellipsoid {
     }
 
     /// As far as it goes along some vector of length 1.
+    fn price(&self) -> u64 {
+        260
+    }
+
     fn reach(&self) -> f64 {
         // The farthest of (a·u, v) with uᵖ + vᵖ = 1, by Hölder's inequality.
         let farthest = |a: f64, exponent: f64| {

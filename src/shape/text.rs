@@ -115,6 +115,11 @@ impl Local for Text {
         })
     }
 
+    /// Not measured: as of shapes like it.
+    fn price(&self) -> u64 {
+        100 + 7 * u64::from(self.letters.len().max(1).ilog2())
+    }
+
     fn reach(&self) -> f64 {
         self.reach
     }

@@ -238,6 +238,10 @@ impl Local for Torus {
         true
     }
 
+    fn price(&self) -> u64 {
+        19
+    }
+
     fn reach(&self) -> f64 {
         self.major + self.minor
     }

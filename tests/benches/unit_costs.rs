@@ -17,7 +17,7 @@ const UNITS: [(&str, &str); 6] = [
     ("rays", "reflection"),
     ("rays", "transmission"),
     ("work", "box_visits"),
-    ("work", "root_solves"),
+    ("work", "solving"),
 ];
 const ASKED: &str = "--size 120x90 --budget 30s --threads 1 --json";
 

@@ -1,7 +1,7 @@
 //! The report as a work-precision diagram: error against time, both logarithmic.
 //!
 //! **Out:** one SVG that stands on a light page and on a dark one, and is fit for print. **Invariant:**
-//! colours are told apart by shape too; every point says what it is when pointed at; no text leaves the
+//! knobs are told apart by colour and by shape; every point says what it is when pointed at; no text leaves the
 //! page, meets another or covers a marker.
 //!
 //! **Source:** the form is that of E. Hairer, G. Wanner, Solving Ordinary Differential Equations II;
@@ -123,7 +123,11 @@ impl<'a> Diagram<'a> {
         for &(key, (x, y)) in &self.legend {
             let sign = match key {
                 Key::Knob(number) => {
-                    format!("<g class=\"k{}\">{}</g>", number % 6, marker(number, x, y - 4.0, ""))
+                    format!(
+                        "<g class=\"k{}\">{}</g>",
+                        number % SHAPES,
+                        marker(number, x, y - 4.0, "")
+                    )
                 }
                 Key::Own => {
                     format!("<circle class=\"own\" cx=\"{x:.1}\" cy=\"{:.1}\" r=\"7\"/>", y - 4.0)
@@ -242,17 +246,17 @@ impl<'a> Diagram<'a> {
 
     fn points(&self, out: &mut String) -> Result {
         for (number, knob) in self.report.knobs.iter().enumerate() {
-            for setting in &knob.settings {
-                let row = setting.row;
+            for settings in knob.lines() {
+                let row = settings.first.row;
                 let rest = if self.is_on_front(row) { "" } else { " rest" };
                 let (x, y) = self.place(row);
                 let [interval, runs] = self.bars(row).map(|bar| line("bar", bar));
                 writeln!(
                     out,
                     "<g class=\"k{}{rest}\"><title>{} {}: {} s, {}</title>{interval}{runs}{}</g>",
-                    number % 6,
+                    number % SHAPES,
                     knob.name,
-                    escaped(&setting.label),
+                    escaped(&settings.label),
                     table::span(Span::of(&self.report.rows[row].times.cpu)),
                     escaped(&table::error(self.report, row)),
                     // What is not resolved is somewhere below.
@@ -336,9 +340,12 @@ impl Key {
     }
 }
 
+/// As many as colours.
+const SHAPES: usize = 6;
+
 /// A shape for each knob.
 fn marker(number: usize, x: f64, y: f64, with: &str) -> String {
-    match number % 4 {
+    match number % SHAPES {
         0 => format!("<circle{with} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.2\"/>"),
         1 => format!(
             "<rect{with} x=\"{:.1}\" y=\"{:.1}\" width=\"7.6\" height=\"7.6\"/>",
@@ -346,7 +353,13 @@ fn marker(number: usize, x: f64, y: f64, with: &str) -> String {
             y - 3.8
         ),
         2 => format!("<path{with} d=\"M{x:.1} {:.1}l4.8 8.4h-9.6z\"/>", y - 5.4),
-        _ => format!("<path{with} d=\"M{x:.1} {:.1}l5 5-5 5-5-5z\"/>", y - 5.0),
+        3 => format!("<path{with} d=\"M{x:.1} {:.1}l5 5l-5 5l-5-5z\"/>", y - 5.0),
+        4 => format!("<path{with} d=\"M{x:.1} {:.1}l-4.8-8.4h9.6z\"/>", y + 5.4),
+        _ => format!(
+            "<path{with} d=\"M{:.1} {:.1}h2.8v3.2h3.2v2.8h-3.2v3.2h-2.8v-3.2h-3.2v-2.8h3.2z\"/>",
+            x - 1.4,
+            y - 4.6
+        ),
     }
 }
 

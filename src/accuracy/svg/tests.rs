@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::accuracy::statistics::Estimate;
-use crate::accuracy::{Row, Setting, Times, Tried};
+use crate::accuracy::{Cut, KNOBS, Row, Setting, Times, Tried};
 use crate::math::elementary::pow;
 use crate::math::random::{Random, long};
 use crate::plan::Frame;
@@ -76,10 +76,29 @@ fn markers(svg: &str) -> Vec<Rectangle> {
         all.push(Rectangle::about((of("x") + 3.8, of("y") + 3.8), 3.8));
     }
     for path in svg.split(" d=\"M").skip(1).filter(|path| path.contains('z')) {
-        let place = path.split('l').next().expect("a place");
-        let (x, y) = place.split_once(' ').expect("two numbers");
-        let (x, y): (f64, f64) = (x.parse().expect("one"), y.parse().expect("one"));
-        all.push(Rectangle { left: x - 5.0, right: x + 5.0, top: y, bottom: y + 8.4 });
+        let path = path.split('z').next().expect("its end");
+        let start = path.find(['l', 'h']).expect("a place");
+        let (x, y) = path[..start].split_once(' ').expect("two numbers");
+        let (mut x, mut y): (f64, f64) = (x.parse().expect("one"), y.parse().expect("one"));
+        let mut all_of_it = Rectangle { left: x, right: x, top: y, bottom: y };
+        // Of `l4.8 8.4h-9.6`, step by step.
+        let spaced = path[start..].replace('-', " -").replace(['l', 'h', 'v'], " ");
+        let mut numbers = spaced.split_whitespace().map(|n| n.parse::<f64>().expect("a number"));
+        let mut step = |kind: char| match kind {
+            'h' => (numbers.next().expect("one"), 0.0),
+            'v' => (0.0, numbers.next().expect("one")),
+            _ => (numbers.next().expect("one"), numbers.next().expect("two")),
+        };
+        let pairs = path[start..].matches(['l', 'h', 'v']).flat_map(|kind| kind.chars());
+        for kind in pairs {
+            let (dx, dy) = step(kind);
+            (x, y) = (x + dx, y + dy);
+            all_of_it.left = all_of_it.left.min(x);
+            all_of_it.right = all_of_it.right.max(x);
+            all_of_it.top = all_of_it.top.min(y);
+            all_of_it.bottom = all_of_it.bottom.max(y);
+        }
+        all.push(all_of_it);
     }
     all
 }
@@ -141,8 +160,12 @@ pub(in crate::accuracy) fn report(
             row,
             verdict: Verdict::Front,
         };
-        let settings = mine.map(setting).collect();
-        Tried { name, settings, left_out: Vec::new(), sentence: String::new() }
+        let settings: Vec<Setting> = mine.map(setting).collect();
+        let label =
+            |setting: Option<&Setting>| setting.map(|s| s.label.clone()).unwrap_or_default();
+        let ends = [label(settings.first()), label(settings.last())];
+        let (vain, left_out) = (Vec::new(), Vec::new());
+        Tried { name, ends, settings, vain, left_out, sentence: String::new() }
     };
     let knobs = knobs.iter().enumerate().map(tried).collect();
     let mut report = Report {
@@ -150,7 +173,7 @@ pub(in crate::accuracy) fn report(
         metric: Metric::Rmse,
         seed: 1,
         audited: 4800,
-        cut: Vec::new(),
+        cut: Cut::default(),
         reference_samples: 512,
         floors: [floor; 3],
         knobs,
@@ -259,6 +282,16 @@ fn no_point_lies_left_of_the_path_and_below_whatever_clock_and_counters_say() {
             assert!(!below, "{row} at {x} {y}: {path:?}");
         }
     }
+}
+
+#[test]
+fn no_two_knobs_have_the_same_shape() {
+    let shape = |number| {
+        let marker = marker(number, 0.0, 0.0, "");
+        marker.split(['"', '<']).map(str::trim).collect::<Vec<_>>().join(" ")
+    };
+    let shapes: std::collections::BTreeSet<String> = (0..KNOBS.len()).map(shape).collect();
+    assert_eq!(shapes.len(), KNOBS.len());
 }
 
 #[test]

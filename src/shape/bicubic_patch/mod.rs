@@ -340,6 +340,11 @@ impl Local for BicubicPatch {
         (-self.net.greatest(-along) - slack, self.net.greatest(along) + slack)
     }
 
+    /// Not measured: as of shapes like it.
+    fn price(&self) -> u64 {
+        150 + 7 * u64::from(self.pieces.len().max(1).ilog2())
+    }
+
     fn reach(&self) -> f64 {
         self.reach
     }

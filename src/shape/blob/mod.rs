@@ -174,6 +174,10 @@ impl Local for Blob {
         (-self.greatest(-along), self.greatest(along))
     }
 
+    fn price(&self) -> u64 {
+        40 + 7 * u64::from(self.components.len().max(1).ilog2())
+    }
+
     fn reach(&self) -> f64 {
         self.reach
     }

@@ -313,6 +313,11 @@ impl Local for HeightField {
         extent
     }
 
+    /// Not measured: as of shapes like it.
+    fn price(&self) -> u64 {
+        8 + 5 * u64::from((2 * self.cells[0] * self.cells[1]).max(1).ilog2())
+    }
+
     fn reach(&self) -> f64 {
         f64::INFINITY
     }

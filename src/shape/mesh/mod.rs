@@ -193,6 +193,10 @@ impl Local for Mesh {
         (-greatest(-along), greatest(along))
     }
 
+    fn price(&self) -> u64 {
+        8 + 5 * u64::from(self.faces.len().max(1).ilog2())
+    }
+
     fn reach(&self) -> f64 {
         self.reach
     }

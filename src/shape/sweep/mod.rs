@@ -24,6 +24,12 @@ pub struct Segment {
     pub radius: [f64; 4],
 }
 
+impl Segment {
+    fn is_straight(&self) -> bool {
+        self.centre[2..] == [Vector::ZERO; 2] && self.radius[2..] == [0.0; 2]
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereSweep {
     /// In the order of the tree.
@@ -197,6 +203,11 @@ impl Local for SphereSweep {
             })
         };
         (-greatest(-along), greatest(along))
+    }
+
+    fn price(&self) -> u64 {
+        let of_one = |segment: &Segment| if segment.is_straight() { 3 } else { 17 };
+        30 + self.segments.iter().map(of_one).sum::<u64>()
     }
 
     fn reach(&self) -> f64 {

@@ -46,7 +46,11 @@ fn one_sphere_and_one_plane_are_solved_for_just_the_rays_that_may_meet_them() {
     for precision in [Precision::Double, Precision::Single] {
         let options = PlanOptions { precision, ..options(width, height, Antialias::Off) };
         let counters = counted(&world, 1, options);
-        assert_eq!(counters.work, Work { box_visits: 0, root_solves: solves }, "{precision:?}");
+        assert_eq!(
+            counters.work,
+            Work { box_visits: 0, root_solves: solves, solving: solves },
+            "{precision:?}"
+        );
     }
     // A lamp above shadows nothing but the plane below the sphere: a shadow ray tries what it meets.
     let mut lit = world;

@@ -1,0 +1,99 @@
+//! Settings that make the same picture, known before any is timed.
+//!
+//! **In:** what a few pixels say of each setting, and all audited pixels. **Out:** [`Alike`]. **Invariant:**
+//! two settings are alike if at every audited pixel their rays are, one by one, and so the colours to the
+//! last bit; a knob is vain if under none of its settings an audited pixel changes, whatever the rays.
+
+use super::afford::Deadline;
+use super::forecast::{Forecast, Look};
+use super::measure::Clock;
+use super::reference::Studio;
+use super::trial::Candidate;
+use crate::trace::Sampling;
+
+/// Of the time that is left: what looking at one setting may take.
+const FOR_ONE: f64 = 0.25;
+
+/// What need not be timed.
+pub struct Alike {
+    /// Of each candidate the one that it is the same work as.
+    twin: Vec<Option<usize>>,
+    /// Those of knobs that change nothing.
+    vain: Vec<bool>,
+}
+
+impl Alike {
+    /// The candidate that is timed for this one.
+    pub fn timed(&self, candidate: usize) -> usize {
+        self.twin[candidate].unwrap_or(candidate)
+    }
+
+    /// It changes no audited pixel, and is not timed.
+    pub fn is_vain(&self, candidate: usize) -> bool {
+        self.vain[candidate]
+    }
+
+    /// It has a picture of its own.
+    pub fn is_timed(&self, candidate: usize) -> bool {
+        self.twin[candidate].is_none() && !self.vain[candidate]
+    }
+}
+
+/// Looks at the audited pixels under those settings that a few of them do not tell apart. `knobs` are each
+/// knob's candidates from coarse to fine; the first of all is the scene's own, and `is_exact` says that its
+/// picture has no error: what is finer has none either, and is not looked at.
+pub fn alike(
+    studio: &Studio,
+    candidates: &[Candidate],
+    knobs: &[Vec<usize>],
+    forecast: &Forecast,
+    list: &[(u32, u32)],
+    is_exact: bool,
+    (clock, until): (&dyn Clock, f64),
+) -> Alike {
+    let mut alike =
+        Alike { twin: vec![None; candidates.len()], vain: vec![false; candidates.len()] };
+    let look = |candidate: usize| -> Option<Look> {
+        let now = clock.wall();
+        let end = now + FOR_ONE * (until - now).max(0.0);
+        let in_time = Deadline { clock, until: end, watch: studio.watch };
+        let studio = Studio { watch: &in_time, ..*studio };
+        studio.colors(&candidates[candidate].plan, list, Sampling::Planned)
+    };
+    let few = &forecast.looks;
+    let (Some(few_own), Some(own)) = (&few[0], look(0)) else { return alike };
+    for knob in knobs {
+        let mut seen = vec![(0, own.clone())];
+        let mut finer = false;
+        for &candidate in knob {
+            finer |= candidate == 0;
+            let Some(mine) = few[candidate].as_ref().filter(|_| candidate != 0) else { continue };
+            let arithmetic = |of: usize| candidates[of].plan.arithmetic();
+            let same = |&other: &usize| {
+                other != candidate
+                    && few[other].as_ref() == Some(mine)
+                    && arithmetic(other) == arithmetic(candidate)
+            };
+            let may_be_twin = knob.iter().any(same);
+            if is_exact && finer && !may_be_twin {
+                alike.vain[candidate] = true;
+            } else if may_be_twin || mine.0 == few_own.0 {
+                let Some(mine) = look(candidate) else { continue };
+                let is_mine = |(of, look): &&(usize, Look)| same(of) && *look == mine;
+                match seen.iter().find(is_mine) {
+                    Some(&(twin, _)) => alike.twin[candidate] = Some(twin),
+                    None => alike.vain[candidate] = mine.0 == own.0,
+                }
+                seen.push((candidate, mine));
+            }
+        }
+        // Where one setting changes something, each has its price.
+        let changes = |&candidate: &usize| {
+            candidate != 0 && !alike.vain[candidate] && alike.twin[candidate] != Some(0)
+        };
+        if knob.iter().any(changes) {
+            knob.iter().for_each(|&candidate| alike.vain[candidate] = false);
+        }
+    }
+    alike
+}

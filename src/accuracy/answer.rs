@@ -1,0 +1,104 @@
+//! The answer that a report gives: what to use instead of the scene's own settings, if anything.
+
+use super::table::{error, faster, more};
+use super::{Order, Report, Verdict};
+
+/// A line that says what to use, then one for those who want less error, and one for those with less time.
+pub fn of(report: &Report, order: &Order) -> Vec<String> {
+    let flag = |row: usize| report.flag(row).unwrap_or("the scene's own settings").to_owned();
+    let is_alone = report.rows.len() == 1;
+    let left_out = report.knobs.iter().any(|knob| !knob.left_out.is_empty());
+    let (best, first) = match report.rows.first().map(|own| own.verdict) {
+        None => return Vec::new(),
+        Some(_) if is_alone && left_out => (
+            0,
+            "nothing but the scene's own settings was tried: `--budget` is too short".to_owned(),
+        ),
+        Some(_) if is_alone => {
+            (0, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
+        }
+        Some(Verdict::Dominated { by, times, .. }) => {
+            let times = times.map_or_else(|| "as fast".to_owned(), faster);
+            (
+                by,
+                format!(
+                    "use {}: {times} than the scene's own settings, for {}",
+                    flag(by),
+                    instead(report, by, 0)
+                ),
+            )
+        }
+        Some(Verdict::Unproven { over, times }) => (
+            over,
+            format!(
+                "use {}: {} than the scene's own settings, which are not proven to be better ({})",
+                flag(over),
+                faster(times),
+                instead(report, over, 0)
+            ),
+        ),
+        Some(Verdict::Front) => {
+            (0, "keep the scene's own settings: whatever is faster is worse".to_owned())
+        }
+        Some(Verdict::Tied { .. }) => {
+            (0, "keep the scene's own settings: nothing is clearly faster and as good".to_owned())
+        }
+    };
+    let rows: Vec<usize> = (0..report.rows.len()).collect();
+    let sorted = order.from_cheap_to_dear(&rows);
+    let front = || sorted.iter().copied().filter(|&row| report.rows[row].verdict == Verdict::Front);
+    let finer = front().find(|&row| order.is_cheaper(best, row) && order.gains(row, best));
+    let quicker = front().rev().find(|&row| order.is_cheaper(row, best));
+    let mut lines = vec![first];
+    if let Some((row, times)) = finer.and_then(|row| Some((row, order.times(best, row)?))) {
+        let instead = instead(report, row, best);
+        lines.push(format!("for less error {}: {instead}, for {}", flag(row), more(times)));
+    }
+    if let Some((row, times)) = quicker.and_then(|row| Some((row, order.times(row, best)?))) {
+        let instead = instead(report, row, best);
+        lines.push(format!("in less time {}: {}, for {instead}", flag(row), faster(times)));
+    }
+    lines
+}
+
+fn instead(report: &Report, row: usize, of: usize) -> String {
+    format!("an error of {} instead of {}", error(report, row), error(report, of))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::svg::tests::report;
+
+    fn lines(rows: &[(f64, f64, f64)]) -> Vec<String> {
+        let mut report = report(rows, &["knob"], 1e-6);
+        for setting in &mut report.knobs[0].settings {
+            setting.flag = format!("--knob {}", setting.row);
+        }
+        of(&report, &report.order())
+    }
+
+    #[test]
+    fn what_is_better_is_named_and_what_it_costs_to_go_on() {
+        let (own, coarse, fine) = ((4.0, 0.02, 0.0), (1.0, 0.1, 0.0), (9.0, 0.005, 0.0));
+        assert_eq!(
+            lines(&[own, coarse, (2.0, 0.02, 0.0), fine]),
+            [
+                "use --knob 2: 2.0× faster than the scene's own settings, for an error of 0.0200 instead of 0.0200",
+                "for less error --knob 3: an error of 0.00500 instead of 0.0200, for 4.5× the time",
+                "in less time --knob 1: 2.0× faster, for an error of 0.100 instead of 0.0200",
+            ]
+        );
+        let kept = lines(&[own, coarse]);
+        assert_eq!(kept[0], "keep the scene's own settings: whatever is faster is worse");
+        assert_eq!(kept.len(), 2);
+        assert_eq!(
+            lines(&[(4.0, 0.02, 0.019), (2.0, 0.021, 0.0)])[0],
+            "use --knob 1: 2.0× faster than the scene's own settings, which are not proven to be better (an error of 0.0210 instead of 0.0200)"
+        );
+        assert_eq!(
+            lines(&[own]),
+            ["keep the scene's own settings: no knob changes an audited pixel"]
+        );
+    }
+}
