@@ -67,7 +67,13 @@ pub fn alike(
         let mut finer = false;
         for &candidate in knob {
             finer |= candidate == 0;
-            let Some(mine) = few[candidate].as_ref().filter(|_| candidate != 0) else { continue };
+            if candidate == 0 {
+                continue;
+            }
+            let Some(mine) = few[candidate].as_ref() else {
+                alike.vain[candidate] = is_exact && finer;
+                continue;
+            };
             let arithmetic = |of: usize| candidates[of].plan.arithmetic();
             let same = |&other: &usize| {
                 other != candidate

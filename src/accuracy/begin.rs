@@ -119,12 +119,12 @@ fn affordable(
         studio.geometry(&plan);
         // What else the machine does may stand between: then the second look is short enough.
         (0..2).any(|_| {
+            // To begin takes time, too, and that is not multiplied.
+            let before = clock.wall();
+            studio.pixels(&plan, &list[..1], Sampling::Planned);
             let now = clock.wall();
-            let watch = &Deadline {
-                clock,
-                until: now + FOR_FIRST * share * (until - now),
-                watch: studio.watch,
-            };
+            let until = now + (now - before) + FOR_FIRST * share * (until - now);
+            let watch = &Deadline { clock, until, watch: studio.watch };
             let seen = Studio { watch, ..*studio }.pixels(&plan, &list, Sampling::Planned);
             seen.radiance.iter().all(Option::is_some)
         })

@@ -69,8 +69,13 @@ pub fn at_once(
     let samples = match candidate.plan.antialias {
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
-        adaptive @ Antialias::Adaptive { .. } => {
-            look(adaptive, PIXELS.min(few), clock.wall() + half).1.max(1.0)
+        Antialias::Adaptive { threshold, grid } => {
+            // A pixel by itself asks its neighbours, too, which in a picture have been asked.
+            let rays = |threshold| {
+                let adaptive = Antialias::Adaptive { threshold, grid };
+                look(adaptive, PIXELS.min(few), clock.wall() + half).1
+            };
+            1.0 + (rays(threshold) - rays(f64::INFINITY)).max(0.0)
         }
     };
     a_sample * samples * pixels

@@ -157,7 +157,9 @@ fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
     let (plain, short) = (format!("{weight}"), format!("{weight:e}"));
     match format!("{parts}") {
-        few if few.len() < 5 && parts > 1.0 && 1.0 / parts == weight => format!("1/{few}"),
+        few if few.len() < 5 && parts > 1.0 && weight > 0.0 && 1.0 / parts == weight => {
+            format!("1/{few}")
+        }
         _ if short.len() < plain.len() => short,
         _ => plain,
     }

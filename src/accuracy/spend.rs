@@ -11,7 +11,7 @@ use super::easel::Easel;
 use super::measure::Clock;
 use super::promise::Audit;
 use super::reference::{Geometries, Studio};
-use super::refine::{Canvas, Pace, Until, is_finest};
+use super::refine::{Canvas, MOST_SIDE, Pace, Until, is_finest};
 use super::{Options, Quiet};
 use crate::film::Film;
 use crate::plan::{Plan, PlanOptions, plan};
@@ -161,7 +161,7 @@ impl Spending<'_> {
         if is_first {
             let samples =
                 (until - clock.wall()) / canvas.pace().a_sample() / canvas.pixels() as f64;
-            let side = (samples / PILOT).max(0.0).sqrt() as u32;
+            let side = ((samples / PILOT).max(0.0).sqrt() as u32).min(MOST_SIDE);
             if side > 1 && !canvas.pilot(&studio, plan, side, *clock) {
                 return;
             }

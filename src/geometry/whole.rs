@@ -110,7 +110,7 @@ impl Geometry {
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
             Solid::Placed(i) => {
                 let placed = &self.placed[*i as usize];
-                let mut all = placed.crossings(ray);
+                let mut all = placed.crossings_of_part(ray);
                 let inside = match all.first() {
                     Some(first) => first.leaving && !placed.body.is_sheet(),
                     None => placed.body.reach() == f64::INFINITY && placed.contains(ray.origin),

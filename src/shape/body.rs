@@ -302,9 +302,8 @@ impl Seen {
     /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
     /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
     /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.) Both by
-    /// u·‖|L|·|C|‖ more, as the centre C was rounded: faces that two bodies share are one, however far off they
-    /// stand.
-    pub fn new(placement: &Placement, ray: &Ray, tolerance: f64) -> Self {
+    /// `moved` more: how far, in local space, the centre may be from where it was meant.
+    pub fn new(placement: &Placement, ray: &Ray, tolerance: f64, moved: f64) -> Self {
         let matrix = placement.local_from_world;
         let sizes = matrix.abs();
         let from_centre = ray.origin - placement.centre;
@@ -316,9 +315,8 @@ impl Seen {
         let nearest = origin - direction * start;
 
         let reach = (sizes * from_centre.abs()).length();
-        let rounded_centre = U * (sizes * placement.centre.abs()).length();
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
-        let blur = U * 6.0 * reach + turn * start.abs() + rounded_centre;
+        let blur = U * 6.0 * reach + turn * start.abs() + moved;
         let start_error = blur + turn * nearest.length();
         let line = LocalRay { nearest, direction, blur, turn, tolerance };
         Self { line, start, speed, start_error }

@@ -18,10 +18,21 @@ pub struct Placed {
 
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
-    #[inline(never)]
     pub fn crossings(&self, ray: &Ray) -> Crossings {
+        self.crossings_of(ray, 0.0)
+    }
+
+    /// The same of a part of a solid: their errors count that its centre was rounded, so that faces that
+    /// two parts share are one, however far off they stand.
+    pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
+        let Placement { centre, local_from_world, .. } = self.placement;
+        self.crossings_of(ray, U * (local_from_world.abs() * centre.abs()).length())
+    }
+
+    #[inline(never)]
+    fn crossings_of(&self, ray: &Ray, moved: f64) -> Crossings {
         let mut found = Crossings::new();
-        let seen = Seen::new(&self.placement, ray, self.root_tolerance);
+        let seen = Seen::new(&self.placement, ray, self.root_tolerance, moved);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;

@@ -13,9 +13,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("accuracy/statistics.rs", "BAD", "of a colour's full scale"),
     ("accuracy/afford.rs", "MOST_RAYS", "rays of a sample"),
     ("accuracy/promise.rs", "MOST_RAYS", "rays of samples"),
-    ("accuracy/spend.rs", "let better", "seconds: keeps 0/0 from a share of time"),
     ("accuracy/reference.rs", "ROUNDING", "of a colour's full scale"),
-    ("accuracy/refine.rs", "HIDDEN", "of a colour's full scale"),
     ("accuracy/svg/label.rs", "'@' => 1015.0", "the width of a letter"),
     ("accuracy/svg/label.rs", "_ => 1015.0", "the width of a letter"),
     ("accuracy/table.rs", "0.000_1", "how a number is written"),
@@ -30,6 +28,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "squares that are exact; others are scaled first",
     ),
     ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
+    ("shape/algebraic/closed.rs", "MOST_STRETCHED", "a length over a length, squared"),
     ("shape/tree.rs", "STEEPEST", "stands for 1/0"),
     ("evaluate/turn.rs", "1e-9 * step", "relative: of a loop's step"),
     (

@@ -9,7 +9,7 @@ use crate::shape::Body;
 use crate::source::NoFiles;
 
 /// Of size about 1, around the origin.
-const SOLIDS: [&str; 27] = [
+const SOLIDS: [&str; 32] = [
     "sphere { 0, 1",
     "sphere { 0, 1 scale <1, 0.5, 0.7>",
     "box { -1, <0.5, 1, 0.7>",
@@ -37,6 +37,11 @@ const SOLIDS: [&str; 27] = [
     "poly { 4, <1, 0, 0, 0, 2, 0, 0, 2, 0, -1.7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1.2, 0, 0, 0, 0, 1, 0, -1.7, 0, 0.3>",
     "isosurface { function { x*x + y*y*(1 + 0.5*sin(5*z)) + z*z - 0.6 } contained_by { sphere { 0, 1 } } max_gradient 9",
     "parametric { function { cos(u)*(0.8 + 0.2*v) } function { sin(u) } function { v } <0, -0.5>, <5, 0.5> contained_by { box { -1.1, 1.1 } }",
+    "polygon { 5, <-1, -1>, <1, -1>, <0.7, 1>, <-0.4, 0.6>, <-1, -1>",
+    "bicubic_patch { #for (I, 0, 15) <mod(I, 4)/2 - 0.75, mod(I*I, 5)/6, div(I, 4)/2 - 0.75>, #end",
+    "height_field { function 7, 6 { 0.5 + 0.4*sin(9*x)*cos(7*y) } translate -0.5",
+    "text { \"&\" 0.4, 0 translate -0.3",
+    "text { \"o\" 0, 0 translate -0.3",
 ];
 
 fn number(random: &mut Random, size: f64) -> String {

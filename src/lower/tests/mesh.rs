@@ -26,7 +26,7 @@ impl Files for OneFile {
 
 /// The World, and the codes of what was said.
 fn world(text: &str) -> (World, Vec<&'static str>) {
-    let text = format!("camera {{ location -9*z look_at 0 }}\n{text}");
+    let text = format!("camera {{ location -9*z look_at 0 }} light_source {{ 9, rgb 1 }}\n{text}");
     let mut road = Road::new(&OneFile, Options::new(Dialect::Scene));
     let file = road.read("a.scene", text.into_bytes());
     let ast = road.parse(file);

@@ -6,7 +6,7 @@ use lucarne::shape::{BicubicPatch, Body, HeightField, Polygon, Text};
 
 use crate::bodies::{Form, NEAR, pierced};
 use crate::naive::{V32, V64, double, single};
-use crate::sturm::least_root;
+use crate::sturm;
 use crate::subjects::Answer;
 use crate::wide::{Wide, WideVector};
 
@@ -107,7 +107,9 @@ impl Form for Hill {
             |(raised, wider)| {
                 let mut over = over.clone();
                 over[0] = &over[0] - &Wide::of(raised);
-                within(&u, &v, wider).map_or((None, 0), |span| least_root(&over, &span))
+                let all =
+                    within(&u, &v, wider).map_or(Vec::new(), |span| sturm::roots(&over, &span));
+                (all.first().cloned(), all.len())
             },
         );
         let [(t, count), ..] = &meant;
