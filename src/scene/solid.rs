@@ -20,7 +20,7 @@ pub enum Solid {
     /// A Bézier surface of degree 3 both ways.
     BicubicPatch {
         /// Four rows of four.
-        points: [Vector; 16],
+        points: Box<[Vector; 16]>,
     },
     /// A landscape. Stored once, however often it is used.
     HeightField {

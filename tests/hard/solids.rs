@@ -33,6 +33,7 @@ enum Form {
 }
 
 /// Inside: where f ≤ 0, with p seen from the solid's origin.
+#[expect(clippy::large_enum_variant, reason = "a handful in a test")]
 enum Limit {
     /// f = n·p − d.
     Flat { normal: WideVector, distance: Wide },

@@ -127,7 +127,7 @@ impl Evaluator<'_> {
             *place = point.value;
             last = Some(point);
         }
-        let solid = Solid::BicubicPatch { points };
+        let solid = Solid::BicubicPatch { points: Box::new(points) };
         if let Some(last) = last.filter(|_| solid.is_sizeless()) {
             let message = "a patch whose points lie in a line is nothing";
             let diagnostic = Diagnostic::new(self.sizeless(), message)

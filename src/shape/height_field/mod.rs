@@ -92,7 +92,7 @@ impl HeightField {
     /// second the one opposite.
     fn places(&self, part: u32) -> [[usize; 2]; 3] {
         let [i, j] = self.cell(part);
-        match part % 2 == 0 {
+        match part.is_multiple_of(2) {
             true => [[i, j], [i + 1, j], [i, j + 1]],
             false => [[i + 1, j + 1], [i, j + 1], [i + 1, j]],
         }

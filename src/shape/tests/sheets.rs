@@ -137,7 +137,7 @@ fn a_patch_is_met_where_exact_arithmetic_meets_it_and_as_often() {
         };
         let ((a, b), (c, d)) = (chord(start.x, step.x), chord(start.y, step.y));
         let (first, last) = (a.max(c), b.min(d));
-        if !(first < last) || !last.is_finite() || !first.is_finite() {
+        if first >= last || !last.is_finite() || !first.is_finite() {
             continue;
         }
         let height = |t: f64| over_hill(&placed.body, local_at(&placed, &ray, t, 0.0)).0;

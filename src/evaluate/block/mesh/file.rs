@@ -81,6 +81,7 @@ impl Evaluator<'_> {
     }
 
     /// The mesh of a file; what is wrong with it, unless that was told.
+    #[expect(clippy::result_large_err, reason = "an error is told once a file")]
     fn read_mesh(
         &mut self,
         here: &Here,
