@@ -213,13 +213,7 @@ impl Solid {
         };
         let normal = WideVector(std::array::from_fn(slope));
         match &self.own_from_world {
-            Some(map) => map
-                .rows
-                .iter()
-                .zip(&normal.0)
-                .map(|(row, n)| row.times(n))
-                .reduce(|sum, row| sum.plus(&row))
-                .expect("three rows"),
+            Some(map) => map.normal_before(&normal),
             None => normal,
         }
     }

@@ -298,13 +298,7 @@ impl Part<'_> {
     /// By the inverse transpose.
     fn world_normal(&self, normal: WideVector) -> WideVector {
         match &self.solid_from_world {
-            Some(map) => map
-                .rows
-                .iter()
-                .zip(&normal.0)
-                .map(|(row, n)| row.times(n))
-                .reduce(|sum, row| sum.plus(&row))
-                .expect("three rows"),
+            Some(map) => map.normal_before(&normal),
             None => normal,
         }
     }

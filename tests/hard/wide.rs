@@ -190,6 +190,12 @@ impl WideMap {
         Self { rows, offset: WideVector::of([0.0; 3]) }
     }
 
+    /// The normal, of any length, of what this map makes a surface with `normal` of: by its transpose.
+    pub fn normal_before(&self, normal: &WideVector) -> WideVector {
+        let [x, y, z] = [0, 1, 2].map(|i| self.rows[i].times(&normal.0[i]));
+        x.plus(&y).plus(&z)
+    }
+
     pub fn direction(&self, d: &WideVector) -> WideVector {
         WideVector(self.rows.each_ref().map(|row| row.dot(d)))
     }
