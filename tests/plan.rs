@@ -210,7 +210,8 @@ fn counted(sent: f64, rays: &Value) -> String {
     {
         digits.insert(place, ',');
     }
-    format!("{:.2} a pixel, about {digits}", sent * number(&rays["camera_per_pixel"]))
+    let each = lucarne::plan::print::a_pixel(sent * number(&rays["camera_per_pixel"]));
+    if sent == 0.0 { each } else { format!("{each}, about {digits}") }
 }
 
 #[test]

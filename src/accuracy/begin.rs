@@ -8,9 +8,9 @@ use super::afford::{Deadline, LEAST};
 use super::audit;
 use super::easel::Easel;
 use super::knob::Knob;
-use super::measure::{Clock, Timer};
+use super::measure::Clock;
 use super::reference::Studio;
-use super::refine::{Spread, place};
+use super::refine::{MOST_IN_PART, Spread, place};
 use crate::plan::{Antialias, Plan, PlanOptions, plan};
 use crate::trace::{Sampling, Traced};
 use crate::world::Origins;
@@ -20,6 +20,8 @@ use crate::world::Origins;
 const FOR_FIRST: f64 = 0.75;
 /// Of the pixels one of so many is looked at to predict it: they take a hundredth of the time.
 const ONE_OF: u32 = 100;
+/// Of what is allowed: a look that took less is believed at once.
+const SURELY: f64 = 0.5;
 /// Of the time for the first pass: what is kept for the cheapest settings, if others take too long after
 /// all. Those are many times as fast.
 const FOR_REST: f64 = 0.1;
@@ -54,13 +56,17 @@ pub fn begin(
     let settings = affordable(&in_all, origins, easel, seed, (least, own), (clock, until));
     let kept = if settings == least { 0.0 } else { FOR_REST };
     let most = in_time(until - kept * (until - clock.wall()));
-    let timer = Timer::new(clock, &most);
-    let mut traced = studio.picture(&plan(studio.world, origins, &settings), &timer);
-    let mut rest = 0;
-    if !traced.complete && settings != least {
-        rest = complete(&in_all, &plan(studio.world, origins, &least), &mut traced);
+    let began = (clock.cpu(), clock.wall());
+    let gamma = studio.world.settings.assumed_gamma;
+    let mut traced = Traced::unbegun(own.frame, gamma);
+    let plan = |settings| plan(studio.world, origins, settings);
+    let mut rest = complete(&Studio { watch: &most, ..*studio }, &plan(&settings), &mut traced);
+    let took = (clock.cpu() - began.0, clock.wall() - began.1);
+    if rest > 0 && settings != least {
+        let left = complete(&in_all, &plan(&least), &mut traced);
+        rest -= left;
     }
-    Begun { traced, settings, least, is_less: settings != own, rest, took: timer.read() }
+    Begun { traced, settings, least, is_less: settings != own, rest, took }
 }
 
 /// Each knob at its cheapest, where the scene's `own` settings are dearer.
@@ -81,22 +87,29 @@ fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
     easel.knobs.iter().copied().filter(|knob| knob.name != "antialias")
 }
 
-/// Traces the pixels that were left undone; returns how many there are.
+/// Traces the pixels that are undone, spread over the whole picture, and returns how many still are: where
+/// it is stopped, what is missing is nowhere a large part of it.
 fn complete(studio: &Studio, plan: &Plan, traced: &mut Traced) -> usize {
     let film = &mut traced.film;
-    let pixels = Spread::new(film.samples.len()).part(0, 1);
-    let undone: Vec<usize> = pixels.filter(|&i| film.samples[i] == 0).collect();
-    let places: Vec<_> = undone.iter().map(|&i| place(film.frame.region, i)).collect();
-    let seen = studio.pixels(plan, &places, Sampling::Planned);
-    traced.counters += seen.counters;
-    traced.complete = true;
-    for (&i, radiance) in undone.iter().zip(seen.radiance) {
-        match radiance {
-            Some(radiance) => (film.radiance[i], film.samples[i]) = (radiance, 1),
-            None => traced.complete = false,
+    let parts = film.samples.len().div_ceil(MOST_IN_PART).max(1);
+    for part in 0..parts {
+        let pixels = Spread::new(film.samples.len()).part(part, parts);
+        let undone: Vec<usize> = pixels.filter(|&i| film.samples[i] == 0).collect();
+        let places: Vec<_> = undone.iter().map(|&i| place(film.frame.region, i)).collect();
+        let seen = studio.pixels(plan, &places, Sampling::Planned);
+        traced.counters += seen.counters;
+        for (&i, radiance) in undone.iter().zip(seen.radiance) {
+            if let Some(radiance) = radiance {
+                (film.radiance[i], film.samples[i]) = (radiance, 1);
+            }
+        }
+        if studio.watch.should_stop() {
+            break;
         }
     }
-    undone.len()
+    let left = film.samples.iter().filter(|&&samples| samples == 0).count();
+    traced.complete = left == 0;
+    left
 }
 
 /// The settings of the first pass: the scene's `own`; where a few pixels say that those will not fit, each
@@ -117,17 +130,23 @@ fn affordable(
     let fits = |options: &PlanOptions| {
         let plan = plan(studio.world, origins, options);
         studio.geometry(&plan);
-        // What else the machine does may stand between: then the second look is short enough.
-        (0..2).any(|_| {
+        // What else the machine does may stand between: then the second look is shorter, and the mean of
+        // both tells. Twice what is allowed is too long whatever the second says.
+        let look = || {
             // To begin takes time, too, and that is not multiplied.
             let before = clock.wall();
             studio.pixels(&plan, &list[..1], Sampling::Planned);
             let now = clock.wall();
-            let until = now + (now - before) + FOR_FIRST * share * (until - now);
-            let watch = &Deadline { clock, until, watch: studio.watch };
+            let allowed = (now - before) + FOR_FIRST * share * (until - now);
+            let watch = &Deadline { clock, until: now + 2.0 * allowed, watch: studio.watch };
             let seen = Studio { watch, ..*studio }.pixels(&plan, &list, Sampling::Planned);
-            seen.radiance.iter().all(Option::is_some)
-        })
+            match seen.radiance.iter().all(Option::is_some) {
+                true => (clock.wall() - now) / allowed,
+                false => f64::INFINITY,
+            }
+        };
+        let first = look();
+        first <= SURELY || (first.is_finite() && first + look() <= 2.0)
     };
     if least == own || fits(&own) {
         return own;

@@ -2,9 +2,10 @@
 //!
 //! **Invariant:** one setting is cheaper than another when its counted cost is less and, in the seconds,
 //! its middle run is shorter than the other's shortest (of a row with too few runs, by more than those of
-//! others lie apart). So no verdict goes against a column that the
+//! others lie apart); or when it is shorter by more than counted costs are off. So no verdict goes against a column that the
 //! reader sees, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
-//! order and a product order over shared resamples are transitive, and so are they together. What is
+//! order and a product order over shared resamples are transitive, and so are they together; and what is
+//! shorter by much than what is not longer is shorter by much. What is
 //! not proven is never taken for equal: equal is only what was the same work, or the same error to the
 //! last bit.
 
@@ -14,6 +15,9 @@ use crate::trace::Counters;
 
 /// Less than this is no reason to pay more.
 const WORTH: f64 = 1.01;
+/// Of two settings, how much longer the dearer takes where counted costs may be wrong and the clock is not:
+/// those are off by up to 9 % within a scene.
+const SURELY: f64 = 1.15;
 
 /// A setting as the order sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,15 +54,15 @@ impl Point {
 }
 
 impl Point {
-    /// By the clock: what is surely longer than the other takes less than this.
-    fn is_quicker(&self, than: &Self) -> bool {
+    /// By the clock, so many times: what is surely longer than the other takes less than this.
+    fn is_quicker(&self, than: &Self, times: f64) -> bool {
         // A clock too coarse to see a run says nothing of it.
-        let surely = (1.0 + self.doubt) * (1.0 + than.doubt);
+        let surely = (1.0 + self.doubt) * (1.0 + than.doubt) * times;
         0.0 < self.cpu.min && surely * self.cpu.median < than.cpu.min
     }
 }
 
-/// What is to be said of a setting; how many times as long as another it takes is of the shortest runs.
+/// What is to be said of a setting; how many times as long as another it takes is of the middle runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
     /// Every cheaper setting is proven to be worse.
@@ -66,7 +70,7 @@ pub enum Verdict {
     /// Another is no dearer and no worse, and one of both it is better: this one takes `times` as
     /// long (nothing where both are the same work), and that one has `error` times the error.
     Dominated { by: usize, times: Option<f64>, error: f64 },
-    /// A cheaper one is not proven to be worse.
+    /// A cheaper one, or one that is quicker by the clock alone and better, is not proven to be worse.
     Unproven { over: usize, times: f64 },
     /// Neither in cost nor in error can it be told from this one.
     Tied { with: usize },
@@ -103,19 +107,24 @@ impl Order {
         a.work == b.work && a.cost == b.cost && a.cpu == b.cpu && a.doubt == b.doubt
     }
 
-    /// By what was counted, and by the clock.
+    /// By what was counted, and by the clock; or by the clock beyond doubt.
     pub fn is_cheaper(&self, a: usize, b: usize) -> bool {
-        self.points[a].cost < self.points[b].cost && self.is_quicker(a, b)
+        let (a, b) = (&self.points[a], &self.points[b]);
+        a.cost < b.cost && a.is_quicker(b, 1.0) || a.is_quicker(b, SURELY)
     }
 
     /// By the clock alone.
     pub fn is_quicker(&self, a: usize, b: usize) -> bool {
-        self.points[a].is_quicker(&self.points[b])
+        self.points[a].is_quicker(&self.points[b], 1.0)
     }
 
     /// How many times as long as `a`, if it is dearer, `b` takes.
     pub fn times(&self, a: usize, b: usize) -> Option<f64> {
-        self.is_cheaper(a, b).then(|| self.points[b].cpu.min / self.points[a].cpu.min)
+        self.is_cheaper(a, b).then(|| self.longer(a, b))
+    }
+
+    fn longer(&self, a: usize, b: usize) -> f64 {
+        self.points[b].cpu.median / self.points[a].cpu.median
     }
 
     /// Of each error the most that the one's can be, against the least that the other's can be.
@@ -178,11 +187,11 @@ impl Order {
             return Verdict::Dominated { by, times: self.times(by, i), error };
         }
         let mut rivals = sorted.iter().filter(|&&other| other != i && !self.gains(i, other));
-        let cheaper = |&&other: &&usize| self.is_cheaper(other, i);
-        if let Some(&over) = rivals.clone().filter(cheaper).find(undominated)
-            && let Some(times) = self.times(over, i)
-        {
-            return Verdict::Unproven { over, times };
+        let cheaper = |&&other: &&usize| {
+            self.is_cheaper(other, i) || self.is_quicker(other, i) && self.gains(other, i)
+        };
+        if let Some(&over) = rivals.clone().filter(cheaper).find(undominated) {
+            return Verdict::Unproven { over, times: self.longer(over, i) };
         }
         let as_good = |&&other: &&usize| {
             !self.is_cheaper(i, other)

@@ -143,7 +143,10 @@ pub const KNOBS: &[Knob] = &[
             0.0 => "all digits".to_owned(),
             tolerance => format!("{tolerance:e}"),
         },
-        flag: |tolerance| format!("--root-tolerance {tolerance:e}"),
+        flag: |tolerance| match tolerance {
+            0.0 => "--root-tolerance 0".to_owned(),
+            tolerance => format!("--root-tolerance {tolerance:e}"),
+        },
     },
 ];
 

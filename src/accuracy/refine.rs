@@ -32,7 +32,7 @@ const RUN: usize = 16;
 /// Parts that a pass is cut into, each as fine as there is time for after those before; more where they
 /// would have more pixels than are listed in a few milliseconds.
 const PARTS: usize = 8;
-const MOST_IN_PART: usize = 1 << 16;
+pub const MOST_IN_PART: usize = 1 << 16;
 /// Pixels that tell what a pass will cost.
 const PRICED: usize = 1 << 14;
 /// Fineness rises by this from one level to the next, from less than a sample for sixteen pixels to where

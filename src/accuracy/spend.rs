@@ -14,7 +14,7 @@ use super::reference::{Geometries, Studio};
 use super::refine::{Canvas, MOST_SIDE, Pace, Until, is_finest};
 use super::{Options, Quiet};
 use crate::film::Film;
-use crate::plan::{Plan, PlanOptions, plan};
+use crate::plan::{Effect, Plan, PlanOptions, plan};
 use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
 
@@ -138,6 +138,11 @@ impl Spending<'_> {
         let for_audit = (FOR_AUDIT * self.all).min(self.until - now);
         let for_samples = self.until - for_audit - now;
         self.sample(now + BEFORE_AUDIT * for_samples, self.until - for_audit, true);
+        // Where there is nothing else to be bought, all of the time is for the error.
+        let for_audit = match is_finest(&self.canvas.film) {
+            true => self.until - self.clock.wall(),
+            false => for_audit,
+        };
         let truth = self.truth(for_audit);
         // At the end it takes as long to find the error as it does now.
         let metric = self.options.metric;
@@ -191,12 +196,16 @@ impl Spending<'_> {
         let deepest = self.depths.most();
         let all = self.depths.plan(studio, deepest);
         let own = plan(studio.world, self.depths.origins, &self.own);
-        let looks: [(Plan, &dyn Fn(usize) -> f64); 2] = [(all, &all_the_way), (own, &enough)];
+        // Where no ray goes on from what it meets, one look is as deep as another.
+        let looks: &[(Plan, &dyn Fn(usize) -> f64)] = match goes_on(&own) {
+            true => &[(all, &all_the_way), (own, &enough)],
+            false => &[(all, &enough)],
+        };
         let mut found = None;
         for (plan, until) in looks {
             let mut urn = Urn::new(canvas, &worth, options.seed);
             let asked = (options.metric, options.seed);
-            let truth = Truth::find(studio, &plan, &mut urn, asked, (*clock, until));
+            let truth = Truth::find(studio, plan, &mut urn, asked, (*clock, until));
             if truth.pixels() >= LEAST {
                 let depth = plan.max_trace_level;
                 found = Some((truth, (depth < deepest).then_some(depth)));
@@ -207,4 +216,9 @@ impl Spending<'_> {
         canvas.counters += truth.counters;
         Some((truth, depth))
     }
+}
+
+/// Surfaces send rays on: what is seen depends on how deep one looks.
+fn goes_on(plan: &Plan) -> bool {
+    plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency)
 }

@@ -3,6 +3,8 @@
 //! **In:** deviations of single pixels from a reference. **Out:** [`Estimate`]s. **Invariant:** the
 //! same on every run: what is drawn at random is drawn from a fixed seed.
 
+use std::iter;
+
 use crate::math::elementary::erf;
 use crate::math::random::Random;
 
@@ -12,6 +14,10 @@ pub const BAD: f64 = 2.0 / 255.0;
 const Z: f64 = 1.959_963_984_540_054;
 /// How many resamples an interval is read from.
 const RESAMPLES: usize = 1000;
+/// Of fewer pixels than this, three more as bad as the worst may be unseen (the rule of three); of more, one.
+///
+/// **Source:** J. Hanley, A. Lippman-Hand, "If nothing goes wrong, is everything all right?", JAMA 249, 1983.
+const FEW: usize = 100;
 /// Of the resamples. All rows share them, so that their differences are those of pairs.
 const SEED: u64 = 0x6c75_6361_726e_6521;
 
@@ -73,7 +79,6 @@ impl Metric {
             }
             Self::P99 => largest,
             Self::Bad => {
-                let bad = |off: [f64; 3]| f64::from(u8::from(off.iter().any(|c| c.abs() > BAD)));
                 let half =
                     |sign: f64| bad(std::array::from_fn(|i| pixel.off[i] + sign * pixel.noise[i]));
                 2.0 * bad(pixel.off) - (half(1.0) + half(-1.0)) / 2.0
@@ -138,13 +143,21 @@ impl Metric {
         let (low, high) = match self {
             Self::Rmse => {
                 let (low, _) = self.corrected(&parts);
-                // The next pixel may be as bad as the worst so far.
-                parts.extend(parts.iter().copied().max_by(f64::total_cmp));
+                // The next pixel may be as bad as the worst so far; where few are known, so may the next
+                // three: of what n draws did not show there may be 3/n.
+                let worst = parts.iter().copied().max_by(f64::total_cmp);
+                let unseen = if parts.len() < FEW { 3 } else { 1 };
+                parts.extend(worst.into_iter().flat_map(|worst| iter::repeat_n(worst, unseen)));
                 (low, self.corrected(&parts).1)
             }
             Self::Bad => {
-                let count = worth(&parts);
-                wilson(value * count, count)
+                let hits: Vec<f64> = pixels.iter().map(|pixel| bad(pixel.off)).collect();
+                let noise: Vec<f64> = parts.iter().zip(&hits).map(|(all, hit)| all - hit).collect();
+                let count = hits.len().max(1) as f64;
+                let share = hits.iter().sum::<f64>() / count;
+                let draws = worth(&hits);
+                let off = wilson(share * draws, draws);
+                with_noise(value, share, off, successive(&noise).sqrt() / count)
             }
             Self::P99 => {
                 let beyond: Vec<f64> =
@@ -208,10 +221,14 @@ pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estim
     match metric {
         Metric::Rmse => (metric.estimate(&scaled), metric.floor(&scaled)),
         Metric::Bad => {
-            let hits = parts(&|pixel| metric.part(pixel));
-            let value = (hits.iter().sum::<f64>() / count).clamp(0.0, 1.0);
+            let hits = parts(&|pixel| bad(pixel.off));
+            let of_noise = parts(&|pixel| metric.part(pixel) - bad(pixel.off));
+            let [share, added] = [&hits, &of_noise].map(|parts| parts.iter().sum::<f64>() / count);
+            let value = (share + added).clamp(0.0, 1.0);
             let draws = equal_draws(&hits, weights);
-            let (low, high) = wilson(value * draws, draws);
+            let off = wilson(share.min(1.0) * draws, draws);
+            let spread: f64 = of_noise.iter().map(|part| (part - added) * (part - added)).sum();
+            let (low, high) = with_noise(value, share.min(1.0), off, spread.sqrt() / count);
             let floor = parts(&|pixel| metric.part(&noise(pixel))).iter().sum::<f64>() / count;
             (Estimate { value, low: low.min(value), high: high.max(value) }, floor)
         }
@@ -267,9 +284,27 @@ fn worth(hits: &[f64]) -> f64 {
     let count = hits.len() as f64;
     let share = hits.iter().sum::<f64>() / count.max(1.0);
     let anywhere = count * share * (1.0 - share);
-    let here =
-        hits.windows(2).map(|pair| (pair[0] - pair[1]) * (pair[0] - pair[1])).sum::<f64>() / 2.0;
-    count * (anywhere.max(0.0) + 1.0) / (here + 1.0)
+    count * (anywhere.max(0.0) + 1.0) / (successive(hits) + 1.0)
+}
+
+/// The sum of the parts' square distances from their mean, as neighbours tell it.
+fn successive(parts: &[f64]) -> f64 {
+    parts.windows(2).map(|pair| (pair[0] - pair[1]) * (pair[0] - pair[1])).sum::<f64>() / 2.0
+}
+
+/// 1 where a component is off by more than [`BAD`], else 0.
+fn bad(off: [f64; 3]) -> f64 {
+    f64::from(u8::from(off.iter().any(|c| c.abs() > BAD)))
+}
+
+/// The interval about `value`, a `share` whose own is known and what the reference's noise added to it,
+/// which is known to a standard error: the squares of the distances to both ends add up.
+///
+/// **Source:** G. Zou, A. Donner, "Construction of confidence limits about effect measures", Statistics in
+/// Medicine 27, 2008.
+fn with_noise(value: f64, share: f64, (low, high): (f64, f64), noise: f64) -> (f64, f64) {
+    let half = |end: f64| ((end - share) * (end - share) + Z * Z * noise * noise).sqrt();
+    ((value - half(low)).max(0.0), (value + half(high)).min(1.0))
 }
 
 /// What lies between the 2½th and the 97½th hundredth.
@@ -388,6 +423,33 @@ mod tests {
             .collect();
         assert!((Metric::Rmse.of(&pixels) - 0.1).abs() < 0.01);
         assert!((Metric::Rmse.floor(&pixels) - 0.3 / 6f64.sqrt()).abs() < 0.003);
+    }
+
+    #[test]
+    fn a_share_near_nothing_is_told_as_closely_as_its_pixels_allow_whatever_the_noise() {
+        // Nothing is bad; a reference whose halves are off by up to 0.011 says so of some.
+        let mut random = Random(4);
+        let mut holds = 0;
+        for truth in [0.0, 0.004].into_iter().cycle().take(200) {
+            let pixels: Vec<_> = (0..3000)
+                .map(|_| {
+                    let off = if random.number(0.0, 1.0) < truth { 0.5 } else { 0.0 };
+                    let mut half = || off + random.number(-0.011, 0.011);
+                    let (a, b) = (half(), half());
+                    Deviation { off: [(a + b) / 2.0; 3], noise: [(a - b) / 2.0; 3] }
+                })
+                .collect();
+            assert!(Metric::Bad.floor(&pixels) > 0.02);
+            let weighted = weighted(Metric::Bad, &pixels, &[1.0; 3000]).0;
+            for Estimate { low, high, .. } in [Metric::Bad.estimate(&pixels), weighted] {
+                assert!(high - low < 0.03, "{low} {high}");
+                holds += u32::from(low <= truth && truth <= high);
+            }
+        }
+        assert!(holds >= 360, "{holds}");
+        // Without noise it is Wilson's.
+        let none = Metric::Bad.estimate(&[gray(0.0); 432]);
+        assert!(none.low == 0.0 && none.high < 0.0089, "{none:?}");
     }
 
     #[test]

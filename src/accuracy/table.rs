@@ -94,7 +94,8 @@ fn heads(report: &Report, file: &str, threads: usize, width: Width) -> Vec<Strin
             format!(
                 "seconds of {runs}, {threads_told}; cost is the work counted, in rays of the camera; * is the scene's own, or `render`'s"
             ),
-            "faster is less cost counted, and a middle run below the other's shortest".to_owned(),
+            "faster is a middle run below the other's shortest, and less cost counted or 15 % less time"
+                .to_owned(),
         ]),
     }
     let share = report.share_of_time(threads);
@@ -173,16 +174,19 @@ fn wrapped(line: &str) -> String {
     if line.chars().count() <= COLUMNS {
         return format!("{line}\n");
     }
-    let (mut out, mut length) = (String::new(), 0);
-    for word in line.split(' ') {
+    let words = line.trim_start();
+    let blanks = line.len() - words.len();
+    let (mut out, mut length) = (" ".repeat(blanks), blanks);
+    for (number, word) in words.split(' ').enumerate() {
         let long = word.chars().count();
-        if length > 0 && length + 1 + long > COLUMNS {
-            out.push_str("\n   ");
-            length = 3;
-        }
-        if length > 0 {
-            out.push(' ');
-            length += 1;
+        if number > 0 {
+            let is_full = length + 1 + long > COLUMNS;
+            out.push_str(&if is_full {
+                format!("\n{:1$}", "", blanks + 4)
+            } else {
+                " ".to_owned()
+            });
+            length = if is_full { blanks + 4 } else { length + 1 };
         }
         out.push_str(word);
         length += long;
@@ -357,6 +361,16 @@ mod tests {
         assert_eq!(rmse(1.234e-7), "1.2e-7");
         assert_eq!(rmse(0.0), "0");
         assert_eq!(amount(Metric::Bad, 0.161), "16.10 %");
+    }
+
+    #[test]
+    fn a_long_line_is_broken_between_words_and_stays_set_in() {
+        let long = format!("  {}", "setting, ".repeat(30).trim_end());
+        let lines: Vec<String> = wrapped(&long).lines().map(str::to_owned).collect();
+        assert!(lines.len() > 2 && lines.iter().all(|line| line.chars().count() <= COLUMNS));
+        assert!(lines[0].starts_with("  setting,") && lines[1].starts_with("      setting,"));
+        assert_eq!(lines.iter().flat_map(|line| line.split_whitespace()).count(), 30);
+        assert_eq!(wrapped("  short  of blanks"), "  short  of blanks\n");
     }
 
     #[test]

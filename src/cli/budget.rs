@@ -23,6 +23,12 @@ const PLANNED: f64 = 0.975;
 const ON_TRIAL: u32 = 16;
 const BANDS: u32 = 8;
 const SLOWER: f64 = 1.3;
+/// A trial of writing takes at least so many seconds, or is made so many times: a shorter one does not tell how
+/// much of a processor it gets.
+const TRIAL: f64 = 0.01;
+const TRIALS: u32 = 8;
+/// Of the time there is, what is left for finding out the error whatever writing takes.
+const FOR_ERROR: f64 = 0.02;
 /// Seconds to stop and to end in, where each thread has a processor.
 const TO_END: f64 = 0.01;
 /// Where reading took all the time there was: what a first pass may take beyond, of what reading took.
@@ -40,22 +46,27 @@ pub(super) fn spend(
     let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
     // When the scene was read and the tree of boxes stood, and how long the picture takes to write.
     let (read, to_end) = (Cell::new(0.0), Cell::new(0.0));
-    let end = |write: f64, busy: f64| {
-        to_end.set((write + TO_END) * busy.max(1.0));
+    let end = |Writing { seconds: write, busy }: Writing, busy_by_now: f64| {
+        let busy = busy.max(busy_by_now);
+        to_end.set(write + TO_END * busy);
         PLANNED * seconds - to_end.get()
     };
     let until = |first: Option<First>| match first {
         None => {
-            // Reading had one thread: how much of a processor it was given tells how busy the machine is.
-            let (wall, cpu) = (clock.wall(), clock.cpu());
+            let wall = clock.wall();
             read.set(wall);
-            let write = to_write(&unknown(options, world), written, clock);
-            let end = end(write, wall / cpu.max(f64::MIN_POSITIVE));
-            if is_late(wall, seconds) { end.max(wall * (1.0 + LATE)) } else { end }
+            let end = end(writing(&unknown(options, world), written, clock), 1.0);
+            if is_late(wall, seconds) {
+                return end.max(wall * (1.0 + LATE));
+            }
+            // However long writing may take, half of the time is for a picture.
+            end.max(wall + 0.5 * (PLANNED * seconds - wall))
         }
         Some(First { film, processors }) => {
             let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
-            end(to_write(film, written, clock), busy)
+            let end = end(writing(film, written, clock), busy);
+            // A picture whose error is not known is worth less than one that is a little late.
+            end.max(clock.wall() + FOR_ERROR * seconds)
         }
     };
     let spent = accuracy::spend(world, origins, options, &until, clock, progress);
@@ -137,7 +148,7 @@ impl About {
             0 => String::new(),
             _ => {
                 let all = read + (now - read) * samples.len() as f64 / done as f64 + to_end;
-                format!("; about {:.1} s would be enough", 1.1 * all)
+                format!("; about {:.1} s would be enough", 1.1 * all.max(now + to_end))
             }
         };
         format!(
@@ -159,9 +170,15 @@ impl About {
     }
 }
 
-/// About how many seconds of one processor it takes to write a picture: measured on some of its rows,
-/// from top to bottom.
-fn to_write(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> f64 {
+/// How long a picture takes to write.
+struct Writing {
+    seconds: f64,
+    /// How many times as long as it would on an idle machine.
+    busy: f64,
+}
+
+/// About how long it takes to write a picture: measured on some of its rows, from top to bottom.
+fn writing(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> Writing {
     let Region { width, height, .. } = film.frame.region;
     let row = width as usize;
     let high = (height / (BANDS * ON_TRIAL)).max(1);
@@ -179,10 +196,16 @@ fn to_write(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) ->
         }
     }
     some.samples = vec![1; some.radiance.len()];
-    let began = clock.cpu();
-    // What cannot be written is told when it is.
-    drop(encode(&develop(&some, depth), format));
-    SLOWER * (clock.cpu() - began) / part
+    let began = (clock.cpu(), clock.wall());
+    let (mut trials, mut took) = (0, (0.0, 0.0));
+    while trials < TRIALS && took.1 < TRIAL {
+        // What cannot be written is told when it is.
+        drop(encode(&develop(&some, depth), format));
+        trials += 1;
+        took = (clock.cpu() - began.0, clock.wall() - began.1);
+    }
+    let busy = if took.0 > 0.0 { (took.1 / took.0).max(1.0) } else { 1.0 };
+    Writing { seconds: SLOWER * took.1 / f64::from(trials.max(1)) / part, busy }
 }
 
 /// A film of which nothing is known yet.

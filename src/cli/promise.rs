@@ -141,13 +141,17 @@ fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
             "trying settings of {knob} on them, cheap ones first; all of them would take about {}",
             duration(*seconds)
         )),
-        Step::Unreachable { error, pixels, .. } if error.value <= promise => Some(format!(
-            "{pixels} pixels cannot prove {}: of the finest settings they say {} [{}, {}]; rendering those",
-            amount(promise),
-            amount(error.value),
-            amount(error.low),
-            amount(error.high)
-        )),
+        Step::Unreachable { error, resolution, pixels }
+            if error.value.max(*resolution) <= promise =>
+        {
+            Some(format!(
+                "{pixels} pixels cannot prove {}: of the finest settings they say {} [{}, {}]; rendering those",
+                amount(promise),
+                amount(error.value),
+                amount(error.low),
+                amount(error.high)
+            ))
+        }
         Step::Unreachable { error, resolution, .. } => {
             let best = match error.value < *resolution {
                 true => format!("below {}", amount(resolution.max(error.high))),

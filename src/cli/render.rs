@@ -75,8 +75,10 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
 
     let cannot = |why| Failure::file(format!("cannot write `{}`: {why}", output.name()));
     let bytes = encode(&develop(&traced.film, depth), format).map_err(cannot)?;
+    let done = traced.film.samples.iter().filter(|samples| **samples > 0).count();
     let written = match traced.complete {
         true => Some(output.clone()),
+        false if done == 0 && exit == Exit::Interrupted => None,
         // What was interrupted is not wanted; what ran out of time is.
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
@@ -92,9 +94,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     if !traced.complete && exit == Exit::Interrupted {
         messages::eprint(&match written {
             Some(place) => {
-                let samples = &traced.film.samples;
-                let done = samples.iter().filter(|samples| **samples > 0).count();
-                let what = match 100 * done / samples.len().max(1) {
+                let what = match 100 * done / traced.film.samples.len().max(1) {
                     100 => "one ray of each pixel, and a part of the smooth edges, are".to_owned(),
                     share => format!("the {share} % that are done are"),
                 };

@@ -210,10 +210,13 @@ impl Printer<'_> {
     /// Rays a camera ray, as rays a pixel and of the whole picture.
     fn counted(&self, rays: f64) -> String {
         let each = rays * self.plan.camera_rays_a_pixel();
+        if each == 0.0 {
+            return a_pixel(each);
+        }
         // A pilot that had to look less deep counts some of them only.
         let is_short = self.plan.pilot.is_some_and(|pilot| pilot.depth.is_some());
         let (least, about) = if is_short { ("at least ", "") } else { ("", "about ") };
-        format!("{least}{each:.2} a pixel, {about}{}", round(rays * self.plan.camera_rays()))
+        format!("{least}{}, {about}{}", a_pixel(each), round(rays * self.plan.camera_rays()))
     }
 
     /// The first places, and how many more.
@@ -238,6 +241,15 @@ impl Printer<'_> {
             Some((cut, _)) => format!("`{}…`", text[..cut].trim_end()),
             None => format!("`{text}`"),
         }
+    }
+}
+
+/// So many rays of a pixel: few are not none.
+pub fn a_pixel(rays: f64) -> String {
+    match rays {
+        0.0 => "none seen by the pilot".to_owned(),
+        ..0.005 => "below 0.01 a pixel".to_owned(),
+        rays => format!("{rays:.2} a pixel"),
     }
 }
 

@@ -189,6 +189,28 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
         "sphere { 0, 1 finish { phong # } }",
         "sphere { 0, 1 matrix <#,0,0, 0,1,0, 0,0,1, 0,0,0> }",
         "$declare A = #; sphere { 0, 1 + 0*A }",
+        "sphere { 0, 1 } camera { location #*x }",
+        "sphere { 0, 1 } camera { location -5*z look_at #*y }",
+        "sphere { 0, 1 } camera { location -5*z angle # }",
+        "sphere { 0, 1 } light_source { #*y, rgb 1 }",
+        "sphere { 0, 1 } light_source { 9*y, rgb # }",
+        "sphere { 0, 1 } light_source { 9*y, rgb 1 spotlight radius # falloff 30 }",
+        "sphere { 0, 1 interior { ior # } pigment { rgbf 1 } }",
+        "sphere { 0, 1 finish { reflection # } }",
+        "sphere { 0, 1 pigment { checker rgb 0, rgb 1 scale # } }",
+        "cylinder { 0, #*y, 1 }",
+        "cone { 0, 1, y, # }",
+        "torus { 1, # }",
+        "disc { 0, y, # }",
+        "triangle { 0, x, #*y }",
+        "quadric { <1, 1, 1>, <0, #, 0>, <0, 0, 0>, -1 }",
+        "superellipsoid { <1, #> }",
+        "blob { threshold 0.5 sphere { 0, #, 1 } }",
+        "lathe { linear_spline 3, <0, 0>, <1, #>, <0, 2> }",
+        "prism { 0, #, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0> }",
+        "isosurface { function { x + # } }",
+        "polygon { 4, <0, 0>, <1, 0>, <0, #>, <0, 0> }",
+        "mesh { triangle { 0, x, #*y } triangle { 0, x, z } }",
     ];
     for number in numbers {
         for place in places {
@@ -197,6 +219,7 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
             assert!(told || world.objects.len() == 2, "{number} in {place}: {lines:?}");
             let finite = world.spheres.iter().all(|s| s.radius.is_finite() && s.centre.is_finite());
             assert!(finite, "{number} in {place}");
+            assert!(told || !format!("{world:?}").contains("NaN"), "{number} in {place}");
         }
     }
 }
