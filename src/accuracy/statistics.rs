@@ -157,7 +157,9 @@ impl Metric {
                 let share = hits.iter().sum::<f64>() / count;
                 let draws = worth(&hits);
                 let off = wilson(share * draws, draws);
-                with_noise(value, share, off, successive(&noise).sqrt() / count)
+                // Noise shows where pixels are nearly bad: it adds more to their spread than its own.
+                let added = (successive(&parts) - successive(&hits)).max(successive(&noise));
+                with_noise(value, share, off, added.sqrt() / count)
             }
             Self::P99 => {
                 let beyond: Vec<f64> =
@@ -227,8 +229,12 @@ pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estim
             let value = (share + added).clamp(0.0, 1.0);
             let draws = equal_draws(&hits, weights);
             let off = wilson(share.min(1.0) * draws, draws);
-            let spread: f64 = of_noise.iter().map(|part| (part - added) * (part - added)).sum();
-            let (low, high) = with_noise(value, share.min(1.0), off, spread.sqrt() / count);
+            let spread = |parts: &[f64], mean: f64| -> f64 {
+                parts.iter().map(|part| (part - mean) * (part - mean)).sum()
+            };
+            let both = spread(&parts(&|pixel| metric.part(pixel)), share + added);
+            let more = (both - spread(&hits, share)).max(spread(&of_noise, added));
+            let (low, high) = with_noise(value, share.min(1.0), off, more.sqrt() / count);
             let floor = parts(&|pixel| metric.part(&noise(pixel))).iter().sum::<f64>() / count;
             (Estimate { value, low: low.min(value), high: high.max(value) }, floor)
         }
