@@ -1,6 +1,9 @@
 //! Superellipsoids against twice the digits.
 
-use super::placed::{assert_crossed_where_it_is, assert_left_where_it_is, placed, ray_at_placed};
+use super::placed::{
+    assert_crossed_where_it_is, assert_left_into_the_open, assert_left_where_it_is, placed,
+    ray_at_placed,
+};
 use super::*;
 use crate::shape::body::Local;
 use crate::shape::exact::Triple;
@@ -54,9 +57,27 @@ fn a_hollowed_superellipsoid_is_crossed_where_exact_arithmetic_crosses_it() {
         for _ in 0..4 {
             let ray = ray_at_placed(&mut random, &placed);
             crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
         }
     }
     assert!(crossed > tries_in(20), "{crossed}");
+}
+
+#[test]
+fn a_superellipsoid_of_exponents_to_100_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(66);
+    let mut crossed = 0;
+    for _ in 0..tries_in(50) {
+        let mut exponent = || random.size(-2.0, 2.0);
+        let body = Superellipsoid { east: exponent(), north: exponent() };
+        let placed = placed(&mut random, Body::Superellipsoid(body));
+        for _ in 0..4 {
+            let ray = ray_at_placed(&mut random, &placed);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
+        }
+    }
+    assert!(crossed > tries_in(50), "{crossed}");
 }
 
 #[test]
