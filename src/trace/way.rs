@@ -1,0 +1,39 @@
+//! A ray under way, and what is known of it before it meets anything.
+
+use super::reflection;
+use super::shade::Place;
+use crate::shape::Ray;
+
+/// A ray under way.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    pub ray: Ray,
+    /// How much of what it sees could come back at most, for `adc_bailout`.
+    pub weight: f64,
+    /// 1 for the camera's rays.
+    pub level: u32,
+    /// Something has mirrored it, or one it goes on from.
+    pub mirrored: bool,
+    /// It starts on the surface of this object and inside of that: it was bent there, or mirrored whole.
+    pub inside: Option<u32>,
+}
+
+impl Way {
+    #[inline(always)]
+    pub fn from_camera(ray: Ray) -> Self {
+        Self { ray, weight: 1.0, level: 1, mirrored: false, inside: None }
+    }
+
+    /// The ray that is mirrored where this one ends.
+    #[inline(always)]
+    pub fn mirrored(self, place: &Place, weight: f64) -> Self {
+        let direction = reflection::mirrored(self.ray.direction, place.normal);
+        Self {
+            ray: Ray { origin: place.start(direction), direction },
+            weight,
+            level: self.level + 1,
+            mirrored: true,
+            inside: None,
+        }
+    }
+}
