@@ -83,16 +83,17 @@ impl Geometry {
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
     }
 
-    /// A ray starts inside of `object`, on its surface. Where it leaves that, or what it is a part of, if
-    /// it does so at its very start: in an edge, or where what is left of the solid is too thin to be
-    /// told. What is met first lies at `limit`. What it takes is added to `work` by a geometry that is
-    /// [`Geometry::counting`].
+    /// A ray starts inside of `object`, on its surface, but for a distance `off`. Where it leaves that, or
+    /// what it is a part of, if it does so at its very start: in an edge, or where what is left of the
+    /// solid is too thin to be told. What is met first lies at `limit`. What it takes is added to `work`
+    /// by a geometry that is [`Geometry::counting`].
     #[cold]
     #[inline(never)]
     pub fn left_at_start(
         &self,
         ray: &Ray,
         object: u32,
+        off: f64,
         limit: f64,
         work: &mut Work,
     ) -> Option<Hit> {
@@ -104,7 +105,7 @@ impl Geometry {
             }
             let seen = self.seen(entry, ray, |_| true, tally);
             let last = seen.into_iter().rfind(|hit| !hit.is_ahead());
-            left = last.filter(|hit| hit.leaving && hit.t + hit.error >= 0.0);
+            left = last.filter(|hit| hit.leaving && hit.t + hit.error + off >= 0.0);
             f64::NEG_INFINITY
         };
         self.search(ray, limit, &mut Each(&mut found, look));

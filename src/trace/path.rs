@@ -11,7 +11,7 @@
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
-use super::way::Way;
+use super::way::{Inside, Way};
 use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
@@ -128,7 +128,7 @@ impl<'a> Tracer<'a> {
             let mut seen = loop {
                 let found = met_by.nearest_counted(&way.ray, &mut walk.counters.work);
                 let found = match way.inside {
-                    Some(object) if SECONDARY => self.left(walk, &way, object, found),
+                    Some(inside) if SECONDARY => self.left(walk, &way, inside, found),
                     Some(_) | None => found,
                 };
                 if COUNTS {
@@ -197,13 +197,14 @@ impl<'a> Tracer<'a> {
     /// What a ray meets that starts inside of an object, on its surface: it leaves that first, even where
     /// it starts in an edge, too near to the other face to tell.
     #[inline(always)]
-    fn left(&self, walk: &mut Walk, way: &Way, object: u32, found: Option<Hit>) -> Option<Hit> {
+    fn left(&self, walk: &mut Walk, way: &Way, inside: Inside, found: Option<Hit>) -> Option<Hit> {
         if found.is_some_and(|hit| hit.leaving) {
             return found;
         }
         let limit = found.map_or(f64::INFINITY, |hit| hit.t);
         let work = &mut walk.counters.work;
-        self.met_by(way).left_at_start(&way.ray, object, limit, work).or(found)
+        let Inside { object, off } = inside;
+        self.met_by(way).left_at_start(&way.ray, object, off, limit, work).or(found)
     }
 
     /// What there is where a ray meets a surface, on the side it comes from.
@@ -341,14 +342,14 @@ impl<'a> Tracer<'a> {
             (Some((weight, _)), None) => {
                 walk.counters.total_reflection += 1;
                 walk.chain.push(Link::behind(local, Rgb::WHITE, seed));
-                let inside = hit.leaving.then_some(hit.object);
+                let inside = hit.leaving.then(|| Inside::of(hit));
                 return Some(Way { inside, ..way.mirrored(place, weight) });
             }
             (Some((weight, factor)), Some(bent)) => {
                 walk.counters.transmission += 1;
                 let ray = Ray { origin: met.behind, direction: bent.direction };
                 let level = if from == to { way.level } else { way.level + 1 };
-                let inside = (from != to && !hit.leaving).then_some(hit.object);
+                let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
                 Some((Way { ray, weight, level, inside, ..way }, factor))
             }
             (None, _) => None,
@@ -367,7 +368,7 @@ impl<'a> Tracer<'a> {
                     let media = walk.media.wait_behind();
                     walk.forks.push(Fork { way, factor, media });
                 }
-                let inside = (from != to && hit.leaving).then_some(hit.object);
+                let inside = (from != to && hit.leaving).then(|| Inside::of(hit));
                 Some(Way { inside, ..way.mirrored(place, weight) })
             }
         }

@@ -2,6 +2,7 @@
 
 use super::reflection;
 use super::shade::Place;
+use crate::geometry::Hit;
 use crate::shape::Ray;
 
 /// A ray under way.
@@ -14,8 +15,22 @@ pub(super) struct Way {
     pub level: u32,
     /// Something has mirrored it, or one it goes on from.
     pub mirrored: bool,
-    /// It starts on the surface of this object and inside of that: it was bent there, or mirrored whole.
-    pub inside: Option<u32>,
+    pub inside: Option<Inside>,
+}
+
+/// A ray starts on the surface of an object and inside of that: it was bent there, or mirrored.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inside {
+    pub object: u32,
+    /// How far along the ray the start may be from where it was meant.
+    pub off: f64,
+}
+
+impl Inside {
+    /// Where a crossing moves by its error along one ray, another face moves by some more along the next.
+    pub fn of(hit: &Hit) -> Self {
+        Self { object: hit.object, off: 16.0 * hit.error }
+    }
 }
 
 impl Way {
