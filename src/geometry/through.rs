@@ -83,6 +83,38 @@ impl Geometry {
         hits[first..].sort_by_key(|hit| (hit.object, hit.leaving));
     }
 
+    /// A ray starts inside of `object`, on its surface, but for a distance `off`. Where it leaves that, or
+    /// what it is a part of, if it does so at its very start: in an edge, or where what is left of the
+    /// solid is too thin to be told. What is met first lies at `limit`. What it takes is added to `work`
+    /// by a geometry that is [`Geometry::counting`].
+    #[cold]
+    #[inline(never)]
+    pub fn left_at_start(
+        &self,
+        ray: &Ray,
+        object: u32,
+        off: f64,
+        limit: f64,
+        work: &mut Work,
+    ) -> Option<Hit> {
+        let (mut found, mut left) = (Work::default(), None);
+        let look = |place: usize, tally: &mut &mut Work| {
+            let entry = &self.entries[place];
+            if !self.holds(entry, object) {
+                return limit;
+            }
+            let seen = self.seen(entry, ray, |_| true, tally);
+            let last = seen.into_iter().rfind(|hit| !hit.is_ahead());
+            left = last.filter(|hit| hit.leaving && hit.t + hit.error + off >= 0.0);
+            f64::NEG_INFINITY
+        };
+        self.search(ray, limit, &mut Each(&mut found, look));
+        if self.counts() {
+            *work += found;
+        }
+        left
+    }
+
     /// All crossings that are seen, in order; of a whole, those with leaves that count.
     fn seen(
         &self,

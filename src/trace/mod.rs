@@ -22,6 +22,7 @@ mod shadow;
 mod sharpness;
 mod sky;
 mod tiles;
+mod way;
 
 use crate::color::{Gamma, Rgb};
 use crate::film::Film;

@@ -11,6 +11,7 @@
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
+use super::way::{Inside, Way};
 use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Geometry, Hit};
@@ -39,18 +40,6 @@ pub(super) struct Tracer<'a> {
     pub adc_bailout: f64,
     /// Asked within a pixel, where work can pile up.
     pub watch: &'a dyn Watch,
-}
-
-/// A ray under way.
-#[derive(Debug, Clone, Copy)]
-struct Way {
-    ray: Ray,
-    /// How much of what it sees could come back at most, for `adc_bailout`.
-    weight: f64,
-    /// 1 for the camera's rays.
-    level: u32,
-    /// Something has mirrored it, or one it goes on from.
-    mirrored: bool,
 }
 
 /// A surface on a path, waiting for what the ray that goes on from it sees.
@@ -129,7 +118,7 @@ impl<'a> Tracer<'a> {
         walk: &mut Walk,
         ray: Ray,
     ) -> Rgb {
-        let mut way = Way { ray, weight: 1.0, level: 1, mirrored: false };
+        let mut way = Way::from_camera(ray);
         let mut met_by = self.in_image;
         walk.chain.clear();
         if SECONDARY && self.bends {
@@ -138,6 +127,10 @@ impl<'a> Tracer<'a> {
         loop {
             let mut seen = loop {
                 let found = met_by.nearest_counted(&way.ray, &mut walk.counters.work);
+                let found = match way.inside {
+                    Some(inside) if SECONDARY => self.left(walk, &way, inside, found),
+                    Some(_) | None => found,
+                };
                 if COUNTS {
                     let hidden = !std::ptr::eq(met_by, self.geometry);
                     walk.counters.evaluations.count(self.world, found.as_ref(), hidden);
@@ -199,6 +192,19 @@ impl<'a> Tracer<'a> {
                 walk.media.go_on(fork.media);
             }
         }
+    }
+
+    /// What a ray meets that starts inside of an object, on its surface: it leaves that first, even where
+    /// it starts in an edge, too near to the other face to tell.
+    #[inline(always)]
+    fn left(&self, walk: &mut Walk, way: &Way, inside: Inside, found: Option<Hit>) -> Option<Hit> {
+        if found.is_some_and(|hit| hit.leaving) {
+            return found;
+        }
+        let limit = found.map_or(f64::INFINITY, |hit| hit.t);
+        let work = &mut walk.counters.work;
+        let Inside { object, off } = inside;
+        self.met_by(way).left_at_start(&way.ray, object, off, limit, work).or(found)
     }
 
     /// What there is where a ray meets a surface, on the side it comes from.
@@ -336,13 +342,15 @@ impl<'a> Tracer<'a> {
             (Some((weight, _)), None) => {
                 walk.counters.total_reflection += 1;
                 walk.chain.push(Link::behind(local, Rgb::WHITE, seed));
-                return Some(way.mirrored(place, weight));
+                let inside = hit.leaving.then(|| Inside::of(hit));
+                return Some(Way { inside, ..way.mirrored(place, weight) });
             }
             (Some((weight, factor)), Some(bent)) => {
                 walk.counters.transmission += 1;
                 let ray = Ray { origin: met.behind, direction: bent.direction };
                 let level = if from == to { way.level } else { way.level + 1 };
-                Some((Way { ray, weight, level, ..way }, factor))
+                let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
+                Some((Way { ray, weight, level, inside, ..way }, factor))
             }
             (None, _) => None,
         };
@@ -360,7 +368,8 @@ impl<'a> Tracer<'a> {
                     let media = walk.media.wait_behind();
                     walk.forks.push(Fork { way, factor, media });
                 }
-                Some(way.mirrored(place, weight))
+                let inside = (from != to && hit.leaving).then(|| Inside::of(hit));
+                Some(Way { inside, ..way.mirrored(place, weight) })
             }
         }
     }
@@ -408,19 +417,5 @@ impl Link {
     /// Of a ray of which `factor` comes back as it is.
     fn behind(local: Rgb, factor: Rgb, seed: bool) -> Self {
         Self { local, factor, exponent: 1.0, seed, forks: false }
-    }
-}
-
-impl Way {
-    /// The ray that is mirrored where this one ends.
-    #[inline(always)]
-    fn mirrored(self, place: &Place, weight: f64) -> Self {
-        let direction = reflection::mirrored(self.ray.direction, place.normal);
-        Self {
-            ray: Ray { origin: place.start(direction), direction },
-            weight,
-            level: self.level + 1,
-            mirrored: true,
-        }
     }
 }

@@ -11,6 +11,8 @@ mod bodies;
 #[path = "../dice/mod.rs"]
 #[allow(dead_code, reason = "more is drawn by the tests")]
 mod dice;
+#[path = "numerics/fields.rs"]
+mod fields;
 #[path = "numerics/naive.rs"]
 mod naive;
 #[path = "numerics/points.rs"]
@@ -32,16 +34,12 @@ use std::time::Instant;
 use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::shape::{Crossing, Ray};
 
-use bodies::{Bar, Quadric, Ring, Stands, Stump, Triangle};
+use bodies::{Bar, Globe, Quadric, Ring, Stands, Stump, Triangle, Washer};
 use dice::Dice;
+use fields::{Bone, Heart, Marched, Metaballs, Oval, Pillow, Spindle, Straight, Tube, Vase};
 use points::{Hill, Landscape, Letter, Star};
-use subjects::{Answer, Ball, Block, Egg, Floor, Planet, Rounded, Single, Subject};
+use subjects::{Answer, Ball, Block, Carved, Egg, Floor, Planet, Rounded, Single, Subject};
 use wide::Wide;
-
-/// Rays a row, all of them held against 320 bits.
-const RAYS: usize = 20_000;
-/// Rounds in which the three kernels take turns.
-const ROUNDS: usize = 101;
 
 /// What one kernel did on one row.
 #[derive(Default)]
@@ -85,7 +83,12 @@ where
     Ours: Fn(usize) -> Option<Crossing>,
 {
     /// Prints a row.
-    fn measure(&self, name: &str, far: f64, count: usize, exact: impl Fn(usize) -> Answer) {
+    fn measure(
+        &self,
+        (name, far): (&str, f64),
+        (count, rounds): (usize, usize),
+        exact: impl Fn(usize) -> Answer,
+    ) {
         let (mut single, mut double, mut ours) =
             (Tally::default(), Tally::default(), Tally::default());
         let (mut bound, mut share) = (0.0f64, 0.0f64);
@@ -101,7 +104,7 @@ where
                 share = share.max(off / crossing.error);
             }
         }
-        let [one, two, three] = self.timed(count);
+        let [one, two, three] = self.timed(count, rounds);
         println!(
             "| {name} | {far:.0e} | {} | {one:.1} | {} | {two:.1} | {} | {bound:.0e} | {share:.2} | {three:.1} | {:.1} |",
             single.cells(),
@@ -112,7 +115,7 @@ where
     }
 
     /// The least time a call, of all rounds.
-    fn timed(&self, count: usize) -> [f64; 3] {
+    fn timed(&self, count: usize, rounds: usize) -> [f64; 3] {
         let mut best = [f64::INFINITY; 3];
         let rays = || 0..black_box(count);
         let sums: [&dyn Fn() -> f64; 3] = [
@@ -120,7 +123,7 @@ where
             &|| rays().filter_map(&self.double).sum(),
             &|| rays().filter_map(&self.ours).map(|crossing| crossing.t + crossing.error).sum(),
         ];
-        for _ in 0..ROUNDS {
+        for _ in 0..rounds {
             for (sum, best) in sums.iter().zip(&mut best) {
                 let start = Instant::now();
                 black_box(sum());
@@ -134,18 +137,19 @@ where
 fn shape<S: Subject>(name: &str, far: f64) {
     let mut dice = Dice(1);
     let subject = S::new(&mut dice, far);
-    let rays: Vec<Ray> = (0..RAYS).filter_map(|_| subject.ray(&mut dice, far)).collect();
+    let rays: Vec<Ray> = (0..S::RAYS).filter_map(|_| subject.ray(&mut dice, far)).collect();
     let narrow: Vec<Rounded> = rays.iter().map(Rounded::of).collect();
     let kernels = Kernels {
         single: |ray: usize| subject.single(&narrow[ray]),
         double: |ray: usize| subject.double(&rays[ray]),
         ours: |ray: usize| subject.ours(&rays[ray]),
     };
-    kernels.measure(name, far, rays.len(), |ray| subject.exact(&rays[ray]));
+    kernels.measure((name, far), (rays.len(), S::ROUNDS), |ray| subject.exact(&rays[ray]));
 }
 
 /// Of up to `far` degrees.
 fn sine(name: &str, far: f64) {
+    const RAYS: usize = 20_000;
     let mut dice = Dice(1);
     let degrees: Vec<f64> = (0..RAYS).map(|_| dice.between(-far, far)).collect();
     let narrow: Vec<f32> = degrees.iter().map(|&degrees| degrees as f32).collect();
@@ -157,7 +161,7 @@ fn sine(name: &str, far: f64) {
         ours: |i: usize| Some(Crossing { t: sin_cos_degrees(degrees[i]).0, error }),
     };
     let exact = |i: usize| Answer::Enters(Wide::of(degrees[i]).sin_cos().0);
-    kernels.measure(name, far, RAYS, exact);
+    kernels.measure((name, far), (RAYS, 101), exact);
 }
 
 fn main() {
@@ -177,11 +181,23 @@ fn main() {
                 rows::CONE => shape::<Stands<Stump>>(name, far),
                 rows::TORUS => shape::<Stands<Ring>>(name, far),
                 rows::QUADRIC => shape::<Stands<Quadric>>(name, far),
-                rows::TRIANGLE => shape::<Stands<Triangle>>(name, far),
+                rows::POLYNOMIAL => shape::<Stands<Marched<Heart>>>(name, far),
+                rows::MESH => shape::<Stands<Triangle>>(name, far),
                 rows::POLYGON => shape::<Stands<Star>>(name, far),
                 rows::BICUBIC_PATCH => shape::<Stands<Hill>>(name, far),
                 rows::HEIGHT_FIELD => shape::<Stands<Landscape>>(name, far),
                 rows::TEXT => shape::<Stands<Letter>>(name, far),
+                rows::DISC => shape::<Stands<Washer>>(name, far),
+                rows::PRISM => shape::<Stands<Straight>>(name, far),
+                rows::LATHE => shape::<Stands<Marched<Vase>>>(name, far),
+                rows::SOR => shape::<Stands<Marched<Spindle>>>(name, far),
+                rows::OVUS => shape::<Stands<Marched<Oval>>>(name, far),
+                rows::BLOB => shape::<Stands<Marched<Metaballs>>>(name, far),
+                rows::SPHERE_SWEEP => shape::<Stands<Marched<Bone>>>(name, far),
+                rows::SUPERELLIPSOID => shape::<Stands<Marched<Pillow>>>(name, far),
+                rows::ISOSURFACE => shape::<Stands<Marched<Tube>>>(name, far),
+                rows::PARAMETRIC => shape::<Stands<Globe>>(name, far),
+                rows::WHOLE => shape::<Carved>(name, far),
                 rows::SPHERE_SINGLE => shape::<Single<Ball>>(name, far),
                 rows::PLANE_SINGLE => shape::<Single<Floor>>(name, far),
                 rows::BOX_SINGLE => shape::<Single<Block>>(name, far),

@@ -65,7 +65,7 @@ fn row_37_forty_filters_lie_close_together() {
 
 #[test]
 fn row_38_a_glass_slab_of_any_thickness_bends_and_straightens() {
-    for exponent in 1..=6 {
+    for exponent in [1, 2, 3, 4, 5, 6, 9, 12] {
         let thick = ten(-exponent);
         for ior in [1.5, 2.4, 1.0 / 1.5] {
             let slab = cuboid([-1.0, 0.5, -1.0], [1.0, 0.5 + thick, 1.0]).color([0.9, 1.0, 0.9]);

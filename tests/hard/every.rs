@@ -10,41 +10,12 @@ use crate::dice::{Dice, rays};
 use crate::held::compiled;
 
 /// One of each kind at least, of size about 1, around the origin; the last brace is missing.
-const BODIES: [&str; 28] = [
-    "cylinder { -y, y, 0.6",
-    "cylinder { -y, y, 0.6 open",
-    "cone { -y, 0.9, y, 0.2",
-    "cone { -y, 0.9, y, -0.3 open",
-    "torus { 0.8, 0.25",
-    "torus { 0.4, 0.6",
-    "disc { 0, y, 1, 0.3",
-    "mesh { triangle { x, y, z } triangle { x, y, -x-z } triangle { x, z, -x-z } triangle { y, z, -x-z } inside_vector y",
-    "mesh { smooth_triangle { -x, y - x, x, y + x, z, y + z }",
-    "prism { -0.5, 0.7, 6, <-1, -1>, <1, -1>, <0.2, 0>, <1, 1>, <-1, 1>, <-1, -1>",
-    "prism { conic_sweep cubic_spline 0.2, 1, 7, <-1, -1>, <1, -1>, <1, 1>, <-1, 1>, <-1, -1>, <1, -1>, <1, 1>",
-    "lathe { linear_spline 4, <0, -1>, <0.8, -0.6>, <0.3, 0.4>, <0, 1>",
-    "lathe { bezier_spline 4, <0.5, -1>, <1.2, -0.5>, <0.2, 0.5>, <0.6, 1>",
-    "sor { 5, <0.3, -1.4>, <0.5, -1>, <0.8, 0>, <0.3, 0.8>, <0.2, 1>",
-    "sphere_sweep { linear_spline 3, -x, 0.3, y, 0.2, x, 0.4",
-    "sphere_sweep { cubic_spline 4, -x-y, 0.3, -x, 0.3, x, 0.2, x+y, 0.3",
-    "blob { threshold 0.5 sphere { -0.4*x, 0.9, 1 } cylinder { 0, y, 0.6, 0.8 } sphere { 0.4*z, 0.7, -0.6 }",
-    "superellipsoid { <0.4, 1.5>",
-    "superellipsoid { <3, 0.7>",
-    "ovus { 0.6, 0.4",
-    "quadric { <1, 2, -1>, <0.2, 0, 0>, 0, -0.4",
-    "poly { 4, <1, 0, 0, 0, 2, 0, 0, 2, 0, -1.7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1.2, 0, 0, 0, 0, 1, 0, -1.7, 0, 0.3>",
-    "isosurface { function { x*x + y*y*(1 + 0.5*sin(5*z)) + z*z - 0.6 } contained_by { sphere { 0, 1 } } max_gradient 9",
-    "parametric { function { cos(u)*(0.8 + 0.2*v) } function { sin(u) } function { v } <0, -0.5>, <5, 0.5> contained_by { box { -1.1, 1.1 } }",
-    "polygon { 5, <-1, -1>, <1, -1>, <0.2, 0>, <0, 1>, <-1, -1>",
-    "bicubic_patch { type 1 u_steps 4 v_steps 4 flatness 0 <-1, 0.6, -1>, <-0.3, -0.2, -1>, <0.3, -0.2, -1>, <1, 0.6, -1>, <-1, -0.4, -0.3>, <-0.3, -0.9, -0.3>, <0.3, 0.7, -0.3>, <1, -0.4, -0.3>, <-1, -0.4, 0.3>, <-0.3, 0.9, 0.3>, <0.3, -0.9, 0.3>, <1, -0.4, 0.3>, <-1, 0.6, 1>, <-0.3, -0.2, 1>, <0.3, -0.2, 1>, <1, 0.6, 1>",
-    "height_field { function 12, 12 { 1 - 2*max(abs(x - 0.5), abs(y - 0.5)) } water_level 0.01 translate -0.5",
-    "text { \"ab\" 0.5, 0 translate <-0.5, -0.3, -0.2>",
-];
+const BODIES: &str = include_str!("../bodies.txt");
 
 /// The bodies, each stretched, turned and moved in some way.
 fn placed(dice: &mut Dice, copies: usize) -> Vec<(f64, Placed)> {
     let mut all = Vec::new();
-    for solid in BODIES.iter().cycle().take(copies * BODIES.len()) {
+    for solid in std::iter::repeat_n(BODIES.lines(), copies).flatten() {
         let size = dice.size(-6.0, 6.0);
         let far = dice.one_of(&[0.0, 1.0, 1e3, 1e6]);
         let mut triple = |reach: f64| {

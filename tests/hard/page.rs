@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lucarne::shape::Body;
+
 use crate::rows::{HEADER, ROWS};
 
 fn root() -> &'static Path {
@@ -45,6 +47,13 @@ fn the_pages_prices_are_the_benchmarks_rows() {
         let right = row[8] == "0" || row[0].ends_with("single");
         assert!(right && share <= 1.0, "{row:?}");
     }
+}
+
+#[test]
+fn every_kind_of_body_has_its_row_among_the_prices() {
+    let has_row = |word: &&str| ROWS.iter().any(|(name, _)| name == word);
+    let missing: Vec<_> = Body::WORDS.iter().filter(|word| !has_row(word)).collect();
+    assert!(missing.is_empty(), "no row: {missing:?}");
 }
 
 /// The names of all functions in the Rust files of a folder.

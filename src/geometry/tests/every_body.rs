@@ -8,41 +8,10 @@ use crate::scene::Dialect;
 use crate::shape::Body;
 use crate::source::NoFiles;
 
-/// Of size about 1, around the origin.
-const SOLIDS: [&str; 32] = [
-    "sphere { 0, 1",
-    "sphere { 0, 1 scale <1, 0.5, 0.7>",
-    "box { -1, <0.5, 1, 0.7>",
-    "cylinder { -y, y, 0.6",
-    "cylinder { -y, y, 0.6 open",
-    "cone { -y, 0.9, y, 0.2",
-    "cone { -y, 0.9, y, 0 open",
-    "torus { 0.8, 0.25",
-    "torus { 0.4, 0.6",
-    "disc { 0, y, 1, 0.3",
-    "mesh { triangle { x, y, z } triangle { x, y, -x-z } triangle { x, z, -x-z } triangle { y, z, -x-z } inside_vector y",
-    "mesh { triangle { -x, x, y } triangle { -x, x, z }",
-    "triangle { -x, x, y",
-    "prism { -0.5, 0.7, 6, <-1, -1>, <1, -1>, <0.2, 0>, <1, 1>, <-1, 1>, <-1, -1>",
-    "prism { conic_sweep cubic_spline 0.2, 1, 7, <-1, -1>, <1, -1>, <1, 1>, <-1, 1>, <-1, -1>, <1, -1>, <1, 1>",
-    "lathe { linear_spline 4, <0, -1>, <0.8, -0.6>, <0.3, 0.4>, <0, 1>",
-    "lathe { bezier_spline 4, <0.5, -1>, <1.2, -0.5>, <0.2, 0.5>, <0.6, 1>",
-    "sor { 5, <0.3, -1.4>, <0.5, -1>, <0.8, 0>, <0.3, 0.8>, <0.2, 1>",
-    "sphere_sweep { linear_spline 3, -x, 0.3, y, 0.2, x, 0.4",
-    "sphere_sweep { cubic_spline 4, -x-y, 0.3, -x, 0.3, x, 0.2, x+y, 0.3",
-    "blob { threshold 0.5 sphere { -0.4*x, 0.9, 1 } cylinder { 0, y, 0.6, 0.8 } sphere { 0.4*z, 0.7, -0.6 }",
-    "superellipsoid { <0.4, 1.5>",
-    "ovus { 0.6, 0.4",
-    "quadric { <1, 2, -1>, <0.2, 0, 0>, 0, -0.4",
-    "poly { 4, <1, 0, 0, 0, 2, 0, 0, 2, 0, -1.7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1.2, 0, 0, 0, 0, 1, 0, -1.7, 0, 0.3>",
-    "isosurface { function { x*x + y*y*(1 + 0.5*sin(5*z)) + z*z - 0.6 } contained_by { sphere { 0, 1 } } max_gradient 9",
-    "parametric { function { cos(u)*(0.8 + 0.2*v) } function { sin(u) } function { v } <0, -0.5>, <5, 0.5> contained_by { box { -1.1, 1.1 } }",
-    "polygon { 5, <-1, -1>, <1, -1>, <0.7, 1>, <-0.4, 0.6>, <-1, -1>",
-    "bicubic_patch { #for (I, 0, 15) <mod(I, 4)/2 - 0.75, mod(I*I, 5)/6, div(I, 4)/2 - 0.75>, #end",
-    "height_field { function 7, 6 { 0.5 + 0.4*sin(9*x)*cos(7*y) } translate -0.5",
-    "text { \"&\" 0.4, 0 translate -0.3",
-    "text { \"o\" 0, 0 translate -0.3",
-];
+/// Of size about 1, around the origin; the last brace is missing.
+const SIMPLE: [&str; 3] =
+    ["sphere { 0, 1", "sphere { 0, 1 scale <1, 0.5, 0.7>", "box { -1, <0.5, 1, 0.7>"];
+const BODIES: &str = include_str!("../../../tests/bodies.txt");
 
 fn number(random: &mut Random, size: f64) -> String {
     format!(
@@ -63,7 +32,8 @@ fn solid(random: &mut Random, reach: f64, depth: usize) -> String {
     );
     if depth == 0 || random.below(3) > 0 {
         let stretch = if random.below(3) == 0 { "scale <1, 0.6, 1.7>" } else { "" };
-        return format!("{} {stretch} {place}", SOLIDS[random.below(SOLIDS.len())]);
+        let solids: Vec<&str> = SIMPLE.into_iter().chain(BODIES.lines()).collect();
+        return format!("{} {stretch} {place}", solids[random.below(solids.len())]);
     }
     let operation = ["union", "merge", "intersection", "difference"][random.below(4)];
     let parts: String = (0..random.below(3) + 2).map(|_| solid(random, 1.0, depth - 1)).collect();

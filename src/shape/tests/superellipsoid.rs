@@ -60,6 +60,22 @@ fn a_hollowed_superellipsoid_is_crossed_where_exact_arithmetic_crosses_it() {
 }
 
 #[test]
+fn a_superellipsoid_of_exponents_to_100_is_crossed_where_exact_arithmetic_crosses_it() {
+    let mut random = Random(66);
+    let mut crossed = 0;
+    for _ in 0..tries_in(50) {
+        let mut exponent = || random.size(-2.0, 2.0);
+        let body = Superellipsoid { east: exponent(), north: exponent() };
+        let placed = placed(&mut random, Body::Superellipsoid(body));
+        for _ in 0..4 {
+            let ray = ray_at_placed(&mut random, &placed);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
+        }
+    }
+    assert!(crossed > tries_in(50), "{crossed}");
+}
+
+#[test]
 fn of_exponents_1_it_is_a_sphere() {
     let mut random = Random(66);
     let ball = Superellipsoid { east: 1.0, north: 1.0 };

@@ -3,9 +3,13 @@
 
 use std::sync::Arc;
 
+use lucarne::function::{Binary, Builder, Closed, TooLong, Unary};
 use lucarne::math::{UnitVector, Vector};
+use lucarne::shape::isosurface::Container;
 use lucarne::shape::mesh::Face;
-use lucarne::shape::{Algebraic, Body, Cone, Crossing, Cylinder, Mesh, Placed, Ray, Torus};
+use lucarne::shape::{
+    Algebraic, Body, Cone, Crossing, Cylinder, Disc, Mesh, Parametric, Placed, Ray, Torus,
+};
 
 use crate::dice::Dice;
 use crate::naive::{V32, V64, double, single};
@@ -15,6 +19,11 @@ use crate::wide::{Wide, WideVector};
 
 /// What a body is in its own space.
 pub trait Form {
+    /// See [`Subject`].
+    const RAYS: usize = 20_000;
+    /// See [`Subject`].
+    const ROUNDS: usize = 101;
+
     fn body() -> Option<Body>;
     fn single(f: V32, d: V32) -> Option<f32>;
     fn double(f: V64, d: V64) -> Option<f64>;
@@ -29,6 +38,9 @@ pub struct Stands<F> {
 }
 
 impl<F: Form> Subject for Stands<F> {
+    const RAYS: usize = F::RAYS;
+    const ROUNDS: usize = F::ROUNDS;
+
     fn new(dice: &mut Dice, _: f64) -> Self {
         let (placement, rows) = somewhere(dice, Vector::new(1.0, 0.8, 0.6));
         let body = Arc::new(F::body().expect("a body"));
@@ -268,5 +280,83 @@ pub fn pierced(f: &WideVector, d: &WideVector, corners: &[[f64; 3]; 3]) -> Answe
         Answer::Misses
     } else {
         Answer::Enters(normal.dot(a) / &normal.dot(d))
+    }
+}
+
+/// A [`Washer`]'s hole.
+const HOLE: f64 = 0.25;
+
+pub struct Washer;
+
+impl Form for Washer {
+    fn body() -> Option<Body> {
+        Some(Body::Disc(Disc { hole: HOLE }))
+    }
+    fn single(f: V32, d: V32) -> Option<f32> {
+        single::disc(f, d, HOLE as f32)
+    }
+    fn double(f: V64, d: V64) -> Option<f64> {
+        double::disc(f, d, HOLE)
+    }
+    fn exact(f: &WideVector, d: &WideVector) -> Answer {
+        let ([fx, fy, fz], [dx, dy, dz]) = (&f.0, &d.0);
+        if (dz.clone() / &d.length()).to_f64().abs() < 1e-3 {
+            return Answer::Either;
+        }
+        let t = (-fz) / dz;
+        let (x, y) = (fx + &(&t * dx), fy + &(&t * dy));
+        let distance = (&x * &x + &y * &y).sqrt().to_f64();
+        match () {
+            () if (distance - 1.0).abs() < NEAR || (distance - HOLE).abs() < NEAR => Answer::Either,
+            () if HOLE < distance && distance < 1.0 => Answer::Enters(t),
+            () => Answer::Misses,
+        }
+    }
+}
+
+/// cos u·sin v, sin u·sin v, cos v.
+fn longitudes() -> Result<[Arc<Closed>; 3], TooLong> {
+    let closed = |operations: [(usize, Unary); 2], count: usize| {
+        let mut f = Builder::new(3)?;
+        let mut product = None;
+        for (axis, operation) in operations.into_iter().take(count) {
+            let angle = f.parameter(axis).ok_or(TooLong)?;
+            let part = f.unary(operation, angle)?;
+            product = Some(match product {
+                Some(other) => f.binary(Binary::Multiply, other, part)?,
+                None => part,
+            });
+        }
+        let function = f.finish(product.ok_or(TooLong)?);
+        Ok(Arc::new(Closed::new(function, |_| None).expect("asks nothing")))
+    };
+    Ok([
+        closed([(1, Unary::Sin), (0, Unary::Cos)], 2)?,
+        closed([(1, Unary::Sin), (0, Unary::Sin)], 2)?,
+        closed([(1, Unary::Cos), (0, Unary::Sin)], 1)?,
+    ])
+}
+
+pub struct Globe;
+
+impl Form for Globe {
+    const RAYS: usize = 500;
+    const ROUNDS: usize = 11;
+
+    fn body() -> Option<Body> {
+        use std::f64::consts::PI;
+        let container = Container::Box(Vector::splat(1.125));
+        let corners = [[0.0, 0.0], [2.0 * PI, PI]];
+        let functions = longitudes().ok()?;
+        Some(Body::Parametric(Parametric::new(functions, corners, container, Vector::ZERO, 1.0)))
+    }
+    fn single(f: V32, d: V32) -> Option<f32> {
+        single::longitudes(f, d)
+    }
+    fn double(f: V64, d: V64) -> Option<f64> {
+        double::longitudes(f, d)
+    }
+    fn exact(f: &WideVector, d: &WideVector) -> Answer {
+        root(&d.square(), &f.dot(d), &(f.square() - &Wide::one()))
     }
 }

@@ -296,6 +296,103 @@ macro_rules! naive {
                 }
                 least(found.into_iter())
             }
+
+            /// z = 0, between `hole` and 1 from its middle.
+            pub fn disc(f: $vector, d: $vector, hole: $real) -> Option<$real> {
+                let t = -f[2] / d[2];
+                let (x, y) = (f[0] + t * d[0], f[1] + t * d[1]);
+                let square = x * x + y * y;
+                if hole * hole <= square && square <= 1.0 { Some(t) } else { None }
+            }
+
+            /// Inside of an outline of straight pieces, and between two heights.
+            pub fn prism(
+                f: $vector,
+                d: $vector,
+                corners: &[[f64; 2]],
+                heights: [f64; 2],
+            ) -> Option<$real> {
+                let [low, high] = heights.map(|height| height as $real);
+                let pieces = || {
+                    (0..corners.len()).map(|i| {
+                        let ends = [corners[i], corners[(i + 1) % corners.len()]];
+                        ends.map(|end| end.map(|x| x as $real))
+                    })
+                };
+                let mut first: Option<$real> = None;
+                let mut see = |t: $real| first = Some(first.map_or(t, |first| first.min(t)));
+                for [a, b] in pieces() {
+                    let (e, g) = ([b[0] - a[0], b[1] - a[1]], [f[0] - a[0], f[1] - a[1]]);
+                    let over = 1.0 / (d[0] * e[1] - d[1] * e[0]);
+                    let t = (e[0] * g[1] - e[1] * g[0]) * over;
+                    let u = (d[0] * g[1] - d[1] * g[0]) * over;
+                    let z = f[2] + t * d[2];
+                    if (0.0..=1.0).contains(&u) && low <= z && z <= high {
+                        see(t);
+                    }
+                }
+                for height in [low, high] {
+                    let t = (height - f[2]) / d[2];
+                    let (x, y) = (f[0] + t * d[0], f[1] + t * d[1]);
+                    let left = |&[a, b]: &[[$real; 2]; 2]| {
+                        (a[1] > y) != (b[1] > y)
+                            && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+                    };
+                    if pieces().filter(left).count() % 2 == 1 {
+                        see(t);
+                    }
+                }
+                first
+            }
+
+            /// A ball of longitudes and latitudes: Newton's method for u, v and t from places of a grid.
+            pub fn longitudes(f: $vector, d: $vector) -> Option<$real> {
+                const STARTS: usize = 4;
+                let mut first: Option<$real> = None;
+                for i in 0..STARTS * STARTS {
+                    let pi = std::f64::consts::PI as $real;
+                    let share = |i: usize| (i as $real + 0.5) / STARTS as $real;
+                    let (mut u, mut v) = (2.0 * pi * share(i % STARTS), pi * share(i / STARTS));
+                    let mut t = -dot(f, d) / dot(d, d);
+                    let mut size = $real::INFINITY;
+                    for _ in 0..10 {
+                        let ((su, cu), (sv, cv)) = (u.sin_cos(), v.sin_cos());
+                        let off = minus([sv * cu, sv * su, cv], [0, 1, 2].map(|i| f[i] + t * d[i]));
+                        let (du, dv) = ([-sv * su, sv * cu, 0.0], [cv * cu, cv * su, -sv]);
+                        let (across, along) = (cross(du, dv), cross(dv, d));
+                        let over = 1.0 / dot(du, along);
+                        u -= dot(off, along) * over;
+                        v -= dot(off, cross(d, du)) * over;
+                        t += dot(off, across) * over;
+                        size = dot(off, off);
+                    }
+                    if size < 1e-8 && (0.0..=pi).contains(&v) {
+                        first = Some(first.map_or(t, |first| first.min(t)));
+                    }
+                }
+                first
+            }
+
+            /// A ball without a box.
+            pub fn difference(
+                s: $vector,
+                d: $vector,
+                (centre, radius): ($vector, $real),
+                (middle, half): ($vector, $vector),
+            ) -> Option<$real> {
+                let (enter, leave) = sphere(s, d, centre, radius)?;
+                let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                match slabs(s, d, middle, &axes, half) {
+                    Some((low, high)) if low <= enter && enter <= high => {
+                        if high < leave {
+                            Some(high)
+                        } else {
+                            None
+                        }
+                    }
+                    _ => Some(enter),
+                }
+            }
         }
     };
 }

@@ -1,10 +1,10 @@
-//! The rows of the table in `docs/numerics.md`: what is measured, and from how far.
+//! The rows of the table in `docs/numerics.md`: what is measured, and from how far. A body's row has its word.
 
 /// What it says above each column.
 pub const HEADER: &str = "| what | distance | f32: wrong | error | ns | f64: wrong | error | ns | ours: wrong | error | bound | share | ns | × |";
 
 /// Each kernel, and the distances from which it is tried.
-pub const ROWS: [(&str, &[f64]); 18] = [
+pub const ROWS: [(&str, &[f64]); 30] = [
     (SPHERE, FAR),
     (PLANET, &[1e4, 1e6, 1e8, 1e10, 1e12]),
     (PLANE, FAR),
@@ -14,11 +14,23 @@ pub const ROWS: [(&str, &[f64]); 18] = [
     (CONE, FAR),
     (TORUS, FAR),
     (QUADRIC, FAR),
-    (TRIANGLE, FAR),
+    (POLYNOMIAL, FAR),
+    (MESH, FAR),
     (POLYGON, FAR),
     (BICUBIC_PATCH, FAR),
     (HEIGHT_FIELD, FAR),
     (TEXT, FAR),
+    (DISC, FAR),
+    (PRISM, FAR),
+    (LATHE, FAR),
+    (SOR, FAR),
+    (OVUS, FAR),
+    (BLOB, FAR),
+    (SPHERE_SWEEP, FAR),
+    (SUPERELLIPSOID, FAR),
+    (ISOSURFACE, FAR),
+    (PARAMETRIC, FAR),
+    (WHOLE, FAR),
     (SPHERE_SINGLE, NEAR),
     (PLANE_SINGLE, NEAR),
     (BOX_SINGLE, NEAR),
@@ -34,11 +46,23 @@ pub const CYLINDER: &str = "cylinder";
 pub const CONE: &str = "cone";
 pub const TORUS: &str = "torus";
 pub const QUADRIC: &str = "quadric";
-pub const TRIANGLE: &str = "triangle";
+pub const POLYNOMIAL: &str = "polynomial";
+pub const MESH: &str = "mesh";
 pub const POLYGON: &str = "polygon";
 pub const BICUBIC_PATCH: &str = "bicubic_patch";
 pub const HEIGHT_FIELD: &str = "height_field";
 pub const TEXT: &str = "text";
+pub const DISC: &str = "disc";
+pub const PRISM: &str = "prism";
+pub const LATHE: &str = "lathe";
+pub const SOR: &str = "sor";
+pub const OVUS: &str = "ovus";
+pub const BLOB: &str = "blob";
+pub const SPHERE_SWEEP: &str = "sphere_sweep";
+pub const SUPERELLIPSOID: &str = "superellipsoid";
+pub const ISOSURFACE: &str = "isosurface";
+pub const PARAMETRIC: &str = "parametric";
+pub const WHOLE: &str = "difference";
 pub const SPHERE_SINGLE: &str = "sphere, single";
 pub const PLANE_SINGLE: &str = "plane, single";
 pub const BOX_SINGLE: &str = "box, single";

@@ -1,9 +1,13 @@
 //! What is measured: each shape with its kernel, the textbook's, and where a line enters it in 320
 //! bits.
 
+use lucarne::geometry::Geometry;
 use lucarne::math::placement::Placement;
 use lucarne::math::{Matrix, Real, UnitVector, Vector, Vector3};
+use lucarne::road::{Options, Road};
+use lucarne::scene::Dialect;
 use lucarne::shape::{Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Sphere, box_, plane, sphere};
+use lucarne::source::NoFiles;
 
 use crate::dice::Dice;
 use crate::naive::{V32, V64, double, single};
@@ -44,6 +48,11 @@ pub enum Answer {
 
 /// A shape of size 1, about a place.
 pub trait Subject {
+    /// Rays a row, all of them held against 320 bits.
+    const RAYS: usize = 20_000;
+    /// Rounds in which the three kernels take turns.
+    const ROUNDS: usize = 101;
+
     fn new(dice: &mut Dice, far: f64) -> Self;
     fn centre(&self) -> Vector;
     /// Of its surface, or near it.
@@ -357,5 +366,93 @@ impl Subject for Egg {
     fn exact(&self, ray: &Ray) -> Answer {
         let (f, d) = local(&self.0.placement, ray);
         root(&d.square(), &f.dot(&d), &(f.square() - &Wide::one()))
+    }
+}
+
+/// A ball without a box, whose numbers have few digits.
+pub struct Carved {
+    geometry: Geometry,
+    centre: Vector,
+}
+
+/// The box, as seen from the ball's centre.
+const CORNERS: [[f64; 3]; 2] = [[0.25, -0.25, -0.5], [1.25, 1.5, 0.75]];
+
+impl Carved {
+    fn middle(&self) -> (Vector, Vector) {
+        let [low, high] = CORNERS.map(Vector::from_array);
+        (self.centre + (low + high) * 0.5, (high - low) * 0.5)
+    }
+}
+
+impl Subject for Carved {
+    fn new(dice: &mut Dice, _: f64) -> Self {
+        let centre = (dice.point(3.0) * 64.0).round() / 64.0;
+        let text = |v: Vector| format!("<{:e}, {:e}, {:e}>", v.x, v.y, v.z);
+        let [low, high] = CORNERS.map(|corner| text(centre + Vector::from_array(corner)));
+        let solid =
+            format!("difference {{ sphere {{ {}, 1 }} box {{ {low}, {high} }} }}", text(centre));
+        let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+        let (world, _) = road.compile("whole.scene", solid.into_bytes());
+        assert!(!road.diagnostics.has_errors(), "{:#?}", road.diagnostics);
+        Self { geometry: Geometry::build(&world), centre }
+    }
+    fn centre(&self) -> Vector {
+        self.centre
+    }
+    fn target(&self, dice: &mut Dice) -> Vector {
+        self.centre + dice.direction() * dice.one_of(&[0.5, 1.0, 1.2])
+    }
+    fn ours(&self, ray: &Ray) -> Option<Crossing> {
+        self.geometry.nearest(ray).map(|hit| Crossing { t: hit.t, error: hit.error })
+    }
+    fn single(&self, ray: &Rounded) -> Option<f32> {
+        let (middle, half) = self.middle();
+        let (ball, block) = ((v32(self.centre), 1.0), (v32(middle), v32(half)));
+        single::difference(ray.origin, ray.direction, ball, block)
+    }
+    fn double(&self, ray: &Ray) -> Option<f64> {
+        let (middle, half) = self.middle();
+        let (ball, block) = ((v64(self.centre), 1.0), (v64(middle), v64(half)));
+        double::difference(v64(ray.origin), v64(ray.direction), ball, block)
+    }
+    fn exact(&self, ray: &Ray) -> Answer {
+        const NEAR: f64 = 1e-6;
+        let (f, d) = (wide(ray.origin).minus(&wide(self.centre)), wide(ray.direction));
+        let (a, b, c) = (d.square(), f.dot(&d), f.square() - &Wide::one());
+        let Answer::Enters(enter) = root(&a, &b, &c) else { return root(&a, &b, &c) };
+        let leave = -&(Wide::of(2.0) * &b / &a + &enter);
+        let [low, high] = CORNERS.map(WideVector::of);
+        let mut chord: Option<[Wide; 2]> = None;
+        for axis in 0..3 {
+            if d.0[axis].to_f64().abs() < NEAR {
+                return Answer::Either;
+            }
+            let mut ends = [&low, &high].map(|corner| (&corner.0[axis] - &f.0[axis]) / &d.0[axis]);
+            if ends[0] > ends[1] {
+                ends.swap(0, 1);
+            }
+            let [first, last] = ends;
+            chord = Some(match chord {
+                None => [first, last],
+                Some([low, high]) => {
+                    [if first > low { first } else { low }, if last < high { last } else { high }]
+                }
+            });
+        }
+        let [first, last] = chord.expect("three slabs");
+        let over = |a: &Wide, b: &Wide| (a - b).to_f64();
+        let told =
+            [over(&last, &first), over(&enter, &first), over(&enter, &last), over(&last, &leave)];
+        if told.iter().any(|off| off.abs() < NEAR) {
+            return Answer::Either;
+        }
+        match told {
+            [room, begins, ends, _] if room < 0.0 || begins < 0.0 || ends > 0.0 => {
+                Answer::Enters(enter)
+            }
+            [_, _, _, beyond] if beyond < 0.0 => Answer::Enters(last),
+            _ => Answer::Misses,
+        }
     }
 }
