@@ -208,7 +208,6 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
         "blob { threshold 0.5 sphere { 0, #, 1 } }",
         "lathe { linear_spline 3, <0, 0>, <1, #>, <0, 2> }",
         "prism { 0, #, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0> }",
-        "isosurface { function { x + # } }",
         "polygon { 4, <0, 0>, <1, 0>, <0, #>, <0, 0> }",
         "mesh { triangle { 0, x, #*y } triangle { 0, x, z } }",
     ];
