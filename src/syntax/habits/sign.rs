@@ -1,7 +1,7 @@
 //! Signs of other languages: `(1, 0, 0)` for a vector, `and`, `'strings'`, `# comments`, names with hyphens.
 
 use super::Reader;
-use crate::diagnostic::{Code, Diagnostic, Fix, suggest};
+use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
@@ -82,13 +82,7 @@ impl Reader<'_> {
                 .fix(first, "<")
                 .fix(last, ">")
         };
-        // `cube([1, 2, 3])`: that there is no `cube` says enough.
-        let of_foreign = argument
-            && meant.len().checked_sub(2).map(|at| meant[at]).is_some_and(|name| {
-                let text = self.text.get(name.start as usize..name.end as usize).unwrap_or("");
-                name.kind == TokenKind::Name && suggest::foreign(text).next().is_some()
-            });
-        if !of_foreign && (self.made != Some(self.at) || !made) {
+        if self.made != Some(self.at) || !made {
             self.diagnostics.push(diagnostic);
         }
         if moved.is_some() {
