@@ -102,11 +102,27 @@ impl<'a> Road<'a> {
         let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
         let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
         let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
+        self.drop_encoding_of_comments(&ast);
         if self.options.legacy {
             legacy(&ast, self.sources.get(file), &mut self.diagnostics);
         }
         self.silence(0);
         ast
+    }
+
+    /// How a file is encoded matters to nothing but what stands outside its comments.
+    fn drop_encoding_of_comments(&mut self, ast: &Ast) {
+        let is_its = |told: &Diagnostic| {
+            told.code == Code::BadEncoding
+                && told.primary().is_some_and(|label| label.span.file == ast.file)
+        };
+        if !self.diagnostics.iter().any(is_its) {
+            return;
+        }
+        let text = &self.sources.get(ast.file).text;
+        if ast.is_ascii_but_for_comments(text) {
+            self.diagnostics.retain_after(0, |told| !is_its(told));
+        }
     }
 
     pub fn evaluate(&mut self, ast: Ast) -> Scene {

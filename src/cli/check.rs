@@ -28,7 +28,7 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
         };
         // A file that cannot be read is no reason not to check the others.
         if let Err(failure) = checked {
-            messages.fail(&failure)?;
+            messages.fail(file, &failure)?;
             exit = exit.max(failure.exit);
         }
     }

@@ -5,12 +5,14 @@
 
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
 
 use clap::ValueEnum;
 use lucarne::diagnostic::{Code, Diagnostic, Severity, json, narrate, render};
-use lucarne::source::Sources;
+use lucarne::source::{Source, Sources, Span};
 
 use super::exit::{Exit, Failure, reason};
+use super::text::name_of;
 
 /// In human form, more errors than this, and more warnings, are counted, not shown.
 const MOST_SHOWN: usize = 100;
@@ -104,15 +106,17 @@ impl Messages {
         }
     }
 
-    /// Says why a file could not be had, in the form of the other messages.
-    pub fn fail(&mut self, failure: &Failure) -> Result<(), Failure> {
+    /// Says why a file could not be had, in the form of the other messages: at its first place.
+    pub fn fail(&mut self, file: &Path, failure: &Failure) -> Result<(), Failure> {
         if self.format != Format::Json {
             fail(failure);
             return Ok(());
         }
         let told = Diagnostic::new(Code::UnreadableFile, failure.sentence.as_str());
         let told = failure.help.iter().fold(told, |told, help| told.help(help.as_str()));
-        self.print(std::iter::once(&told), &Sources::default())
+        let mut sources = Sources::default();
+        let start = Span::new(sources.add(Source::new(name_of(file), "")), 0, 0);
+        self.print(std::iter::once(&told.at(start, "")), &sources)
     }
 
     /// `2 errors, 1 warning`, where people read it.

@@ -289,6 +289,11 @@ impl Evaluator<'_> {
     ) -> Reported {
         let spans = operands.map(|id| here.unit.expression(id).span);
         let diagnostic = match error {
+            OperationError::NotNumeric(index)
+                if self.is_refused_again(here, spans[index], values[index]) =>
+            {
+                return Reported;
+            }
             OperationError::NotNumeric(index) => {
                 let kind = values[index].kind();
                 let diagnostic = Diagnostic::new(

@@ -20,8 +20,10 @@ use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
+mod mention;
 mod operation;
 
+use mention::mention;
 use operation::{is_operation, operation, operation_of};
 
 /// A formula on its way to a tape.
@@ -205,10 +207,16 @@ impl Evaluator<'_> {
         else {
             return self.constant(here, formula, id);
         };
-        let Some(&Value::Function(function)) = self.scopes.read(here.symbol(name)) else {
-            return self.constant(here, formula, id);
-        };
         let span = here.unit.expression(base).span;
+        let function = match self.scopes.read(here.symbol(name)) {
+            Some(&Value::Function(function)) => function,
+            Some(&Value::Poison(poison)) => {
+                formula.poison.get_or_insert(poison);
+                return self.constant_zero(here, formula, span);
+            }
+            Some(Value::Broken) => return Err(Reported),
+            _ => return self.constant(here, formula, id),
+        };
         let asked = &self.functions[function.0 as usize];
         let (wanted, index) = (asked.parameters(), asked.component(component));
         let Some(index) = index else {
@@ -252,6 +260,10 @@ impl Evaluator<'_> {
                     // What its arguments lack is told, too.
                     let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
                     Err(reported)
+                }
+                Some(Value::Broken) => {
+                    let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
+                    Err(Reported)
                 }
                 _ => self.constant(here, formula, id),
             },
@@ -380,46 +392,4 @@ impl Evaluator<'_> {
         let built = operation(&mut formula.builder, word, &nodes);
         self.built(here, word_span, built)
     }
-}
-
-/// Where an expression names a parameter or a counter.
-fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Option<Span> {
-    let mut waiting = vec![id];
-    while let Some(id) = waiting.pop() {
-        let expression = here.unit.expression(id);
-        let name = match expression.kind {
-            ExpressionKind::Name(name) => Some(ParameterName::Name(here.symbol(name))),
-            ExpressionKind::Word(word) => ParameterName::of_word(word),
-            ExpressionKind::Unary(_, a)
-            | ExpressionKind::Group(a)
-            | ExpressionKind::Component(a, _) => {
-                waiting.push(a);
-                None
-            }
-            ExpressionKind::Binary(_, a, b) | ExpressionKind::Index(a, b) => {
-                waiting.extend([b, a]);
-                None
-            }
-            ExpressionKind::Conditional(a, b, c) => {
-                waiting.extend([c, b, a]);
-                None
-            }
-            ExpressionKind::Vector(arguments) | ExpressionKind::Call(_, arguments) => {
-                let arguments = here.unit.ast.arguments(arguments).iter().rev();
-                waiting.extend(arguments.filter_map(|argument| match argument {
-                    Argument::Expression(id) => Some(*id),
-                    Argument::Items(_) => None,
-                }));
-                None
-            }
-            ExpressionKind::Number(_)
-            | ExpressionKind::String
-            | ExpressionKind::GroupItems(_)
-            | ExpressionKind::Missing => None,
-        };
-        if name.is_some_and(|name| formula.named(name).is_some()) {
-            return Some(expression.span);
-        }
-    }
-    None
 }

@@ -134,7 +134,15 @@ impl Evaluator<'_> {
     ) -> Rc<Unit> {
         let (text, foreign) = decode(bytes);
         let id = self.sources.add(Source::new(name, text));
-        if foreign && self.options.dialect == crate::scene::Dialect::Scene {
+        let options = ParseOptions {
+            dialect: self.options.dialect,
+            nesting_limit: self.options.limits.nesting as usize,
+        };
+        let mut told = Diagnostics::new(true);
+        let ast = syntax::parse(self.sources.get(id), id, &options, &mut told);
+        let is_scene = self.options.dialect == crate::scene::Dialect::Scene;
+        let text = &self.sources.get(id).text;
+        if foreign && is_scene && !ast.is_ascii_but_for_comments(text) {
             let diagnostic = Diagnostic::new(
                 Code::BadEncoding,
                 format!("`{name}` is not UTF-8, and was read as Latin-1"),
@@ -142,12 +150,6 @@ impl Evaluator<'_> {
             .at(span, "included here");
             self.report(here, diagnostic);
         }
-        let options = ParseOptions {
-            dialect: self.options.dialect,
-            nesting_limit: self.options.limits.nesting as usize,
-        };
-        let mut told = Diagnostics::new(true);
-        let ast = syntax::parse(self.sources.get(id), id, &options, &mut told);
         // How it came to be read, from the main file on.
         if !told.is_empty() {
             let (expansions, kind) = (&mut self.scene.expansions, ExpansionKind::Include);

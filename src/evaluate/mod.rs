@@ -5,6 +5,7 @@
 //! whoever needs the next item asks the stream for it, and directives, macro calls and includes
 //! run in place, wherever they stand.
 
+mod argument;
 mod array;
 mod block;
 mod builtin;

@@ -10,6 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::vocabulary::Word;
 
+use super::argument::Refused;
 use super::block::Unknown;
 use super::{Evaluator, Here, Reported, Symbol};
 
@@ -31,6 +32,8 @@ pub(super) struct Remembered {
     /// `None` where nothing is to be said.
     pub undeclared: HashMap<(Span, Symbol), Option<Rc<Diagnostic>>>,
     near: HashMap<(Span, Asked), Option<&'static str>>,
+    /// By call, what its macro could not use.
+    pub refused: HashMap<Span, Refused>,
     /// The file that was last not found at a place.
     pub missing: HashMap<Span, (String, Rc<Diagnostic>)>,
 }

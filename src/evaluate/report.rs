@@ -63,6 +63,9 @@ impl Evaluator<'_> {
         found: &Value,
         help: Option<String>,
     ) -> Reported {
+        if self.is_refused_again(here, span, found) {
+            return Reported;
+        }
         let text = self.sources.text(span).to_owned();
         let name = self.scopes.symbol(&text);
         let subject = if name.is_some() { format!("`{text}`") } else { "this".to_owned() };
@@ -95,6 +98,16 @@ impl Evaluator<'_> {
         };
         if let Some(meant) = meant {
             diagnostic = diagnostic.help(meant);
+        }
+        if let Value::String(found) = found
+            && wanted.starts_with("a number")
+            && text.starts_with('"')
+            && let Ok(number) = found.trim().parse::<f64>()
+        {
+            let number = number.to_string();
+            diagnostic = diagnostic
+                .help(format!("a number stands without quotes: `{number}`"))
+                .fix(span, number);
         }
         if let Value::String(found) = found
             && let Some(shown) = color_of_string(found)

@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{ExpansionKind, FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
+use crate::vocabulary::{Family, Role, Word, standard_include_of, standard_names};
 
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
@@ -140,6 +140,11 @@ impl Evaluator<'_> {
                 .at(span, "not declared up to here")
                 .help(format!("`{name}` comes with `#include \"{include}\"`"));
             diagnostic = self.include_before(here, diagnostic, &include);
+        } else if let Some(word) = self.item_like(name, span) {
+            diagnostic = diagnostic
+                .at(span, "not declared, and not a word of the language")
+                .help(format!("did you mean `{word}`?"))
+                .fix(span, word);
         } else if let Some((close, later)) = here.unit.similar_declaration(name) {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
@@ -172,6 +177,21 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.at(span, "not declared up to here");
         }
         Some(diagnostic)
+    }
+
+    /// The word of the language that begins an item, with a value behind it, as `name` does here: `rotae -z*30`.
+    fn item_like(&self, name: &str, span: Span) -> Option<&'static str> {
+        let text = &self.sources.get(span.file).text;
+        let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
+        let begins = |c: char| c.is_alphanumeric() || "{}>)\"_".contains(c);
+        let has_value = |c: char| c.is_ascii_digit() || "<-.xyz".contains(c);
+        let stands_alone = name.starts_with(char::is_lowercase)
+            && before.trim_end().ends_with(begins)
+            && after.starts_with([' ', '\t'])
+            && after.trim_start().starts_with(has_value);
+        let fits =
+            |word: Word| word.role() == Role::Statement && word.family() != Family::Directive;
+        word_like(name, fits).filter(|_| stands_alone)
     }
 
     /// A macro that has a parameter of this name, and the parameter's place.

@@ -7,6 +7,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
+use super::stream::TokenKind;
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
@@ -22,9 +23,20 @@ impl Evaluator<'_> {
         let mut failed = false;
         let mut poison = None;
         for argument in arguments {
-            let Argument::Expression(id) = *argument else {
-                failed = true;
-                continue;
+            let id = match *argument {
+                Argument::Expression(id) => id,
+                Argument::Items(items) => {
+                    match self.inside(here, items, |evaluator| evaluator.components(here, span)) {
+                        Ok(found) => found.into_iter().for_each(|number| {
+                            if let Some(slot) = numbers.get_mut(count) {
+                                *slot = number;
+                            }
+                            count += 1;
+                        }),
+                        Err(Reported) => failed = true,
+                    }
+                    continue;
+                }
             };
             let value = match self.plain_number(here, id) {
                 Some(number) => Ok(Value::Number(number)),
@@ -78,6 +90,24 @@ impl Evaluator<'_> {
                     .at(span, "too many components")
                     .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
                 Err(self.report(here, diagnostic))
+            }
+        }
+    }
+
+    /// The numbers that the items of directives in a vector leave.
+    fn components(&mut self, here: &Here, span: Span) -> Outcome<Vec<f64>> {
+        let mut numbers = Vec::new();
+        loop {
+            match self.peek().map(|next| (next.kind.clone(), next.here.clone(), next.span)) {
+                None => return Ok(numbers),
+                Some((TokenKind::Comma, ..)) => drop(self.next()),
+                Some((_, here_of_it, place)) => {
+                    let value = self.value_or(here, span)?;
+                    numbers.push(self.as_number(&here_of_it, place, &value, "a number")?);
+                }
+            }
+            if numbers.len() > 5 {
+                return Ok(numbers);
             }
         }
     }

@@ -175,7 +175,7 @@ impl Words {
         let Some((target, site)) = self.look_at else { return Ok(()) };
         let Some(forward) = (target - self.location).normalized() else {
             let fault = degenerate(
-                "this camera looks at the point where it stands",
+                "this camera stands at the same point that it looks at",
                 "expected another point than `location`",
             );
             return Err((fault, site));

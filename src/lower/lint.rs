@@ -47,6 +47,9 @@ impl Lowering<'_, '_> {
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();
         if world.objects.is_empty() && empty_sky {
+            if self.tells_why_empty() {
+                return;
+            }
             let message = "the scene shows nothing: no object, no background, no sky";
             self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
@@ -66,6 +69,19 @@ impl Lowering<'_, '_> {
             }
             self.lint_pigment();
         }
+    }
+
+    /// Whether it was told that an object is never placed, or a macro never called: the scene is empty by that.
+    fn tells_why_empty(&self) -> bool {
+        let macros = self.scene.unused.iter().filter(|(what, _)| what.starts_with("#macro"));
+        let macros: Vec<_> = macros.map(|(_, site)| site.span).collect();
+        self.reporter.diagnostics.iter().any(|told| match told.code {
+            Code::NeverPlaced => true,
+            Code::UnusedDeclaration => {
+                told.primary().is_some_and(|label| macros.contains(&label.span))
+            }
+            _ => false,
+        })
     }
 
     /// Objects that are black because nothing gives them a colour.

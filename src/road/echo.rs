@@ -180,7 +180,9 @@ impl<'a> Statements<'a> {
             .iter()
             .rev()
             .take_while(|item| self.indent(item.span.start).is_none_or(|indent| indent > own));
-        inner.last().map_or(fault.start, |item| item.span.start)
+        // A block belongs to the word before it, however far in that is.
+        let begins = |item: &&Item| self.indent(item.span.start).is_some();
+        inner.filter(begins).last().map_or(fault.start, |item| item.span.start)
     }
 
     /// How far in a place stands that begins its line.

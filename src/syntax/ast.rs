@@ -303,6 +303,15 @@ pub enum Body {
 }
 
 impl Ast {
+    /// Whether every character of `text`, which it is the tree of, that is not ASCII stands in a comment.
+    pub fn is_ascii_but_for_comments(&self, text: &str) -> bool {
+        let in_comment = |at: usize| {
+            let after = self.comments.partition_point(|span| span.start as usize <= at);
+            after.checked_sub(1).is_some_and(|last| self.comments[last].range().contains(&at))
+        };
+        text.char_indices().all(|(at, c)| c.is_ascii() || in_comment(at))
+    }
+
     pub fn items(&self, items: Items) -> &[Item] {
         &self.items[items.range()]
     }

@@ -2,9 +2,13 @@
 
 use super::ast::{Argument, Callee, ExpressionId, ExpressionKind, Item, ItemKind};
 use super::nest::{Frame, FrameKind, Nest, State};
-use super::token::{Bracket, Head, TokenKind};
+use super::token::{Bracket, Head, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::vocabulary::Role;
+
+/// How many tokens of a vector are looked at, from a directive in it on.
+const LONGEST_VECTOR: usize = 64;
 
 impl<'a> Nest<'a> {
     pub(super) fn open_bracket(&mut self, bracket: Bracket, span: Span) {
@@ -207,8 +211,52 @@ impl<'a> Nest<'a> {
         self.open(FrameKind::Vector, span, false);
     }
 
+    /// Whether the directive reached stands among the components of a vector that goes on behind its `#end`:
+    /// `<#if (A) 1 #else 2 #end, 0, 0>`.
+    pub(super) fn is_within_vector(&mut self) -> bool {
+        if !self.in_vector() {
+            return false;
+        }
+        let (mut directives, mut parentheses) = (0_usize, 0_usize);
+        for token in self.tokens[self.at..].iter().take(LONGEST_VECTOR) {
+            match token.kind {
+                TokenKind::Directive(Head::End) if directives == 0 => return false,
+                TokenKind::Directive(Head::End) => directives -= 1,
+                TokenKind::Directive(head) if head.opens() => directives += 1,
+                TokenKind::Directive(head) if head.divides() && directives > 0 => {}
+                TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
+                TokenKind::Mark(Mark::Close(Bracket::Round)) => {
+                    parentheses = parentheses.saturating_sub(1);
+                }
+                TokenKind::Mark(Mark::Greater) if directives + parentheses == 0 => return true,
+                TokenKind::Mark(
+                    Mark::Semicolon | Mark::Open(Bracket::Brace) | Mark::Close(Bracket::Brace),
+                ) => return false,
+                TokenKind::Word(word) if word.role() == Role::Statement => return false,
+                TokenKind::Mark(_)
+                | TokenKind::Word(_)
+                | TokenKind::Name
+                | TokenKind::Number
+                | TokenKind::Numbers
+                | TokenKind::String => {}
+                _ => return false,
+            }
+        }
+        false
+    }
+
+    /// What directives leave among the components of a vector is read when they run.
+    pub(super) fn end_directives_in_vector(&mut self) {
+        let base = self.top().items;
+        if self.items.len() > base {
+            let items = self.take_items(base);
+            self.arguments.push(Argument::Items(items));
+        }
+    }
+
     pub(super) fn close_vector(&mut self, span: Span) {
         let base = self.top().arguments;
+        self.end_directives_in_vector();
         // A comma may stand before the `>`.
         if self.top().state == State::Idle && self.arguments.len() == base {
             self.missing_before(span, "a component");
@@ -227,6 +275,7 @@ impl<'a> Nest<'a> {
                 self.operand(ExpressionKind::Missing, Span { end: before.start, ..before }, false);
             }
             self.finish_expression();
+            self.end_directives_in_vector();
             let Some(frame) = self.pop() else { return };
             // `<-1, 0, -1, <1, 2, 1>`: the second one is no component of the first.
             let in_vector = self.in_vector();

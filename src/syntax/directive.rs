@@ -188,6 +188,7 @@ impl<'a> Nest<'a> {
                 *open = Some(kind);
             }
         } else {
+            self.orphaned |= self.body().is_none();
             self.stray_directive(at, "a `#switch`");
         }
     }
@@ -212,6 +213,9 @@ impl<'a> Nest<'a> {
     pub(super) fn end_directive(&mut self, end: Span) {
         let base = self.top().items;
         if self.body().is_none() {
+            if std::mem::take(&mut self.orphaned) {
+                return;
+            }
             return self.stray_directive(end, "a directive that it could end");
         }
         self.close_case_of_switch(base);

@@ -9,7 +9,7 @@ use super::ast::{
 use super::directive::Body;
 use super::nest::{Frame, FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::vocabulary::{Role, Word};
 
@@ -216,9 +216,7 @@ impl<'a> Nest<'a> {
                 Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: None })
             }
             [_, Item { kind: ItemKind::Expression(file), span }, ..] => {
-                let message = "`#fopen` takes a handle, a file name and a mode";
-                let label = "expected `read`, `write` or `append` after this";
-                self.expected_in_head(*span, message, label);
+                self.no_mode(*span);
                 Some(DirectiveKind::Fopen { name, name_span, file: *file, mode: None })
             }
             _ => {
@@ -231,6 +229,36 @@ impl<'a> Nest<'a> {
                 None
             }
         }
+    }
+
+    /// `#fopen F "a.txt" w`: what stands behind the file's name is no mode.
+    fn no_mode(&mut self, file: Span) {
+        let message = "`#fopen` takes a handle, a file name and a mode";
+        let behind = self.tokens.get(self.at).map(|next| self.span(*next)).filter(|next| {
+            let gap = self.slice(Span { start: file.end, end: next.start, ..file });
+            let starts = |c: char| c.is_ascii_alphabetic();
+            !gap.contains(['\n', '\r']) && self.slice(*next).starts_with(starts)
+        });
+        let Some(behind) = behind else {
+            let label = "expected `read`, `write` or `append` after this";
+            return self.expected_in_head(file, message, label);
+        };
+        let mut diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(behind, "expected `read`, `write` or `append`");
+        let theirs = self.slice(behind).to_lowercase();
+        let meant = match theirs.as_str() {
+            "input" | "in" | "load" => Some("read"),
+            "output" | "out" | "save" | "create" => Some("write"),
+            theirs => {
+                let modes = ["read", "write", "append"];
+                let first = modes.into_iter().find(|mode| mode.starts_with(theirs));
+                first.or_else(|| suggest::closest(theirs, modes))
+            }
+        };
+        if let Some(meant) = meant {
+            diagnostic = diagnostic.help(format!("replace it with `{meant}`")).fix(behind, meant);
+        }
+        self.report(diagnostic);
     }
 
     pub(super) fn open_macro(&mut self, head: ExpressionId, open: Span) {

@@ -38,10 +38,39 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
         tokens.splice(body, [Token { kind: TokenKind::Raw, start, end }]);
     }
     // A brace in a branch that need not be run may be loose already, and still be what another waits for.
-    if !pairs(&tokens) && !loosen_across(&mut tokens, text, false) {
-        loosen_across(&mut tokens, text, true);
+    if !pairs(&tokens)
+        && !loosen_across(&mut tokens, text, false)
+        && !loosen_across(&mut tokens, text, true)
+        && pairs_on_both_paths(&tokens)
+        && let Some(loose) = loose_braces(&tokens)
+    {
+        mark(&mut tokens, &loose);
     }
     tokens
+}
+
+/// Whether the text outside of macros pairs where all first branches are run and where all others are:
+/// `#if (A) union { #else merge { #end … }`.
+fn pairs_on_both_paths(tokens: &[Token]) -> bool {
+    let [mut first, mut otherwise] = [Effect::default(); 2];
+    let mut branches = Branches::default();
+    for &token in tokens {
+        branches.turn(token);
+        let effect = match token.kind {
+            OPEN => OPENS,
+            CLOSE => CLOSES,
+            _ => continue,
+        };
+        if branches.on_first() {
+            first.then(effect);
+        }
+        if branches.on_otherwise() {
+            otherwise.then(effect);
+        }
+    }
+    let whole = Effect::default();
+    let ends = macros(tokens).iter().all(|body| pairs(&tokens[body.clone()]));
+    branches.0.is_empty() && ends && first == whole && otherwise == whole
 }
 
 fn mark(tokens: &mut [Token], loose: &[usize]) {

@@ -181,10 +181,12 @@ impl<'a> Nest<'a> {
         let idle = self.top().state == State::Idle;
         match self.top().kind {
             FrameKind::Vector => {
-                if idle {
+                let base = self.top().items;
+                if idle && self.items.len() == base {
                     self.missing_before(span, "a component");
                 }
                 self.finish_expression();
+                self.end_directives_in_vector();
             }
             FrameKind::Call(_) | FrameKind::List(..) => {
                 let empty = self.items.len() == self.frames[self.frames.len() - 1].items;

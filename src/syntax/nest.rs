@@ -92,6 +92,8 @@ pub(super) struct Nest<'a> {
     pub items: Vec<Item>,
     pub arguments: Vec<Argument>,
     pub stacks: Stacks,
+    /// A branch without its directive was told: the `#end` behind it is part of that.
+    pub orphaned: bool,
     /// The tokens end before the text does, which has been told.
     pub ends_early: bool,
     /// The text was given up at a limit: what is open now is no mistake of the author's.
@@ -135,6 +137,7 @@ pub(super) fn nest<'a>(
         items: Vec::new(),
         arguments: Vec::new(),
         stacks: Stacks::default(),
+        orphaned: false,
         ends_early: cut,
         cut: false,
     };
@@ -254,7 +257,9 @@ impl<'a> Nest<'a> {
             TokenKind::Numbers | TokenKind::Vectors => self.run(token),
             TokenKind::Mark(mark) => self.mark(mark, token),
             TokenKind::Directive(head) => {
-                self.leave_vectors(span);
+                if !self.is_within_vector() {
+                    self.leave_vectors(span);
+                }
                 self.finish_expression();
                 self.directive(head, span);
             }
@@ -313,6 +318,7 @@ impl<'a> Nest<'a> {
             id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);
         }
         if self.in_vector() {
+            self.end_directives_in_vector();
             self.arguments.push(Argument::Expression(id));
         } else {
             let span = self.ast.expression(id).span;

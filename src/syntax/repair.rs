@@ -8,9 +8,11 @@ use std::collections::{HashMap, HashSet};
 
 mod blame;
 mod ends;
+mod opener;
 mod outside;
 
 use self::ends::match_directives;
+use self::opener::open_missing;
 use self::outside::Outside;
 use super::balance::{Opener, Turn, turn};
 use super::layout::Layout;
@@ -28,15 +30,12 @@ pub(super) fn repair(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Token> {
+    let braces = |tokens: &[Token]| surplus(tokens)[Bracket::Brace as usize];
+    let tokens = match braces(&tokens) < 0 {
+        true => open_missing(tokens, file, diagnostics),
+        false => tokens,
+    };
     let layout = Layout::of(&tokens, text);
-    let mut surplus = [0; 3];
-    for token in &tokens {
-        match turn(token.kind) {
-            Some(Turn::Open(Opener::Bracket(bracket))) => surplus[bracket as usize] += 1,
-            Some(Turn::Close(Opener::Bracket(bracket))) => surplus[bracket as usize] -= 1,
-            Some(_) | None => {}
-        }
-    }
     let openers = match_directives(&tokens, &layout);
     let ended = openers.values().copied().collect();
     let repair = Repair {
@@ -46,7 +45,7 @@ pub(super) fn repair(
         layout,
         openers,
         ended,
-        surplus,
+        surplus: surplus(&tokens),
         owed: [0; 3],
         open: Vec::new(),
         inserted: Vec::new(),
@@ -55,6 +54,19 @@ pub(super) fn repair(
         diagnostics,
     };
     repair.run()
+}
+
+/// Openers less closers, of each bracket.
+fn surplus(tokens: &[Token]) -> [i32; 3] {
+    let mut surplus = [0; 3];
+    for token in tokens {
+        match turn(token.kind) {
+            Some(Turn::Open(Opener::Bracket(bracket))) => surplus[bracket as usize] += 1,
+            Some(Turn::Close(Opener::Bracket(bracket))) => surplus[bracket as usize] -= 1,
+            Some(_) | None => {}
+        }
+    }
+    surplus
 }
 
 struct Open {

@@ -106,7 +106,7 @@ const SAID: &[(&str, &[&str])] = &[
     ),
     (
         "camera { location x look_at x }",
-        &["error degenerate-camera: this camera looks at the point where it stands"],
+        &["error degenerate-camera: this camera stands at the same point that it looks at"],
     ),
     (
         "camera { location 5*y look_at 0 sky y right y }",

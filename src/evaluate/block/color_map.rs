@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::ColorMap;
 use crate::source::Site;
 use crate::syntax::ast::ExpressionKind;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::lint::Rise;
 use super::super::stream::{Token, TokenKind};
@@ -128,12 +128,15 @@ impl Evaluator<'_> {
                 let first = self.written_color_after(token, "a colour")?.value;
                 let piece = self.joined(number, self.taken.unwrap_or(number));
                 let last = self.written_color_after(token, "a second colour")?.value;
-                self.lint_legacy(
-                    &token.here,
-                    token.span,
-                    "an entry with two values is an old form",
-                    "write two entries, one for each value",
-                );
+                // POV-Ray's manual has it as a form of today.
+                if self.options.dialect == Dialect::Scene {
+                    self.lint_legacy(
+                        &token.here,
+                        token.span,
+                        "an entry with two values is an old form",
+                        "write two entries, one for each value",
+                    );
+                }
                 let piece = Some(piece).filter(|_| !last.bare);
                 (vec![(from, first), (to, last)], piece)
             }

@@ -16,7 +16,8 @@ use super::Place;
 impl Evaluator<'_> {
     /// `function { … }` first, then the other items, in any order.
     pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
-        let function = self.function_part(token)?;
+        // What follows is read for its own mistakes.
+        let function = self.function_part(token);
         let mut container = None;
         let (mut threshold, mut accuracy, mut open) = (0.0, 0.001, false);
         let mut failed = false;
@@ -55,6 +56,7 @@ impl Evaluator<'_> {
         if failed {
             return Err(Reported);
         }
+        let function = function?;
         let container = container.unwrap_or(Container::DEFAULT);
         Ok(Solid::Isosurface { function, container, threshold, accuracy, open })
     }

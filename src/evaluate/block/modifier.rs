@@ -58,6 +58,12 @@ impl Evaluator<'_> {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
                         self.unexpected(&token, place());
+                        // Behind an object by a misspelt word others may follow.
+                        if word.family() == Family::Csg
+                            && matches!(token.kind, TokenKind::Expression(_))
+                        {
+                            self.children();
+                        }
                         let harmless =
                             matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
                         failed |= !harmless && before.is_none() && self.poison.is_none();

@@ -92,7 +92,7 @@ impl Evaluator<'_> {
                 None => parts(evaluator, token),
             };
             if kind.is_err() {
-                evaluator.skip_parts();
+                evaluator.skip_shape_parts();
             }
             modifiers.extend(evaluator.paint_of_file());
             let used = match kind {

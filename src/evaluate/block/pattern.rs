@@ -14,6 +14,7 @@ impl Evaluator<'_> {
     /// `pattern { … }`, after its word: a pigment whose red is the pattern's value.
     pub(in crate::evaluate) fn pattern_block(&mut self, token: &Token) -> Outcome<PigmentId> {
         let (mut found, mut transforms) = (None, Vec::new());
+        let told = self.reports;
         self.block(token, Word::Pattern, |evaluator| {
             while let Some(token) = evaluator.next() {
                 if let Some(transform) = evaluator.transform_from(&token) {
@@ -37,7 +38,7 @@ impl Evaluator<'_> {
         })?;
         let site = token.here.site(token.span);
         let Some(pattern) = found else {
-            if self.poison.is_some() {
+            if self.poison.is_some() || self.reports > told {
                 return Err(Reported);
             }
             let diagnostic = Diagnostic::new(Code::MissingPart, "this `pattern` names none")

@@ -157,6 +157,8 @@ impl Place {
             (None, Word::Floor) if has_block => Some(Word::Plane),
             (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
+            (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
+            (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),
             // As modellers call where an object is.
             (Some(_), Word::Location) if self.families.contains(&Family::Transform) => {
                 Some(Word::Translate)

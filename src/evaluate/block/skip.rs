@@ -81,6 +81,20 @@ impl Evaluator<'_> {
         self.take_back(before);
     }
 
+    /// As [`Self::skip_parts`], for what is left of a shape, with the words that only its parts are.
+    pub(super) fn skip_shape_parts(&mut self) {
+        self.skip_parts();
+        while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == Family::ShapeItem
+        {
+            let before = self.told();
+            self.next();
+            self.skip_arguments(word);
+            self.take_back(before);
+            self.skip_parts();
+        }
+    }
+
     /// The name that an expression is, where it was never declared.
     #[inline]
     pub(in crate::evaluate) fn unknown_name(

@@ -158,7 +158,8 @@ impl Evaluator<'_> {
         if base.value != cap.value {
             return Ok(());
         }
-        let message = format!("a {name} whose ends are in one place is nothing");
+        let message =
+            format!("a {name} whose ends are the same point has no length, and is nothing");
         let diagnostic = Diagnostic::new(self.sizeless(), message)
             .at(cap.span, "expected another place")
             .also(base.span, "the base");

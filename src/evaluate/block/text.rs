@@ -11,7 +11,7 @@ use crate::source::{FileError, FileId};
 use crate::vocabulary::Word;
 
 use super::super::include::missing_file;
-use super::super::stream::Token;
+use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
 use super::named::NamedFile;
@@ -27,6 +27,12 @@ impl Evaluator<'_> {
     pub(super) fn text(&mut self, token: &Token) -> Outcome<Solid> {
         let font = self.font()?;
         let wanted = "a string: what is written";
+        if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek().cloned()
+            && let Some(reported) = self.lacks_quotes(&here, id)
+        {
+            self.next();
+            return Err(reported);
+        }
         let given = self.given(token, wanted)?;
         let Value::String(string) = &given.value else {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));

@@ -12,7 +12,7 @@ use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Reported};
 use super::Place;
 use super::place::{home, is_at_top_level};
-use super::unknown::is_transform;
+use super::unknown::{is_transform, told_directive};
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
@@ -73,7 +73,10 @@ impl Evaluator<'_> {
                                     self.near(span, Asked::Call, || suggest::closest(&text, words));
                                 match near.filter(|near| is_built(near)) {
                                     Some(_) => self.unknown_word(token, span, place),
-                                    None => drop(self.undeclared(&token.here, symbol, span)),
+                                    None => match told_directive(&text, span, place) {
+                                        Some(told) => drop(self.report(&token.here, told)),
+                                        None => drop(self.undeclared(&token.here, symbol, span)),
+                                    },
                                 }
                             }
                             None => {

@@ -63,6 +63,11 @@ impl Evaluator<'_> {
             return;
         }
         self.skip_values();
+        while place.word.is_none()
+            && matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Entry(_)))
+        {
+            self.next();
+        }
         if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
             self.skip_color(token);
         }
@@ -342,7 +347,7 @@ pub(in crate::evaluate) enum Unknown {
 }
 
 /// What to say of a directive as another language writes it.
-fn told_directive(name: &str, span: Span, place: Place) -> Option<Diagnostic> {
+pub(super) fn told_directive(name: &str, span: Span, place: Place) -> Option<Diagnostic> {
     let is_directive =
         |ours: &&str| Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive);
     let ours = suggest::foreign(name).find(is_directive)?;

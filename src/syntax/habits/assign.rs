@@ -30,6 +30,15 @@ impl Reader<'_> {
             .at(span, "not a word of the language")
             .help("replace it with `#declare`")
             .fix(span, "#declare");
+            // `vec3 A = vec3(1, 2, 3)`
+            let made = self.makes_vector(3).map(|close| (self.span(3, 4), self.span(close, close)));
+            let diagnostic = match made {
+                Some((open, close)) => {
+                    self.made = Some(self.at + 3);
+                    diagnostic.fix(open, "<").fix(close, ">")
+                }
+                None => diagnostic,
+            };
             self.diagnostics.push(diagnostic);
             meant.push(Token { kind: TokenKind::Directive(Head::Declare), ..self.tokens[self.at] });
             self.at += 1;
@@ -169,6 +178,15 @@ impl Reader<'_> {
         )
         .at(self.span(1, 2), "no value is changed in place")
         .help(format!("write `#declare {name} = {name} {operator} {change};`"));
+        // `#declare N = N++`
+        if steps && self.is_declared_as(meant, &name) {
+            let right = format!("{name} {operator} 1");
+            let diagnostic = diagnostic.fix(self.span(0, 2), right);
+            self.diagnostics.push(diagnostic);
+            meant.push(self.tokens[self.at]);
+            self.at += 3;
+            return true;
+        }
         self.diagnostics.push(diagnostic);
         // Read as `#declare A = A + …`, with the `#declare` that may stand before it.
         let token = |kind| Token { kind, ..self.tokens[self.at] };
@@ -188,6 +206,14 @@ impl Reader<'_> {
         }
         self.at += 3;
         true
+    }
+
+    /// Whether what stands before is `#declare name =`.
+    fn is_declared_as(&self, meant: &[Token], name: &str) -> bool {
+        let [.., head, declared, equal] = meant else { return false };
+        matches!(head.kind, TokenKind::Directive(Head::Declare | Head::Local))
+            && equal.kind == TokenKind::Mark(Mark::Equal)
+            && self.text.get(declared.start as usize..declared.end as usize) == Some(name)
     }
 
     /// `==`, `&&`, `||`, `**`.

@@ -59,7 +59,10 @@ impl Reader<'_> {
         let sample = if certain { None } else { sample(head, &name) };
         let diagnostic = match signed {
             true => {
-                let message = "`#for` takes a name, a start and an end, with commas between them";
+                let message = match round {
+                    true => "`#for` takes a name, a start and an end, with commas between them",
+                    false => "`#for` takes a name, a start and an end, in parentheses with commas",
+                };
                 let told = Diagnostic::new(Code::ExpectedExpression, message);
                 // `#for (I = 0, 3)`: all but one sign is right.
                 let sign = round && certain && self.is(from + 1, Mark::Equal);

@@ -298,7 +298,7 @@ impl Reader<'_> {
         let mut diagnostic = if theirs == word {
             let (at, label) = match colon {
                 true => (place, "expected `=`"),
-                false => (self.span(1, 1), "expected `=` after this"),
+                false => (place, "expected `=` here"),
             };
             let message = format!("`#{word}` gives a name its value by `=`");
             let name = self.slice(1);

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::Word;
 
@@ -39,6 +40,11 @@ impl Reader<'_> {
         }
         let span = self.span(0, end - 1);
         let name = self.text.get(span.range()).unwrap_or("").to_owned();
+        let declared = meant.last().is_some_and(|l| matches!(l.kind, TokenKind::Directive(_)))
+            || self.foreign.contains_key(&name);
+        if let Some(known) = likeness(&name).filter(|known| !declared && self.is_known(known)) {
+            return self.alike(meant, span, known, end);
+        }
         let plain = ascii(&name).filter(|plain| self.is_free(plain));
         match (self.foreign.get_mut(&name), &plain) {
             (Some(told), Some(plain)) => told.fixes.push(Fix { span, text: plain.clone() }),
@@ -65,6 +71,28 @@ impl Reader<'_> {
         };
         meant.push(Token { kind, end: span.end, ..place });
         self.at += end;
+        true
+    }
+
+    /// Whether a name stands in this file, or is a word of the language.
+    fn is_known(&self, name: &str) -> bool {
+        Word::from_name(name).is_some() || !self.is_free(name)
+    }
+
+    /// `Bаse`, with a Cyrillic `а`, where `Base` is known: that is meant.
+    fn alike(&mut self, meant: &mut Vec<Token>, span: Span, known: String, used: usize) -> bool {
+        let name = self.text.get(span.range()).unwrap_or("");
+        let message =
+            format!("`{name}` is not `{known}`: a letter of another alphabet looks alike");
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(span, "a letter beyond ASCII stands in it")
+            .help(format!("replace it with `{known}`"))
+            .fix(span, known.clone());
+        self.diagnostics.push(diagnostic);
+        // What a name stands for is not known here: any value does.
+        let word = Word::from_name(&known).unwrap_or(Word::Yes);
+        meant.push(Token { kind: TokenKind::Word(word), end: span.end, ..self.tokens[self.at] });
+        self.at += used;
         true
     }
 
@@ -205,6 +233,20 @@ fn mark(text: &str) -> Option<Mark> {
         "[" => Mark::Open(Bracket::Square),
         "]" => Mark::Close(Bracket::Square),
         _ => return None,
+    })
+}
+
+/// A name whose letters of other alphabets look like letters that names are written with, in those.
+fn likeness(name: &str) -> Option<String> {
+    const ALIKE: &str =
+        "аaеeоoрpсcхxуyіiѕsјjһhԁdАAВBЕEКKМMНHОOРPСCТTХXУYІIЅSαaοoνvρpΑAΒBΕEΖZΗHΙIΚKΜMΝNΟOΡPΤTΥYΧX";
+    let alike = |c: char| match c.is_ascii() {
+        true => Some(c),
+        false => ALIKE.chars().skip_while(|other| *other != c).nth(1),
+    };
+    let plain: Option<String> = name.chars().map(alike).collect();
+    plain.filter(|plain| {
+        plain != name && plain.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
     })
 }
 

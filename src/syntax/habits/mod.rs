@@ -6,9 +6,10 @@
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
 
 use std::cell::OnceCell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 mod assign;
+mod called;
 mod counting;
 mod head;
 mod letter;
@@ -40,6 +41,8 @@ pub(super) fn translate(
         file,
         inside: Vec::new(),
         dropped: HashMap::new(),
+        ends_before: HashSet::new(),
+        made: None,
         closers: OnceCell::new(),
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
@@ -53,6 +56,10 @@ pub(super) fn translate(
         if !reader.habit(&mut meant) {
             reader.take(&mut meant);
         }
+    }
+    let end = tokens.last().map_or(0, |last| last.end);
+    for _ in reader.ends_before.drain() {
+        meant.push(Token { kind: TokenKind::Directive(Head::End), start: end, end });
     }
     while let Some(inside) = reader.inside.pop() {
         reader.leave(inside);
@@ -73,6 +80,10 @@ struct Reader<'a> {
     inside: Vec<Inside>,
     /// Tokens to be left out, such as the braces of a directive's body; and whether each is meant as `#end`.
     dropped: HashMap<usize, bool>,
+    /// Tokens before which an `#end` is meant.
+    ends_before: HashSet<usize>,
+    /// The call that makes a vector, as has been told with its declaration.
+    made: Option<usize>,
     /// Where the bracket that opens at a token closes.
     closers: OnceCell<HashMap<usize, usize>>,
     /// How many directives lack their `#end`.
@@ -130,6 +141,9 @@ impl Reader<'_> {
 
     /// Takes a habit that starts here, if one does.
     fn habit(&mut self, meant: &mut Vec<Token>) -> bool {
+        if !self.ends_before.is_empty() && self.ends_before.remove(&self.at) {
+            meant.push(Token { kind: TokenKind::Directive(Head::End), ..self.tokens[self.at] });
+        }
         if !self.dropped.is_empty() && self.dropped(meant) {
             return true;
         }
@@ -150,6 +164,7 @@ impl Reader<'_> {
             TokenKind::Word(word) => {
                 self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
+                    || (word == Word::Function && self.definer(meant))
                     || self.head_without_hash(word, meant)
                     || self.empty_parentheses(word, meant)
                     || self.part(meant)
@@ -158,6 +173,8 @@ impl Reader<'_> {
                 self.suffix(meant)
                     || self.parted_word(meant)
                     || self.declarer(meant)
+                    || self.definer(meant)
+                    || self.library(meant)
                     || self.returns()
                     || self.changes(meant)
                     || self.logic(meant)

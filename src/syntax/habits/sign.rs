@@ -56,24 +56,7 @@ impl Reader<'_> {
         if !fits || !(inside_brace || made || argument) || (made && bracket != Bracket::Round) {
             return false;
         }
-        // Numbers and commas, and nothing else.
-        let (mut close, mut commas, mut number) = (open + 1, 0, false);
-        loop {
-            match self.kind(close) {
-                Some(TokenKind::Number) if !number => number = true,
-                Some(TokenKind::Mark(Mark::Minus | Mark::Plus)) if !number => {}
-                Some(TokenKind::Mark(Mark::Comma)) if number => {
-                    commas += 1;
-                    number = false;
-                }
-                Some(TokenKind::Mark(Mark::Close(other))) if other == bracket && number => break,
-                _ => return false,
-            }
-            close += 1;
-        }
-        if !(1..=4).contains(&commas) {
-            return false;
-        }
+        let Some(close) = self.row(open, bracket) else { return false };
         let (first, last) = (self.span(0, open), self.span(close, close));
         let before = meant.len().checked_sub(2).map(|word| meant[word]);
         let moved = before.filter(|word| {
@@ -99,7 +82,12 @@ impl Reader<'_> {
                 .fix(first, "<")
                 .fix(last, ">")
         };
-        self.diagnostics.push(diagnostic);
+        if self.made != Some(self.at) || !made {
+            self.diagnostics.push(diagnostic);
+        }
+        if moved.is_some() {
+            self.drop_moved(close + 2);
+        }
         let sign =
             |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };
         meant.push(sign(open, Mark::Less));
@@ -107,6 +95,42 @@ impl Reader<'_> {
         meant.push(sign(close, Mark::Greater));
         self.at += close + 1;
         true
+    }
+
+    /// `cube([1, 2, 3]);` behind `translate([0, 0, 1])`: it belongs to that mistake.
+    fn drop_moved(&mut self, name: usize) {
+        let named = matches!(self.kind(name), Some(TokenKind::Name | TokenKind::Word(_)));
+        let Some(mut last) = self.closed(name + 1, Bracket::Round).filter(|_| named) else {
+            return;
+        };
+        last += usize::from(self.is(last + 1, Mark::Semicolon));
+        self.dropped.extend((name..=last).map(|ahead| (self.at + ahead, false)));
+    }
+
+    /// Where `vec3(1, 0, 0)` ends, if one stands at `ahead`.
+    pub(super) fn makes_vector(&self, ahead: usize) -> Option<usize> {
+        let made = self.kind(ahead) == Some(TokenKind::Name) && MAKERS.contains(&self.slice(ahead));
+        let open = made && self.is(ahead + 1, Mark::Open(Bracket::Round));
+        self.row(ahead + 1, Bracket::Round).filter(|_| open)
+    }
+
+    /// Where the bracket that opens at `open` closes, with two to five numbers in it and nothing else.
+    fn row(&self, open: usize, bracket: Bracket) -> Option<usize> {
+        let (mut close, mut commas, mut number) = (open + 1, 0, false);
+        loop {
+            match self.kind(close) {
+                Some(TokenKind::Number) if !number => number = true,
+                Some(TokenKind::Mark(Mark::Minus | Mark::Plus)) if !number => {}
+                Some(TokenKind::Mark(Mark::Comma)) if number => {
+                    commas += 1;
+                    number = false;
+                }
+                Some(TokenKind::Mark(Mark::Close(other))) if other == bracket && number => break,
+                _ => return None,
+            }
+            close += 1;
+        }
+        (1..=4).contains(&commas).then_some(close)
     }
 
     /// `and`, `or`, `not` inside parentheses.
@@ -159,6 +183,11 @@ impl Reader<'_> {
             (Some(TokenKind::Mark(Mark::Less)), Some(TokenKind::Mark(Mark::Greater))) => {
                 (Mark::NotEqual, "!=")
             }
+            (Some(TokenKind::Mark(Mark::Equal)), Some(TokenKind::Mark(Mark::Less)))
+                if !self.closes_vector(2) =>
+            {
+                (Mark::LessOrEqual, "<=")
+            }
             _ => return false,
         };
         let span = self.span(0, 1);
@@ -172,6 +201,16 @@ impl Reader<'_> {
         meant.push(Token { kind: TokenKind::Mark(mark), end: span.end, ..self.tokens[self.at] });
         self.at += 2;
         true
+    }
+
+    /// Whether a `>` stands before the parenthesis that closes next.
+    fn closes_vector(&self, from: usize) -> bool {
+        let rest = self.tokens.get(self.at + from..).unwrap_or_default();
+        let mut ends = rest.iter().map(|token| token.kind).filter(|kind| {
+            let close = TokenKind::Mark(Mark::Close(Bracket::Round));
+            *kind == close || *kind == TokenKind::Mark(Mark::Greater)
+        });
+        ends.next() == Some(TokenKind::Mark(Mark::Greater))
     }
 
     /// `#macro Leaf(S; T)`: arguments, which commas part.

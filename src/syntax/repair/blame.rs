@@ -15,7 +15,7 @@ impl Repair<'_> {
         let place = self.span(outside.map_or(at, |outside| outside.token));
         let shown = self.shown(open.token);
         let found = match self.text.get(place.range()).and_then(|text| text.lines().next()) {
-            None | Some("") => "the file ends first".to_owned(),
+            None | Some("") => "the end of the file".to_owned(),
             Some(text) => text.to_owned(),
         };
         let ends_file = at == self.tokens.len() && outside.is_none();
@@ -36,7 +36,7 @@ impl Repair<'_> {
             }
         };
         let label = match self.closed_by(at).filter(|_| outside.is_none()) {
-            _ if ends_file => found,
+            _ if ends_file => format!("the file ends first, without {expected}"),
             // "expected `}` before `}`" would tell nobody whose it is.
             Some(outer) if expected == format!("`{found}`") => {
                 format!("this closes {}: a {expected} is missing before it", self.shown(outer))

@@ -64,7 +64,13 @@ impl Repair<'_> {
                 let head = open.token.checked_sub(2).map(|head| self.tokens[head].kind);
                 let body =
                     head == Some(TokenKind::Directive(Head::Macro)) && self.begins_statement(at);
-                (ends || beside || body).then_some(true)
+                // `A[I pigment {`: the index of an element is a value.
+                let before = open.token.checked_sub(1).map(|before| self.tokens[before]);
+                let index = open.opener == Opener::Bracket(Bracket::Square)
+                    && before.is_some_and(|name| {
+                        name.kind == TokenKind::Name && name.end == self.tokens[open.token].start
+                    });
+                (ends || beside || body || index && self.begins_statement(at)).then_some(true)
             }
         }
     }

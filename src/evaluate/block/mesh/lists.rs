@@ -4,6 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::super::stream::{Token, TokenKind};
@@ -16,6 +17,8 @@ use super::is_degenerate;
 #[derive(Default)]
 struct Lists {
     vertices: Option<(Token, Vec<Vector>)>,
+    /// How many vertices are to come.
+    announced: usize,
     normals: Option<(Token, Vec<Vector>)>,
     uv_vectors: Option<(Token, Vec<Vector>)>,
     faces: Option<(Token, Vec<[f64; 3]>)>,
@@ -52,9 +55,17 @@ impl Evaluator<'_> {
             failed |= self.mesh2_list(&list, word, &mut lists).is_err();
         }
         if failed || self.poison.is_some() {
+            // Some vertices are missing: which faces are wrong beside that is certain all the same.
+            if let (None, Some((of_faces, faces)), 1..) =
+                (&lists.vertices, &lists.faces, lists.announced)
+            {
+                let _: Outcome<_> =
+                    self.as_indices(of_faces, faces, lists.announced, "vertex_vectors");
+            }
             return Err(Reported);
         }
-        let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, inside } = lists;
+        let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, inside, .. } =
+            lists;
         let missing = [
             vertices.is_none().then_some("vertex_vectors"),
             faces.is_none().then_some("face_indices"),
@@ -108,23 +119,24 @@ impl Evaluator<'_> {
         let vectors = |all: Vec<[f64; 3]>| all.into_iter().map(Vector::from_array).collect();
         match word {
             Word::VertexVectors => {
-                lists.vertices = Some((list.clone(), vectors(self.entries(list, word)?)));
+                let all = self.entries(list, word, &mut lists.announced)?;
+                lists.vertices = Some((list.clone(), vectors(all)));
             }
             Word::NormalVectors => {
-                lists.normals = Some((list.clone(), vectors(self.entries(list, word)?)));
+                lists.normals = Some((list.clone(), vectors(self.entries(list, word, &mut 0)?)));
             }
             Word::UvVectors => {
-                lists.uv_vectors = Some((list.clone(), vectors(self.entries(list, word)?)));
+                lists.uv_vectors = Some((list.clone(), vectors(self.entries(list, word, &mut 0)?)));
             }
             Word::FaceIndices if self.poison.is_some() => self.skip_arguments(word),
             Word::FaceIndices => {
-                lists.faces = Some((list.clone(), self.entries(list, word)?));
+                lists.faces = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
             Word::NormalIndices => {
-                lists.face_normals = Some((list.clone(), self.entries(list, word)?));
+                lists.face_normals = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
             Word::UvIndices => {
-                lists.face_uv = Some((list.clone(), self.entries(list, word)?));
+                lists.face_uv = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
             Word::TextureList => self.not_per_face(list, word),
             _ => return self.mesh_word(list, word, &mut lists.inside),
@@ -134,12 +146,18 @@ impl Evaluator<'_> {
 
     /// `{ count, <…>, <…>, … }`: that many vectors, each filled up with zeros to three numbers. There may
     /// be megabytes of them.
-    fn entries(&mut self, list: &Token, word: Word) -> Outcome<Vec<[f64; 3]>> {
+    fn entries(
+        &mut self,
+        list: &Token,
+        word: Word,
+        announced: &mut usize,
+    ) -> Outcome<Vec<[f64; 3]>> {
         let width = if word == Word::UvVectors { 2 } else { 3 };
         self.block(list, word, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
             // No more than memory could hold; a count that is none is told by what is missing.
             let wanted = count.value as u32 as usize;
+            *announced = wanted;
             let mut entries: Vec<[f64; 3]> = Vec::new();
             while entries.len() < wanted {
                 evaluator.take_run(width, wanted - entries.len(), &mut entries);
@@ -171,6 +189,7 @@ impl Evaluator<'_> {
             }
             evaluator.skip_commas();
             if let Some(next) = evaluator.next() {
+                *announced = 0;
                 let message = format!("`{}` has more than {wanted} entries", word.name());
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                     .at(next.span, "one too many")
@@ -197,10 +216,29 @@ impl Evaluator<'_> {
                 0 => format!("there are no `{of}`"),
                 _ => format!("`{of}` has entries 0 to {}", count - 1),
             };
-            let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(list.span, label);
+            let stray = [a, b, c].iter().position(|&index| !fits(index)).unwrap_or(0);
+            let place = self.place_in(list, indices.len(), face, stray).unwrap_or(list.span);
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(place, label);
             return Err(self.report(&list.here, diagnostic));
         }
         Ok(indices.iter().map(|all| all.map(|index| index as u32)).collect())
+    }
+
+    /// Where number `part` of entry `entry` is written, in a list of plain vectors.
+    fn place_in(&self, list: &Token, entries: usize, entry: usize, part: usize) -> Option<Span> {
+        let text = &self.sources.get(list.span.file).text;
+        let rest = text.get(list.span.range().end..)?;
+        let block = rest.get(..rest.find('}')?)?;
+        if block.contains(['#', '/']) || block.matches('<').count() != entries {
+            return None;
+        }
+        let (open, _) = block.match_indices('<').nth(entry)?;
+        let mut numbers = block[open + 1..].split('>').next()?.split(',');
+        let before: usize = numbers.by_ref().take(part).map(|number| number.len() + 1).sum();
+        let number = numbers.next()?;
+        let blank = number.len() - number.trim_start().len();
+        let start = list.span.range().end + open + 1 + before + blank;
+        Some(Span::new(list.span.file, start, start + number.trim().len()))
     }
 
     fn one_for_each(&mut self, list: &Token, found: usize, what: &str, of: usize) -> Outcome<()> {

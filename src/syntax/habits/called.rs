@@ -1,0 +1,110 @@
+//! What other languages define and call: `module leg(h) { … }`, `def ball(r):`, `Math.PI`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::{Role, Word};
+
+/// What defines a macro elsewhere.
+const DEFINERS: &[&str] = &["module", "def", "func", "fn", "proc", "sub", "function"];
+
+/// Where other languages keep their functions and constants.
+const LIBRARIES: &[&str] = &["Math", "math", "np", "numpy", "glm", "cmath", "std"];
+
+impl Reader<'_> {
+    /// `module leg(h) { … }`, `def ball(r):` up to a blank line, or as far as it is indented.
+    pub(super) fn definer(&mut self, meant: &mut Vec<Token>) -> bool {
+        let named = DEFINERS.contains(&self.slice(0))
+            && self.inside.is_empty()
+            && self.kind(1) == Some(TokenKind::Name)
+            && self.is(2, Mark::Open(Bracket::Round));
+        let Some(close) = self.closed(2, Bracket::Round).filter(|_| named) else { return false };
+        let is_parameter = |at: usize| {
+            matches!(self.kind(at), Some(TokenKind::Name | TokenKind::Word(_)))
+                || self.is(at, Mark::Comma)
+        };
+        let (colon, brace) =
+            (self.is(close + 1, Mark::Colon), self.is(close + 1, Mark::Open(Bracket::Brace)));
+        if !(3..close).all(is_parameter) || !(colon || brace) {
+            return false;
+        }
+        let (word, span) = (self.slice(0).to_owned(), self.span(0, 0));
+        let message = format!("`{word}` is not a word at the top level");
+        let mut diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(span, "did you mean `#macro`?")
+            .help(Word::Macro.sentence())
+            .fix(span, "#macro");
+        if brace {
+            diagnostic = self.braces(close + 1, diagnostic).0;
+        } else {
+            let end = self.body_end(close + 2);
+            let last = self.span(end - 1, end - 1);
+            diagnostic =
+                diagnostic.fix(self.span(close + 1, close + 1), "").fix(last.after(), "\n#end");
+            self.dropped.insert(self.at + close + 1, false);
+            self.ends_before.insert(self.at + end);
+        }
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Directive(Head::Macro), ..self.tokens[self.at] });
+        self.at += 1;
+        true
+    }
+
+    /// The first token at or behind `from` that no longer belongs to a body without a mark at its end.
+    fn body_end(&self, from: usize) -> usize {
+        let indent = |ahead: usize| {
+            let before = self.text.get(..self.tokens[self.at + ahead].start as usize)?;
+            let line = &before[before.rfind('\n').map_or(0, |at| at + 1)..];
+            line.chars().all(char::is_whitespace).then_some(line.len())
+        };
+        let mut indented = false;
+        let mut ahead = from;
+        while let Some(token) = self.tokens.get(self.at + ahead) {
+            let before = self.tokens[self.at + ahead - 1].end as usize;
+            let gap = self.text.get(before..token.start as usize).unwrap_or("");
+            let ends = match indent(ahead) {
+                Some(0) => indented || ahead > from && gap.matches('\n').count() > 1,
+                Some(_) => {
+                    indented = true;
+                    false
+                }
+                None => false,
+            };
+            if ends {
+                break;
+            }
+            ahead += 1;
+        }
+        ahead
+    }
+
+    /// `Math.PI`, `math.sqrt(2)`: what the language has by itself.
+    pub(super) fn library(&mut self, meant: &mut Vec<Token>) -> bool {
+        let called = LIBRARIES.contains(&self.slice(0))
+            && self.is(1, Mark::Dot)
+            && matches!(self.kind(2), Some(TokenKind::Name | TokenKind::Word(_)))
+            && self.touches(1)
+            && self.touches(2);
+        if !called {
+            return false;
+        }
+        let ours = self.slice(2).to_ascii_lowercase();
+        let Some(word) = Word::from_name(&ours).filter(|word| word.role() != Role::Statement)
+        else {
+            return false;
+        };
+        let span = self.span(0, 2);
+        let text = self.text.get(span.range()).unwrap_or("");
+        let message = format!("`{text}` is written `{ours}`");
+        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(span, "the language has it without a library")
+            .help(format!("replace it with `{ours}`"))
+            .fix(span, ours);
+        self.diagnostics.push(diagnostic);
+        let Span { start, end, .. } = span;
+        meant.push(Token { kind: TokenKind::Word(word), start, end });
+        self.at += 3;
+        true
+    }
+}

@@ -1,0 +1,112 @@
+//! Blocks whose `{` was left out, although their `}` is there: `pigment rgb 1 }`.
+//!
+//! **In:** tokens with more `}` than `{`. **Out:** the same with a `{` after each word that lacks it.
+//! **Invariant:** a `{` is added only where a `}` without a partner follows in the same statement.
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, Span};
+use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
+use crate::vocabulary::{Family, Role, Word};
+
+/// Adds what is missing, and says so.
+pub(super) fn open_missing(
+    tokens: Vec<Token>,
+    file: FileId,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Token> {
+    let mut lacking = lacking(&tokens);
+    if lacking.is_empty() {
+        return tokens;
+    }
+    lacking.sort_unstable();
+    let mut opened = Vec::with_capacity(tokens.len() + lacking.len());
+    let mut next = lacking.into_iter().peekable();
+    for (at, token) in tokens.into_iter().enumerate() {
+        opened.push(token);
+        let TokenKind::Word(word) = token.kind else { continue };
+        if next.next_if_eq(&at).is_some() {
+            let span = Span::new(file, token.start as usize, token.end as usize);
+            let name = word.name();
+            diagnostics.push(
+                Diagnostic::new(Code::MissingPart, format!("expected `{{` after `{name}`"))
+                    .at(span, "its block is closed, and not opened")
+                    .help(word.sentence())
+                    .fix(span.after(), " {"),
+            );
+            let kind = TokenKind::Mark(Mark::Open(Bracket::Brace));
+            opened.push(Token { kind, start: token.end, end: token.end });
+        }
+    }
+    opened
+}
+
+/// The words after which a `{` is missing.
+fn lacking(tokens: &[Token]) -> Vec<usize> {
+    let (mut depth, mut waiting, mut found) = (0_usize, Vec::new(), Vec::new());
+    for (at, token) in tokens.iter().enumerate() {
+        match token.kind {
+            TokenKind::Mark(Mark::Open(Bracket::Brace)) => depth += 1,
+            TokenKind::Mark(Mark::Close(Bracket::Brace)) if depth > 0 => depth -= 1,
+            TokenKind::Mark(Mark::Close(Bracket::Brace)) => found.extend(waiting.pop()),
+            TokenKind::Directive(_) if depth == 0 => waiting.clear(),
+            TokenKind::Word(word) if wants_a_block(word) => {
+                // A statement of its own, unless it stands in one that was not opened.
+                let inside =
+                    waiting.last().is_some_and(|&outer: &usize| holds(tokens[outer], word));
+                if depth == 0 && !inside {
+                    waiting.clear();
+                }
+                if tokens.get(at + 1).is_some_and(|next| begins_contents(word, next.kind)) {
+                    waiting.push(at);
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Whether what the word `outer` opens holds `inner`, so that it is no statement of its own.
+fn holds(outer: Token, inner: Word) -> bool {
+    let TokenKind::Word(outer) = outer.kind else { return false };
+    let is_object = |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
+    match inner {
+        _ if outer.family() == Family::Csg => true,
+        _ if is_object(inner) => outer == Word::LightSource,
+        Word::Camera | Word::LightSource | Word::GlobalSettings | Word::SkySphere => false,
+        _ => true,
+    }
+}
+
+/// Words that never stand without a block, but for those of `begins_contents`.
+fn wants_a_block(word: Word) -> bool {
+    const OTHERS: [Word; 11] = [
+        Word::Camera,
+        Word::LightSource,
+        Word::Pigment,
+        Word::Texture,
+        Word::Finish,
+        Word::Interior,
+        Word::Material,
+        Word::GlobalSettings,
+        Word::SkySphere,
+        Word::Background,
+        Word::ColorMap,
+    ];
+    word.role() == Role::Statement
+        && (matches!(word.family(), Family::Shape | Family::Csg) || OTHERS.contains(&word))
+}
+
+/// Whether `next` begins what stands in the block of `word`, and not something else that the word has a
+/// meaning before: `cylinder` of a light, `material` of a picture.
+fn begins_contents(word: Word, next: TokenKind) -> bool {
+    match next {
+        TokenKind::Number | TokenKind::Numbers | TokenKind::Vectors => true,
+        TokenKind::Mark(Mark::Less | Mark::Minus) => true,
+        TokenKind::Mark(Mark::Open(Bracket::Square)) => word == Word::ColorMap,
+        TokenKind::Word(next) => {
+            next.role() == Role::Statement && !matches!(word, Word::Cylinder | Word::Object)
+        }
+        _ => false,
+    }
+}
