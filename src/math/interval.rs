@@ -189,7 +189,7 @@ impl Interval {
                 return Self::EVERYTHING;
             }
             let base = if even { self.abs() } else { self };
-            return base.rising(|x| elementary::pow(x, whole));
+            return base.rising(|x| elementary::pow(x, whole)).as_signed_as(base);
         }
         let is_root_of_zero = self.low == 0.0 && exponent.low > 0.0;
         if (self.low <= 0.0 && !is_root_of_zero) || !self.is_finite() || !exponent.is_finite() {
@@ -198,7 +198,12 @@ impl Interval {
         // Monotone in each argument alone: the extremes lie on corners.
         let Self { low, high } = exponent;
         let corners = [(self.low, low), (self.low, high), (self.high, low), (self.high, high)];
-        Self::hull_of(corners.map(|(x, n)| elementary::pow(x, n))).widened(SLACK)
+        Self::hull_of(corners.map(|(x, n)| elementary::pow(x, n))).widened(SLACK).as_signed_as(self)
+    }
+
+    /// The power of what is not less than 0 is not either.
+    fn as_signed_as(self, base: Self) -> Self {
+        Self { low: if base.low >= 0.0 { self.low.max(0.0) } else { self.low }, ..self }
     }
 
     /// The remainder with the sign of the dividend.
@@ -243,6 +248,17 @@ impl Interval {
         wide
     }
 
+    /// Of sums as they are rounded: each has the sign of what was meant, so that a sum of squares is never
+    /// less than 0, and has a root.
+    #[inline]
+    fn sum(low: f64, high: f64) -> Self {
+        let wide = Self::outward(low, high);
+        Self {
+            low: if low >= 0.0 { wide.low.max(0.0) } else { wide.low },
+            high: if high <= 0.0 { wide.high.min(0.0) } else { wide.high },
+        }
+    }
+
     fn outward(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::EVERYTHING;
@@ -261,14 +277,14 @@ impl Neg for Interval {
 impl Add for Interval {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self::outward(self.low + other.low, self.high + other.high)
+        Self::sum(self.low + other.low, self.high + other.high)
     }
 }
 
 impl Sub for Interval {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self::outward(self.low - other.high, self.high - other.low)
+        Self::sum(self.low - other.high, self.high - other.low)
     }
 }
 
@@ -282,7 +298,9 @@ impl Mul for Interval {
             self.high * other.high,
         ];
         let Self { low, high } = Self::hull_of(products);
-        Self::outward(low, high)
+        let wide = Self::outward(low, high);
+        let is_positive = self.low >= 0.0 && other.low >= 0.0 && low >= 0.0;
+        Self { low: if is_positive { wide.low.max(0.0) } else { wide.low }, ..wide }
     }
 }
 
@@ -360,6 +378,25 @@ mod tests {
         holds("cube", |a, _| a.pow(Interval::point(3.0)), |a, _| elementary::pow(a, 3.0));
         holds("fmod", |a, _| a.fmod(Interval::point(0.75)), |a, _| elementary::fmod(a, 0.75));
         holds("cosh", |a, _| Interval::cosh(a), |a, _| elementary::cosh(a));
+    }
+
+    #[test]
+    fn a_sum_of_squares_has_a_root_wherever_it_is() {
+        for high in [0.0, 1e-300, 0.25] {
+            let side = Interval { low: -0.0, high };
+            let zero = Interval::point(0.0);
+            let squares: [fn(Interval) -> Interval; 3] =
+                [Interval::square, |side| side.pow(Interval::point(2.0)), |side| side * side];
+            for square in squares {
+                let length = (square(side) + square(zero) + square(zero)).sqrt();
+                assert!(
+                    length.low == 0.0 && length.high <= high * (1.0 + 1e-14) + 1e-150,
+                    "{length:?}"
+                );
+            }
+            let less = -side - zero;
+            assert!(less.high == 0.0, "{less:?}");
+        }
     }
 
     #[test]
