@@ -288,6 +288,27 @@ mod tests {
     }
 
     #[test]
+    fn where_a_distance_is_0_throughout_few_looks_are_enough() {
+        let zero = Interval::point(0.0);
+        let looks = std::cell::Cell::new(0);
+        // From what lies between −1 and 1.
+        let distance = |x: Interval| {
+            looks.set(looks.get() + 1);
+            let beyond = (x.abs() - Interval::point(1.0)).max(zero);
+            let length = (beyond.square() + zero.square()).sqrt();
+            let slope = match (x.low >= 1.0, x.high <= -1.0) {
+                (true, _) => Interval::point(1.0),
+                (_, true) => Interval::point(-1.0),
+                _ => Interval::EVERYTHING,
+            };
+            Bounds { value: length - Interval::point(0.5), slope }
+        };
+        let found = changes(&distance, -2.0, 2.1, FINE);
+        assert_eq!(found.all.len(), 2, "{found:?}");
+        assert!(looks.get() < 100, "{}", looks.get());
+    }
+
+    #[test]
     fn a_jump_is_found_as_exactly_as_numbers_go() {
         let step = |x: Interval| {
             let at = |x: f64| if x < 0.123_456 { -1.0 } else { 1.0 };
