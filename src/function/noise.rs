@@ -34,8 +34,7 @@ pub enum NoiseFunction {
 /// Noise is as steep as its gradient, along each axis.
 fn sloped<const N: usize>(generator: NoiseGenerator, point: [Sloped<N>; 3]) -> Sloped<N> {
     let at = point.map(|coordinate| coordinate.value);
-    let value = noise::bounds(generator, at);
-    let [x, y, z] = noise::slopes(generator, at);
+    let (value, [x, y, z]) = noise::bounds_and_slopes(generator, at);
     let flat = Sloped::follow_both(value, (x, &point[0]), (y, &point[1]));
     Sloped::follow_both(value, (Interval::point(1.0), &flat), (z, &point[2]))
 }

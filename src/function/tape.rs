@@ -3,6 +3,8 @@
 //! **Invariant:** registers hold the arguments first, then the constants, then what steps leave; a
 //! step reads only what was written before it, and a register is used again once nothing reads it.
 
+use smallvec::SmallVec;
+
 use super::number::{Number, Turn};
 use super::operation::{Binary, Unary};
 use super::{Outside, OutsideId};
@@ -82,7 +84,7 @@ impl Function {
 
     /// Made ready once, to be run at one point after another.
     pub fn run<N: Number>(&self) -> Run<'_, N> {
-        let mut registers = vec![N::constant(0.0); self.registers as usize];
+        let mut registers = SmallVec::from_elem(N::constant(0.0), self.registers as usize);
         for (register, constant) in registers[self.parameters()..].iter_mut().zip(&self.constants) {
             *register = N::constant(*constant);
         }
@@ -94,7 +96,8 @@ impl Function {
 #[derive(Debug, Clone)]
 pub struct Run<'f, N> {
     function: &'f Function,
-    registers: Vec<N>,
+    /// Few functions need an allocation.
+    registers: SmallVec<[N; 24]>,
 }
 
 impl<N: Number> Run<'_, N> {

@@ -342,7 +342,16 @@ impl Geometry {
 
     #[inline(never)]
     fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<(Crossing, bool)> {
-        let met = self.placed[i as usize].crossings(ray).into_iter().find(|met| sides.see(met))?;
+        let placed = &self.placed[i as usize];
+        let first = placed.first_crossings(ray, limit);
+        let met = match first.iter().find(|met| sides.see(met)) {
+            Some(met) => *met,
+            // The first ahead is not seen from here.
+            None if first.iter().any(|met| met.crossing().is_ahead()) => {
+                placed.crossings(ray).into_iter().find(|met| sides.see(met))?
+            }
+            None => return None,
+        };
         (met.t <= limit).then_some((met.crossing(), met.leaving))
     }
 }

@@ -126,7 +126,8 @@ pub fn isosurface(
     let (container, centre, scale) = held(container)?;
     let function = function.clone();
     let accuracy = accuracy / scale;
-    let body = Isosurface { function, threshold, container, centre, scale, accuracy, open };
+    let cells = isosurface::Cells::default();
+    let body = Isosurface { function, threshold, container, centre, scale, accuracy, open, cells };
     Ok((Body::Isosurface(body), about(centre, scale)))
 }
 

@@ -14,6 +14,7 @@
 //! chapter 2, and Perlin, "An Image Synthesizer", 1985.
 
 mod perlin;
+mod range;
 mod table;
 mod turbulence;
 
@@ -48,64 +49,18 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     value.clamp(0.0, 1.0)
 }
 
-/// Beyond, coordinates are rounded too coarsely for slopes to tell anything.
-const FAR: f64 = 1e6;
-
 /// An interval that holds the noise of every point of a box.
-///
-/// From the middle on noise changes by no more than its steepest slope: with s = 3t² − 2t³, |s′| is at
-/// most 1.5, and the linear functions of two neighbouring corners, of |value| ≤ ½ + 3 within a cell and
-/// slope ≤ 1, differ by at most 7; so 1.5·7 + 1 along each axis. Perlin's have |value| ≤ √3.
 pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
-    const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
-    if point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR) {
-        return RANGE;
-    }
-    let slope = match generator {
-        NoiseGenerator::Plateaus => 11.5,
-        NoiseGenerator::RangeCorrected => 11.5 * 0.489_855_83,
-        // 1.5·2√3 + 1, and its scale.
-        NoiseGenerator::Perlin => 6.2 * 0.795,
-    };
-    let middle = point.map(|i| i.low + 0.5 * (i.high - i.low));
-    let away: f64 = point.iter().zip(middle).map(|(i, m)| (i.high - m).max(m - i.low)).sum();
-    // What coordinates and sums are rounded by.
-    let reach = slope * (away + 1e-8);
-    let value = noise(generator, Vector::from_array(middle));
-    Interval { low: (value - reach).max(0.0), high: (value + reach).min(1.0) }
+    range::range(generator, point).0
 }
 
-/// Intervals that hold noise's slope along each axis at every point of a box; where it is cut off, 0 as well.
-///
-/// As [`bounds`], one derivative on: |s″| ≤ 6, so from the middle on each slope changes by at most
-/// 6·7 + 2·1.5·2 for each length along its axis, and by 1.5²·14 + 1.5·2·2 along another. Perlin's lattice has
-/// half of the slopes' sizes.
-pub fn slopes(generator: NoiseGenerator, point: [Interval; 3]) -> [Interval; 3] {
-    let (steepest, share) = match generator {
-        NoiseGenerator::Plateaus => (11.5, 1.0),
-        NoiseGenerator::RangeCorrected => (11.5 * 0.489_855_83, 0.489_855_83),
-        NoiseGenerator::Perlin => (6.2 * 0.795, 0.795),
-    };
-    let all = Interval { low: -steepest, high: steepest };
-    let away = point.map(|i| 0.5 * (i.high - i.low));
-    if away.iter().sum::<f64>() > 0.5 || point.iter().any(|i| i.low.abs().max(i.high.abs()) >= FAR)
-    {
-        return [all; 3];
-    }
-    let middle = Vector::from_array(point.map(|i| i.low + 0.5 * (i.high - i.low)));
-    let gradient = match generator {
-        NoiseGenerator::Plateaus | NoiseGenerator::RangeCorrected => plain_gradient(middle),
-        NoiseGenerator::Perlin => perlin::gradient(middle),
-    };
-    let range = bounds(generator, point);
-    let may_be_cut = range.low <= 0.0 || range.high >= 1.0;
-    std::array::from_fn(|axis| {
-        let along: f64 = (0..3).map(|i| away[i] * if i == axis { 48.0 } else { 38.0 }).sum();
-        let (slope, reach) = (share * gradient[axis], share * along + 1e-6);
-        let near =
-            Interval { low: (slope - reach).max(all.low), high: (slope + reach).min(all.high) };
-        if may_be_cut { near.hull(Interval::point(0.0)) } else { near }
-    })
+/// The same, and intervals that hold noise's slope along each axis at every point of a box; where it is cut
+/// off, 0 as well.
+pub fn bounds_and_slopes(
+    generator: NoiseGenerator,
+    point: [Interval; 3],
+) -> (Interval, [Interval; 3]) {
+    range::range(generator, point)
 }
 
 /// Three noises at once: a direction to push `point` in, about zero.
@@ -146,34 +101,10 @@ fn blend<const N: usize>(point: Vector) -> [f64; N] {
     sum
 }
 
-/// The gradient of the first.
-fn plain_gradient(point: Vector) -> Vector {
-    let [x, y, z] = cells(point, LATTICE_ORIGIN);
-    let mut sum = Vector::ZERO;
-    for (i, x) in x.corners() {
-        let row = step(i);
-        for (j, y) in y.corners() {
-            let column = step(row ^ j);
-            for (k, z) in z.corners() {
-                let at = step(column ^ k) % 256;
-                let slope = Vector::new(NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]);
-                let offset = Vector::new(x.offset, y.offset, z.offset);
-                let value = 0.5 * NUMBERS[at] + slope.dot(offset);
-                sum += weighted_slope([&x, &y, &z], value, slope);
-            }
-        }
-    }
-    sum
-}
-
-/// The gradient of a corner's linear function times its weights.
-fn weighted_slope([x, y, z]: [&Corner; 3], value: f64, slope: Vector) -> Vector {
-    let rises = Vector::new(
-        x.rise * y.weight * z.weight,
-        x.weight * y.rise * z.weight,
-        x.weight * y.weight * z.rise,
-    );
-    slope * (x.weight * y.weight * z.weight) + rises * value
+/// What a lattice point holds of the first.
+fn plain_corner([i, j, k]: [usize; 3]) -> range::Linear {
+    let at = step(step(step(i) ^ j) ^ k) % 256;
+    [0.5 * NUMBERS[at], NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]]
 }
 
 /// Where the table's zero lies: at (−10000, −10000, −10000).
@@ -198,8 +129,6 @@ struct Corner {
     offset: f64,
     /// How much the corner counts, 0 … 1.
     weight: f64,
-    /// The weight's slope.
-    rise: f64,
 }
 
 impl Cell {
@@ -220,10 +149,9 @@ impl Cell {
     fn corners(self) -> [(usize, Corner); 2] {
         let t = self.fraction;
         let weight = t * t * (3.0 - 2.0 * t);
-        let rise = 6.0 * t * (1.0 - t);
         [
-            (self.low, Corner { offset: t, weight: 1.0 - weight, rise: -rise }),
-            (self.low.wrapping_add(1), Corner { offset: t - 1.0, weight, rise }),
+            (self.low, Corner { offset: t, weight: 1.0 - weight }),
+            (self.low.wrapping_add(1), Corner { offset: t - 1.0, weight }),
         ]
     }
 }

@@ -6,9 +6,11 @@
 
 use std::sync::LazyLock;
 
+use super::cells;
+use super::range::Linear;
 use super::table::Stream;
-use super::{cells, weighted_slope};
 use crate::math::Vector;
+use crate::math::interval::Interval;
 
 const SIZE: usize = 2048;
 
@@ -36,23 +38,17 @@ pub(super) fn noise(point: Vector) -> f64 {
     0.4925 + 0.795 * sum
 }
 
-/// Of the sum; see [`noise`] for its scale.
-pub(super) fn gradient(point: Vector) -> Vector {
+/// Coordinates as the lattice has them.
+pub(super) fn shifted(i: Interval) -> Interval {
+    Interval { low: i.low + ORIGIN, high: i.high + ORIGIN }
+}
+
+/// What a lattice point holds.
+pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
     let lattice = &*LATTICE;
-    let [x, y, z] = cells(point + Vector::splat(ORIGIN), 0);
-    let mut sum = Vector::ZERO;
-    for (i, x) in x.corners() {
-        let row = lattice.step(i);
-        for (j, y) in y.corners() {
-            let column = lattice.step(row.wrapping_add(j));
-            for (k, z) in z.corners() {
-                let slope = lattice.gradients[column.wrapping_add(k) % SIZE];
-                let value = slope.dot(Vector::new(x.offset, y.offset, z.offset));
-                sum += weighted_slope([&x, &y, &z], value, slope);
-            }
-        }
-    }
-    sum
+    let column = lattice.step(lattice.step(i).wrapping_add(j));
+    let Vector { x, y, z } = lattice.gradients[column.wrapping_add(k) % SIZE];
+    [0.0, x, y, z]
 }
 
 struct Lattice {

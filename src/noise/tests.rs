@@ -164,7 +164,7 @@ fn noise_changes_no_faster_than_the_slopes_of_a_box_around_it() {
         let width = [1e-3, 0.02, 0.3][draw.below(3)];
         let boxed =
             [(); 3].map(|()| draw.number(-9.0, 9.0)).map(|low| Interval { low, high: low + width });
-        let slopes = slopes(generator, boxed);
+        let (_, slopes) = bounds_and_slopes(generator, boxed);
         narrow += usize::from(slopes.iter().all(|slope| slope.high - slope.low < 1.0));
         for _ in 0..8 {
             let axis = draw.below(3);

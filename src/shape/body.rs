@@ -34,6 +34,17 @@ pub trait Local {
     /// Adds the crossings of the line with all of the surface, in order.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings);
 
+    /// Adds, in order, those crossings that may lie between two places; at least the first that is seen and
+    /// certainly behind the former, where there are more. May add others.
+    fn first_crossings(&self, ray: &LocalRay, _between: (f64, f64), found: &mut Crossings) {
+        self.crossings(ray, found);
+    }
+
+    /// The part of the surface that the line crosses at `s`, where that can be told at once.
+    fn part_at(&self, _ray: &LocalRay, _s: f64) -> Option<u32> {
+        None
+    }
+
     /// The height over one part of the surface, near it.
     fn height(&self, part: u32, point: Vector) -> Height;
 
@@ -207,6 +218,23 @@ macro_rules! bodies {
                 }
             }
 
+            fn first_crossings(
+                &self,
+                ray: &LocalRay,
+                between: (f64, f64),
+                found: &mut Crossings,
+            ) {
+                match self {
+                    $(Self::$kind(body) => body.first_crossings(ray, between, found),)*
+                }
+            }
+
+            fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+                match self {
+                    $(Self::$kind(body) => body.part_at(ray, s),)*
+                }
+            }
+
             fn height(&self, part: u32, point: Vector) -> Height {
                 match self {
                     $(Self::$kind(body) => body.height(part, point),)*
@@ -321,6 +349,15 @@ impl Seen {
         let start_error = blur + turn * nearest.length();
         let line = LocalRay { nearest, direction, blur, turn, tolerance };
         Self { line, start, speed, start_error }
+    }
+
+    /// Where on the line the ray is at `t`, as nearly as rounding tells; a little before, or behind.
+    pub fn place(&self, t: f64, way: f64) -> f64 {
+        let along = t * self.speed;
+        let off = self.start_error
+            + along.abs() * (self.line.turn + 8.0 * U)
+            + 8.0 * U * self.start.abs();
+        self.start + along + way * off
     }
 
     /// A crossing of the line, as one of the ray.

@@ -19,29 +19,46 @@ pub struct Placed {
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
-        self.crossings_of(ray, 0.0)
+        self.found(ray, 0.0, |seen, found| self.body.crossings(&seen.line, found))
     }
 
     /// The same of a part of a solid: their errors count that its centre was rounded, so that faces that
     /// two parts share are one, however far off they stand.
     pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
         let Placement { centre, local_from_world, .. } = self.placement;
-        self.crossings_of(ray, U * (local_from_world.abs() * centre.abs()).length())
+        let moved = U * (local_from_world.abs() * centre.abs()).length();
+        self.found(ray, moved, |seen, found| self.body.crossings(&seen.line, found))
     }
 
+    /// In order, those ahead of the ray's start and not beyond `limit`, at least the first that is seen.
     #[inline(never)]
-    fn crossings_of(&self, ray: &Ray, moved: f64) -> Crossings {
+    pub fn first_crossings(&self, ray: &Ray, limit: f64) -> Crossings {
+        self.found(ray, 0.0, |seen, found| {
+            let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
+            self.body.first_crossings(&seen.line, between, found);
+        })
+    }
+
+    #[inline(always)]
+    fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
         let seen = Seen::new(&self.placement, ray, self.root_tolerance, moved);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;
         }
-        self.body.crossings(&seen.line, &mut found);
+        find(&seen, &mut found);
         for met in &mut found {
             *met = seen.met(*met);
         }
         found
+    }
+
+    /// The part of the surface that the ray crosses at `t`.
+    fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
+        let seen = Seen::new(&self.placement, ray, self.root_tolerance, 0.0);
+        let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
+        self.body.part_at(&seen.line, seen.place(t, 0.0)).unwrap_or_else(found)
     }
 
     /// The crossing at `t`, or the nearest to it.
@@ -57,7 +74,7 @@ impl Placed {
     /// by the height that is left and the rounding of that very sum.
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
-        let part = self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
+        let part = self.part_at(ray, t, leaving);
         let Placement { centre, local_from_world, .. } = self.placement;
         let out = local_from_world.transpose();
         let height = |point: Vector| {

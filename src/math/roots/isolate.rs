@@ -79,11 +79,14 @@ fn sign(value: Interval) -> Option<bool> {
     }
 }
 
-struct Search<'f, F> {
-    function: &'f F,
+/// A search that goes on from interval to interval, each after the one before.
+pub struct Search<F> {
+    function: F,
     fineness: Fineness,
     cells: u32,
     found: Changes,
+    /// Where it was looked at last.
+    end: Option<End>,
 }
 
 /// The changes of sign of a function from one place to another.
@@ -93,20 +96,58 @@ pub fn changes(
     to: f64,
     fineness: Fineness,
 ) -> Changes {
-    let found = Changes { first: None, last: None, all: SmallVec::new() };
-    let mut search = Search { function, fineness, cells: 0, found };
-    let (first, last) = (search.look(from), search.look(to));
-    search.note(from, first.sign());
-    search.interval(first, last);
-    search.note(to, last.sign());
+    let mut search = Search::new(function, fineness);
+    search.through(from, to);
     search.found
 }
 
-impl<F: Fn(Interval) -> Bounds> Search<'_, F> {
+impl<F: Fn(Interval) -> Bounds> Search<F> {
+    pub fn new(function: F, fineness: Fineness) -> Self {
+        let found = Changes { first: None, last: None, all: SmallVec::new() };
+        Self { function, fineness, cells: 0, found, end: None }
+    }
+
+    pub fn found(&self) -> &Changes {
+        &self.found
+    }
+
+    /// Looks from one place to another.
+    pub fn through(&mut self, from: f64, to: f64) {
+        let first = self.look_again(from);
+        let last = self.look(to);
+        self.note(from, first.sign());
+        self.interval(first, last);
+        self.end = Some(last);
+        self.note(to, last.sign());
+    }
+
+    /// The same, where the function is known to rise or to fall throughout.
+    pub fn through_slope(&mut self, from: f64, to: f64) {
+        let first = self.look_again(from);
+        let last = self.look(to);
+        if first.sign().is_none() || last.sign().is_none() {
+            self.interval(first, last);
+        }
+        self.note(from, first.sign());
+        self.end = Some(last);
+        self.note(to, last.sign());
+    }
+
+    /// The function is known to be of one sign from one place to another.
+    pub fn certain(&mut self, from: f64, to: f64, negative: bool) {
+        self.note(from, Some(negative));
+        self.note(to, Some(negative));
+    }
+
+    fn look_again(&self, s: f64) -> End {
+        self.end.filter(|end| end.s == s).unwrap_or_else(|| self.look(s))
+    }
+
     fn look(&self, s: f64) -> End {
         End { s, value: (self.function)(Interval::point(s)).value }
     }
 
+    /// Of certain sign, if any, at a place after all others.
     fn note(&mut self, s: f64, negative: Option<bool>) {
         let Some(negative) = negative else { return };
         if let Some((before, was_negative)) = self.found.last
@@ -244,6 +285,27 @@ mod tests {
             slope: Interval::point(2.0) * (x - Interval::point(0.3)),
         };
         assert!(changes(&touching, -1.0, 1.0, FINE).all.is_empty());
+    }
+
+    #[test]
+    fn where_a_distance_is_0_throughout_few_looks_are_enough() {
+        let zero = Interval::point(0.0);
+        let looks = std::cell::Cell::new(0);
+        // From what lies between −1 and 1.
+        let distance = |x: Interval| {
+            looks.set(looks.get() + 1);
+            let beyond = (x.abs() - Interval::point(1.0)).max(zero);
+            let length = (beyond.square() + zero.square()).sqrt();
+            let slope = match (x.low >= 1.0, x.high <= -1.0) {
+                (true, _) => Interval::point(1.0),
+                (_, true) => Interval::point(-1.0),
+                _ => Interval::EVERYTHING,
+            };
+            Bounds { value: length - Interval::point(0.5), slope }
+        };
+        let found = changes(&distance, -2.0, 2.1, FINE);
+        assert_eq!(found.all.len(), 2, "{found:?}");
+        assert!(looks.get() < 100, "{}", looks.get());
     }
 
     #[test]

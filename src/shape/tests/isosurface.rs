@@ -13,7 +13,7 @@ use crate::math::random::tries_in;
 use crate::shape::Body;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
-use crate::shape::isosurface::{Container, Isosurface};
+use crate::shape::isosurface::{Cells, Container, Isosurface};
 
 /// Operations as they are read.
 pub(super) struct Formula(Builder);
@@ -65,6 +65,7 @@ fn surface(function: Arc<Closed>, container: Container) -> Isosurface {
         scale: 1.0,
         accuracy: 1e-3,
         open: false,
+        cells: Cells::default(),
     }
 }
 

@@ -1,0 +1,202 @@
+//! What noise and its slopes can come to over a box.
+//!
+//! **In:** a box. **Out:** intervals. **Invariant:** they hold what is found at every point of the box, and
+//! between any two; of a box within a cell or two of the lattice they are nearly as narrow as can be.
+//!
+//! Within a cell noise is made of the corners' eight linear functions, blended along one axis after another by
+//! s = 3t² − 2t³. A blend of intervals lies between those of their ends, at the ends of s; its slope is the
+//! blend of the slopes, and s′ times the difference.
+
+use super::{Cell, LATTICE_ORIGIN, NoiseGenerator, noise, perlin, plain_corner};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+
+/// Beyond, coordinates are rounded too coarsely for slopes to tell anything.
+const FAR: f64 = 1e6;
+
+/// What a corner of a cell holds: its value, and its slopes.
+pub(super) type Linear = [f64; 4];
+
+/// Noise over a box, and its slope along each axis; where it is cut off, 0 as well.
+///
+/// A box longer than a cell has bounds that hold everywhere: |s′| is at most 1.5, and the linear functions of
+/// two neighbouring corners, of |value| ≤ ½ + 3 within a cell and slope ≤ 1, differ by at most 7; so
+/// 1.5·7 + 1 along each axis. Perlin's have |value| ≤ √3.
+pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interval, [Interval; 3]) {
+    const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
+    // (v + shift)·scale, cut off; what rounding may do to v; the steepest slope.
+    let (shift, scale, rounded, steepest) = match generator {
+        NoiseGenerator::Plateaus => (0.5, 1.0, 1e-14, 11.5),
+        NoiseGenerator::RangeCorrected => {
+            (0.5 + 0.552_42, 0.489_855_82, 1e-14, 11.5 * 0.489_855_83)
+        }
+        // Its coordinates come in steps of 2⁻²⁹.
+        NoiseGenerator::Perlin => (0.4925 / 0.795, 0.795, 1e-8, 6.2 * 0.795),
+    };
+    let is_near = |i: &Interval| i.low.abs().max(i.high.abs()) < FAR;
+    let is_short = |i: &Interval| i.high - i.low < 1.0;
+    if !point.iter().all(|i| is_near(i) && is_short(i)) {
+        return (RANGE, [Interval { low: -steepest, high: steepest }; 3]);
+    }
+    let (mut value, slopes) = match generator {
+        NoiseGenerator::Perlin => over(point.map(perlin::shifted), 0, perlin::corner),
+        NoiseGenerator::Plateaus | NoiseGenerator::RangeCorrected => {
+            over(point, LATTICE_ORIGIN, plain_corner)
+        }
+    };
+    value = Interval { low: (value.low + shift) * scale, high: (value.high + shift) * scale };
+    let slopes = slopes.map(|slope| Interval {
+        low: (slope.low * scale - 1e-12).max(-steepest),
+        high: (slope.high * scale + 1e-12).min(steepest),
+    });
+    // From the middle on it changes by no more than its slopes.
+    let middle = point.map(|i| i.low + 0.5 * (i.high - i.low));
+    let step = |axis: usize| {
+        let away = (point[axis].high - middle[axis]).max(middle[axis] - point[axis].low);
+        away * slopes[axis].low.abs().max(slopes[axis].high.abs())
+    };
+    let reach = step(0) + step(1) + step(2);
+    let there = noise(generator, Vector::from_array(middle));
+    let value = Interval {
+        low: value.low.max(there - reach).min(there) - rounded,
+        high: value.high.min(there + reach).max(there) + rounded,
+    };
+    let is_cut = value.low <= 0.0 || value.high >= 1.0;
+    let value = Interval { low: value.low.max(0.0), high: value.high.min(1.0) };
+    let zero = Interval { low: 0.0, high: 0.0 };
+    (value, if is_cut { slopes.map(|slope| slope.hull(zero)) } else { slopes })
+}
+
+/// Part of a cell along one axis.
+#[derive(Clone, Copy)]
+struct Span {
+    /// Of the cell.
+    index: usize,
+    /// From where to where, 0 … 1.
+    from: [f64; 2],
+    /// s there.
+    weight: [f64; 2],
+    /// s′ between.
+    rise: Interval,
+}
+
+impl Span {
+    fn new(index: usize, low: f64, high: f64) -> Self {
+        let weight = |t: f64| t * t * (3.0 - 2.0 * t);
+        let rise = |t: f64| 6.0 * t * (1.0 - t);
+        let (a, b) = (rise(low), rise(high));
+        let most = if low <= 0.5 && high >= 0.5 { 1.5 } else { a.max(b) };
+        Self {
+            index,
+            from: [low, high],
+            weight: [weight(low), weight(high)],
+            rise: Interval { low: a.min(b), high: most },
+        }
+    }
+
+    /// Of an interval shorter than a cell: one part, or two.
+    fn of(i: Interval, origin: i64) -> ([Self; 2], usize) {
+        let (low, high) = (Cell::new(i.low, origin), Cell::new(i.high, origin));
+        if low.low == high.low {
+            let part = Self::new(low.low, low.fraction, high.fraction.max(low.fraction));
+            return ([part; 2], 1);
+        }
+        ([Self::new(low.low, low.fraction, 1.0), Self::new(high.low, 0.0, high.fraction)], 2)
+    }
+}
+
+/// Over a box of less than a cell's length, which may lie in up to eight.
+fn over(
+    point: [Interval; 3],
+    origin: i64,
+    corner: impl Fn([usize; 3]) -> Linear,
+) -> (Interval, [Interval; 3]) {
+    let spans = point.map(|i| Span::of(i, origin));
+    let mut all: Option<(Interval, [Interval; 3])> = None;
+    for x in &spans[0].0[..spans[0].1] {
+        for y in &spans[1].0[..spans[1].1] {
+            for z in &spans[2].0[..spans[2].1] {
+                let (value, slopes) = within([*x, *y, *z], &corner);
+                all = Some(match all {
+                    None => (value, slopes),
+                    Some((v, s)) => {
+                        (v.hull(value), std::array::from_fn(|axis| s[axis].hull(slopes[axis])))
+                    }
+                });
+            }
+        }
+    }
+    all.unwrap_or((Interval::EVERYTHING, [Interval::EVERYTHING; 3]))
+}
+
+/// A linear function's values, of what it comes to at zero.
+#[inline]
+fn linear(at_zero: f64, slopes: [f64; 3], spans: &[Span; 3]) -> Interval {
+    let mut sum = Interval { low: at_zero, high: at_zero };
+    for (slope, span) in slopes.iter().zip(spans) {
+        let (a, b) = (slope * span.from[0], slope * span.from[1]);
+        let (less, more) = if a < b { (a, b) } else { (b, a) };
+        sum = Interval { low: sum.low + less, high: sum.high + more };
+    }
+    sum
+}
+
+/// a + s·(b − a), for all of s.
+#[inline]
+fn blend(a: Interval, b: Interval, weight: [f64; 2]) -> Interval {
+    let at = |a: f64, b: f64, s: f64| a + s * (b - a);
+    let (first, last) = (at(a.low, b.low, weight[0]), at(a.low, b.low, weight[1]));
+    let low = if first < last { first } else { last };
+    let (first, last) = (at(a.high, b.high, weight[0]), at(a.high, b.high, weight[1]));
+    Interval { low, high: if first > last { first } else { last } }
+}
+
+#[inline]
+fn times(a: Interval, positive: Interval) -> Interval {
+    let low = a.low * if a.low < 0.0 { positive.high } else { positive.low };
+    Interval { low, high: a.high * if a.high > 0.0 { positive.high } else { positive.low } }
+}
+
+#[inline]
+fn plus(a: Interval, b: Interval) -> Interval {
+    Interval { low: a.low + b.low, high: a.high + b.high }
+}
+
+/// Within one cell. Corner i + 2j + 4k is one further along those of the axes.
+fn within(spans: [Span; 3], corner: &impl Fn([usize; 3]) -> Linear) -> (Interval, [Interval; 3]) {
+    let index = |axis: usize, further: usize| spans[axis].index.wrapping_add(further);
+    // Each from the cell's first corner on.
+    let all: [Linear; 8] = std::array::from_fn(|at| {
+        let further = [at & 1, at >> 1 & 1, at >> 2];
+        let [value, x, y, z] =
+            corner([index(0, further[0]), index(1, further[1]), index(2, further[2])]);
+        let [i, j, k] = further.map(|further| further as f64);
+        [value - x * i - y * j - z * k, x, y, z]
+    });
+    let of = |[value, x, y, z]: Linear| linear(value, [x, y, z], &spans);
+    let single = |value: f64| Interval { low: value, high: value };
+    let values = all.map(of);
+    // Blended along the axes of `ways`, but for the one that is left out by the caller.
+    let weights = spans.map(|span| span.weight);
+    let plane = |four: [Interval; 4], first: usize, second: usize| {
+        let near = blend(four[0], four[1], weights[first]);
+        let off = blend(four[2], four[3], weights[first]);
+        blend(near, off, weights[second])
+    };
+    let value = {
+        let edge = |at: usize| blend(values[at], values[at + 1], weights[0]);
+        plane([edge(0), edge(2), edge(4), edge(6)], 1, 2)
+    };
+    let slope = |axis: usize| {
+        let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
+        let edges = std::array::from_fn(|at| {
+            let near = (at & 1) << first | (at >> 1) << second;
+            let (a, b) = (all[near], all[near | 1 << axis]);
+            let difference = of(std::array::from_fn(|i| b[i] - a[i]));
+            let slopes = blend(single(a[axis + 1]), single(b[axis + 1]), weights[axis]);
+            plus(slopes, times(difference, spans[axis].rise))
+        });
+        plane(edges, first, second)
+    };
+    (value, [slope(0), slope(1), slope(2)])
+}

@@ -1,0 +1,210 @@
+//! Cells: the box that holds a function, cut into eight, and each part again where the function may be 0.
+//!
+//! **In:** bounds of the function over boxes; a line. **Out:** the line's pieces, in order, each with what is
+//! known of the function there. **Invariant:** what a cell says depends on its place alone, so whichever line
+//! comes first, all find the same. Cells are made as lines come by, at most 64 along each axis.
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use smallvec::SmallVec;
+
+use crate::function::Sloped;
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::shape::body::LocalRay;
+
+/// The box is cut so often along each axis.
+const DEPTH: u32 = 6;
+
+/// Of the box's size: cells are so much wider, and lines that are less off than that may be followed.
+pub(super) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
+
+/// A cell is cut no more where the gradient changes by less than this part of its length.
+const FLAT: f64 = 0.125;
+
+/// What is remembered of a function in a box.
+#[derive(Default)]
+pub struct Cells {
+    root: Cell,
+}
+
+#[derive(Default)]
+struct Cell {
+    known: OnceLock<Known>,
+    parts: OnceLock<Box<[Cell; 8]>>,
+}
+
+/// What a function comes to in a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known {
+    /// Whether it is negative throughout, if it is of one sign.
+    pub negative: Option<bool>,
+    /// At the middle.
+    value: Interval,
+    /// In the cell; outside of these, nothing is known.
+    slopes: [[f32; 2]; 3],
+}
+
+/// Part of a line, in one cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece<'a> {
+    pub from: f64,
+    pub to: f64,
+    pub known: &'a Known,
+    pub middle: Vector,
+}
+
+impl Clone for Cells {
+    /// What is remembered is found again.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Cells {
+    /// It is a memory, and no part of what the function is.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl fmt::Debug for Cells {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Cells")
+    }
+}
+
+impl Known {
+    fn new(
+        bounds: &impl Fn([Interval; 3]) -> Sloped<3>,
+        middle: Vector,
+        half: Vector,
+        margin: f64,
+    ) -> Self {
+        let around = |axis: usize| {
+            let (at, far) = (middle[axis], half[axis] + margin);
+            Interval { low: at - far, high: at + far }
+        };
+        let Sloped { value: all, slopes } = bounds([0, 1, 2].map(around));
+        let slopes = slopes
+            .map(|Interval { low, high }| [(low as f32).next_down(), (high as f32).next_up()]);
+        let mut known = Self { negative: sign(all), value: Interval::EVERYTHING, slopes };
+        if known.negative.is_none() {
+            known.value = bounds(middle.to_array().map(Interval::point)).value;
+            let step = |axis: usize| {
+                let far = half[axis] + margin;
+                known.slope(axis) * Interval { low: -far, high: far }
+            };
+            known.negative = sign(known.value + step(0) + step(1) + step(2));
+        }
+        known
+    }
+
+    fn slope(&self, axis: usize) -> Interval {
+        let [low, high] = self.slopes[axis];
+        Interval { low: f64::from(low), high: f64::from(high) }
+    }
+
+    /// The gradient hardly changes.
+    fn is_flat(&self) -> bool {
+        let wide = self.slopes.map(|[low, high]| high - low);
+        let mid = self.slopes.map(|[low, high]| 0.5 * (high + low));
+        let square = |v: [f32; 3]| v.iter().map(|c| c * c).sum::<f32>();
+        square(wide) <= (FLAT * FLAT) as f32 * square(mid)
+    }
+
+    /// How the function changes along a line that may be off by `turn`.
+    pub fn along(&self, direction: Vector, turn: f64) -> Interval {
+        let term = |axis: usize| {
+            let way = direction[axis];
+            self.slope(axis) * Interval { low: way - turn, high: way + turn }
+        };
+        term(0) + term(1) + term(2)
+    }
+
+    /// What it may come to at a place of the cell that may be off by `blur`.
+    pub fn at(&self, from_middle: Vector, blur: f64) -> Interval {
+        let term = |axis: usize| {
+            let step = from_middle[axis];
+            self.slope(axis) * Interval { low: step - blur, high: step + blur }
+        };
+        self.value + (term(0) + term(1) + term(2))
+    }
+}
+
+fn sign(value: Interval) -> Option<bool> {
+    match (value.low > 0.0, value.high < 0.0) {
+        (true, _) => Some(false),
+        (_, true) => Some(true),
+        _ => None,
+    }
+}
+
+/// A cell to be visited.
+struct Visit<'a> {
+    cell: &'a Cell,
+    middle: Vector,
+    depth: u32,
+    from: f64,
+    to: f64,
+}
+
+impl Cells {
+    /// Shows the pieces of a line that cells of the box of half widths `half` make of it, from one place to
+    /// another, as long as `show` wants more. `bounds` are the function's.
+    pub(super) fn along(
+        &self,
+        ray: &LocalRay,
+        half: Vector,
+        (from, to): (f64, f64),
+        bounds: &impl Fn([Interval; 3]) -> Sloped<3>,
+        mut show: impl FnMut(Piece) -> bool,
+    ) {
+        let margin = MARGIN * half.max_element();
+        let halves: [Vector; DEPTH as usize + 1] =
+            std::array::from_fn(|depth| half / f64::from(1u32 << depth));
+        let inverse = ray.direction.recip();
+        let mut stack: SmallVec<[Visit; 24]> = SmallVec::new();
+        stack.push(Visit { cell: &self.root, middle: Vector::ZERO, depth: 0, from, to });
+        while let Some(Visit { cell, middle, depth, from, to }) = stack.pop() {
+            let half = halves[depth as usize];
+            let known = cell.known.get_or_init(|| Known::new(bounds, middle, half, margin));
+            if known.negative.is_some() || depth == DEPTH || known.is_flat() {
+                if !show(Piece { from, to, known, middle }) {
+                    return;
+                }
+                continue;
+            }
+            let parts = cell.parts.get_or_init(Default::default);
+            // Where the line passes from part to part.
+            let mut ends = [from, to, to, to, to];
+            let mut count = 1;
+            let passes = (middle - ray.nearest) * inverse;
+            for pass in passes.to_array() {
+                if from < pass && pass < to {
+                    let mut place = count;
+                    while place > 1 && ends[place - 1] > pass {
+                        ends[place] = ends[place - 1];
+                        place -= 1;
+                    }
+                    ends[place] = pass;
+                    count += 1;
+                }
+            }
+            ends[count] = to;
+            let quarter = halves[depth as usize + 1];
+            for at in (0..count).rev() {
+                let (from, to) = (ends[at], ends[at + 1]);
+                let place = ray.at(0.5 * (from + to));
+                let above = place.cmpge(middle);
+                let bit = |axis: usize| usize::from(above.test(axis)) << axis;
+                let way =
+                    |axis: usize| if above.test(axis) { quarter[axis] } else { -quarter[axis] };
+                let cell = &parts[bit(0) | bit(1) | bit(2)];
+                let middle = middle + Vector::new(way(0), way(1), way(2));
+                stack.push(Visit { cell, middle, depth: depth + 1, from, to });
+            }
+        }
+    }
+}

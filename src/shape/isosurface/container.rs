@@ -1,0 +1,123 @@
+//! What a surface of a function is looked for in, a box or a ball about the local origin: its own surface,
+//! which closes what it cuts.
+
+use super::SURFACE;
+use crate::math::Vector;
+use crate::shape::U;
+use crate::shape::body::{Height, LocalRay, Met};
+
+/// What an isosurface is looked for in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Container {
+    /// Its half widths.
+    Box(Vector),
+    /// Its radius.
+    Sphere(f64),
+}
+
+impl Container {
+    /// Where a line is within.
+    pub(super) fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
+        match *self {
+            Self::Sphere(radius) => ball(ray, radius),
+            Self::Box(half) => {
+                let endless = |t, leaving| Met { t, error: 0.0, leaving, part: 1 };
+                let whole = (endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true));
+                let reach = half.length();
+                (0..3).try_fold(whole, |(enter, leave), axis| {
+                    let (first, last) = slab(ray, axis, half[axis], reach)?;
+                    Some((enter.later(first), leave.earlier(last)))
+                })
+            }
+        }
+    }
+
+    /// The most of `along`·P.
+    pub(in crate::shape) fn extent(&self, along: Vector) -> f64 {
+        match self {
+            Self::Box(half) => along.abs().dot(*half),
+            Self::Sphere(radius) => along.length() * radius,
+        }
+    }
+
+    pub(in crate::shape) fn reach(&self) -> f64 {
+        match self {
+            Self::Box(half) => half.length(),
+            Self::Sphere(radius) => *radius,
+        }
+    }
+
+    /// Half widths of the box around it.
+    pub(in crate::shape) fn half(&self) -> Vector {
+        match *self {
+            Self::Box(half) => half,
+            Self::Sphere(radius) => Vector::splat(radius),
+        }
+    }
+
+    pub(in crate::shape) fn contains(&self, point: Vector) -> bool {
+        match self {
+            Self::Box(half) => point.abs().cmplt(*half).all(),
+            Self::Sphere(radius) => point.length() < *radius,
+        }
+    }
+}
+
+/// As the round of a cylinder. **Error** of s: with m the distance of the line, h half of the chord and δ
+/// how far off they are, δ·m/h or √(2δ·m + δ²), and δ.
+fn ball(ray: &LocalRay, radius: f64) -> Option<(Met, Met)> {
+    let miss = ray.nearest.length();
+    let half = ((radius - miss) * (radius + miss)).sqrt();
+    if !half.gt(&0.0) {
+        return None;
+    }
+    let off = ray.blur_at(half) + 8.0 * U * radius;
+    let error = (off * miss / half).min((2.0 * off * miss + off * off).sqrt()) + off;
+    let met = |t, leaving| Met { t, error, leaving, part: SURFACE + 1 };
+    Some((met(-half, false), met(half, true)))
+}
+
+/// Between two faces across an axis. What is certainly met beyond all of the body is met nowhere.
+fn slab(ray: &LocalRay, axis: usize, half: f64, reach: f64) -> Option<(Met, Met)> {
+    let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
+    let met = |end: f64, leaving| {
+        let part = SURFACE + 1 + 2 * axis as u32 + u32::from(end > 0.0);
+        let t = (end - place) / speed;
+        let flat = ray.blur_at(2.0 * reach) + 2.0 * U * (half + place.abs());
+        if (t.abs() - 2.0 * reach) * speed.abs() > flat {
+            return Met { t: t * f64::INFINITY, error: 0.0, leaving, part };
+        }
+        let off = ray.blur_at(t) + 2.0 * U * (half + place.abs());
+        Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
+    };
+    if speed == 0.0 {
+        let endless = |t, leaving| Met { t, error: 0.0, leaving, part: SURFACE + 1 };
+        return (place.abs() < half)
+            .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
+    }
+    let near = if speed > 0.0 { -half } else { half };
+    Some((met(near, false), met(-near, true)))
+}
+
+impl Container {
+    pub(super) fn height(&self, part: u32, point: Vector) -> Height {
+        match self {
+            Self::Sphere(radius) => {
+                let distance = point.length();
+                let gradient = (point / distance).normalize_or(Vector::Y);
+                Height { value: distance - radius, gradient, error: 8.0 * U * radius }
+            }
+            Self::Box(half) => {
+                let side = part.saturating_sub(SURFACE + 1);
+                let axis = (side / 2).min(2) as usize;
+                let way = if side % 2 == 1 { 1.0 } else { -1.0 };
+                let gradient = [Vector::X, Vector::Y, Vector::Z][axis] * way;
+                Height {
+                    value: point.dot(gradient) - half[axis],
+                    gradient,
+                    error: 2.0 * U * half[axis],
+                }
+            }
+        }
+    }
+}

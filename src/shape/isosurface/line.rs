@@ -1,0 +1,175 @@
+//! The function of an isosurface along one line: its bounds for all lines that may be meant, and the roots.
+
+use std::cell::{OnceCell, RefCell};
+
+use super::cells::Piece;
+use super::{Isosurface, Running, SURFACE};
+use crate::function::Sloped;
+use crate::math::interval::Interval;
+use crate::math::roots::bracket::{Sample, root};
+use crate::math::roots::isolate::{Bounds, Change, Search};
+use crate::shape::U;
+use crate::shape::body::{LocalRay, Met};
+
+/// After so many steps another method is better.
+const GUESSES: u32 = 24;
+
+/// The function at work along one line.
+pub(super) struct Line<'a> {
+    surface: &'a Isosurface,
+    ray: &'a LocalRay,
+    run: OnceCell<RefCell<Running<'a, Sloped<1>>>>,
+    plain: OnceCell<RefCell<Running<'a, f64>>>,
+}
+
+impl<'a> Line<'a> {
+    pub fn new(surface: &'a Isosurface, ray: &'a LocalRay) -> Self {
+        Self { surface, ray, run: OnceCell::new(), plain: OnceCell::new() }
+    }
+
+    /// The value less the threshold, for all lines that may be meant, and its slope along them.
+    pub fn bounds(&self, s: Interval) -> Bounds {
+        let far = s.low.abs().max(s.high.abs());
+        let blur = self.ray.blur_at(far);
+        let wide = |value: f64, by: f64| Interval { low: value - by, high: value + by };
+        let Isosurface { centre, scale, .. } = *self.surface;
+        let times_scale = |i: Interval| Interval { low: i.low * scale, high: i.high * scale };
+        let coordinate = |axis: usize| {
+            let (place, way) = (self.ray.nearest[axis], self.ray.direction[axis]);
+            let local = wide(place, blur) + s * Interval::point(way);
+            Sloped {
+                value: Interval::point(centre[axis]) + times_scale(local),
+                slopes: [times_scale(wide(way, self.ray.turn))],
+            }
+        };
+        let all = self.evaluate([0, 1, 2].map(coordinate));
+        let is_known = all.value.is_finite() && all.slope.is_finite();
+        match s.single() {
+            Some(s) if !is_known => {
+                let here = self.at(s);
+                if here.value.is_finite() { here } else { all }
+            }
+            _ => all,
+        }
+    }
+
+    /// The same at one point as it is given.
+    fn at(&self, s: f64) -> Bounds {
+        let Isosurface { centre, scale, .. } = *self.surface;
+        let point = centre + self.ray.at(s) * scale;
+        let coordinate = |axis: usize| Sloped {
+            value: Interval::point(point[axis]),
+            slopes: [Interval::point(self.ray.direction[axis] * scale)],
+        };
+        self.evaluate([0, 1, 2].map(coordinate))
+    }
+
+    fn evaluate(&self, point: [Sloped<1>; 3]) -> Bounds {
+        let run = self.run.get_or_init(|| RefCell::new(self.surface.run()));
+        let Sloped { value, slopes: [slope] } = run.borrow_mut().at(point);
+        Bounds { value: value - Interval::point(self.surface.threshold), slope }
+    }
+
+    fn sample(&self, s: f64) -> Sample {
+        let Bounds { value: Interval { low, high }, slope } = self.bounds(Interval::point(s));
+        Sample {
+            value: 0.5 * (low + high),
+            slope: 0.5 * (slope.low + slope.high),
+            error: 0.5 * (high - low),
+        }
+    }
+
+    pub fn met(&self, change: &Change) -> Met {
+        let (outside, inside) = match change.rising {
+            true => (change.after, change.before),
+            false => (change.before, change.after),
+        };
+        let guess = self.guess(outside, inside);
+        let found = root(|s| self.sample(s), (outside, inside), guess, self.ray.tolerance);
+        Met { t: found.t, error: found.error, leaving: change.rising, part: SURFACE }
+    }
+
+    /// The value on the line itself, as it is rounded.
+    fn value(&self, s: f64) -> f64 {
+        let point = self.surface.world(self.ray.at(s)).to_array();
+        let run = self.plain.get_or_init(|| RefCell::new(self.surface.run()));
+        run.borrow_mut().at(point) - self.surface.threshold
+    }
+
+    /// Near the root between two places, by values alone; no number where these tell none.
+    ///
+    /// **Source:** M. Dowell, P. Jarratt, "A modified regula falsi method", BIT 11 (1971): Illinois.
+    fn guess(&self, outside: f64, inside: f64) -> f64 {
+        let (mut above, mut below) = (outside, inside);
+        let (mut high, mut low) = (self.value(above), self.value(below));
+        // Which end was moved last.
+        let mut side = 0.0;
+        for _ in 0..GUESSES {
+            if !(high > 0.0 && low < 0.0) {
+                break;
+            }
+            let next = below - low * ((above - below) / (high - low));
+            let here = self.value(next);
+            let step = (next - below).abs().min((next - above).abs());
+            if here == 0.0 || step <= 4.0 * U * next.abs() + 0.5 * self.ray.tolerance {
+                return next;
+            }
+            if here > 0.0 {
+                low *= if side > 0.0 { 0.5 } else { 1.0 };
+                (above, high, side) = (next, here, 1.0);
+            } else {
+                high *= if side < 0.0 { 0.5 } else { 1.0 };
+                (below, low, side) = (next, here, -1.0);
+            }
+        }
+        f64::NAN
+    }
+
+    /// From an end of the line's part in the container inward: the first place whose sign is certain, or
+    /// where none is near, the end itself.
+    pub fn settle(&self, end: f64, error: f64, inward: f64, most: f64) -> f64 {
+        let mut step = error.max(4.0 * U);
+        let mut place = end;
+        while step < most {
+            let Interval { low, high } = self.bounds(Interval::point(place)).value;
+            if low > 0.0 || high < 0.0 {
+                return place;
+            }
+            place = end + inward * step;
+            step *= 4.0;
+        }
+        end
+    }
+}
+
+/// Looks for the roots in a piece of the line of which a cell knows this much.
+pub(super) fn look<F: Fn(Interval) -> Bounds>(
+    search: &mut Search<F>,
+    ray: &LocalRay,
+    piece: &Piece,
+    (from, to): (f64, f64),
+) {
+    let blur = ray.blur_at(from.abs().max(to.abs())) + 4.0 * U * (1.0 + from.abs().max(to.abs()));
+    let at = |s: f64| piece.known.at(ray.at(s) - piece.middle, blur);
+    let sign = |value: Interval| match (value.low > 0.0, value.high < 0.0) {
+        (true, _) => Some(false),
+        (_, true) => Some(true),
+        _ => None,
+    };
+    let along = piece.known.along(ray.direction, ray.turn);
+    let half = 0.5 * (to - from);
+    let whole = at(from + half) + along * Interval { low: -half, high: half };
+    if let Some(negative) = sign(whole) {
+        return search.certain(from, to, negative);
+    }
+    if !(along.low > 0.0 || along.high < 0.0) {
+        return search.through(from, to);
+    }
+    match (sign(at(from)), sign(at(to))) {
+        (Some(first), Some(last)) => {
+            search.certain(from, from, first);
+            search.certain(to, to, last);
+        }
+        _ => search.through_slope(from, to),
+    }
+}

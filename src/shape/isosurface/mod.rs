@@ -1,0 +1,273 @@
+//! Isosurface: where a function of space is less than a threshold, inside of a box or a ball about the local
+//! origin, which closes it. Outward is where the function rises.
+//!
+//! Crossings are found by bounds of the function and of its slope over whole pieces of the line, so none
+//! escapes through a steepness that nobody declared. **Invariant:** a crossing lies between two places where the
+//! function's bounds, over all lines that may have been meant, are of opposite signs; where a jump lies within
+//! what is meant, its value on the line itself counts. `accuracy` says how finely places are looked at
+//! where the bounds are infinite, as where the function may be undefined; and how wide a jump or a kink
+//! may be told from a slope.
+
+mod cells;
+mod container;
+mod line;
+
+use std::sync::Arc;
+
+use super::U;
+use super::body::{Crossings, Height, Local, LocalRay, Met};
+use crate::function::{Closed, Number, Run, Sloped};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::math::roots::isolate::{Changes, Fineness, Search};
+pub use cells::Cells;
+pub use container::Container;
+use line::{Line, look};
+
+/// The part that is the function's own; the container's are those after it.
+pub(super) const SURFACE: u32 = 0;
+
+/// A function at work.
+struct Running<'a, N>(Run<'a, N>, &'a Closed);
+
+impl<N: Number> Running<'_, N> {
+    fn at(&mut self, point: [N; 3]) -> N {
+        self.0.at(&point, self.1)
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Isosurface {
+    /// Of x, y and z, in a space of the author's.
+    pub function: Arc<Closed>,
+    pub threshold: f64,
+    pub container: Container,
+    /// A local point is there `centre + scale · point`; the scale is a power of two.
+    pub centre: Vector,
+    pub scale: f64,
+    /// In local lengths.
+    pub accuracy: f64,
+    /// Where the container cuts it, there is nothing to be seen.
+    pub open: bool,
+    /// Where it has been looked for.
+    pub cells: Cells,
+}
+
+/// Which of the crossings are wanted.
+#[derive(Clone, Copy, PartialEq)]
+enum Wanted {
+    All,
+    /// Those between two places, or the first of them that is certainly behind the former.
+    First(f64, f64),
+}
+
+impl Isosurface {
+    fn world(&self, point: Vector) -> Vector {
+        self.centre + point * self.scale
+    }
+
+    fn run<N: Number>(&self) -> Running<'_, N> {
+        Running(self.function.function().run(), &self.function)
+    }
+
+    fn value(&self, point: Vector) -> f64 {
+        let point = self.world(point).to_array();
+        self.run().at(point) - self.threshold
+    }
+
+    /// The value and its gradient over a box, in local lengths.
+    fn bounds(&self, point: [Interval; 3]) -> Sloped<3> {
+        let along = |axis: usize| {
+            let mut slopes = [Interval { low: 0.0, high: 0.0 }; 3];
+            slopes[axis] = Interval::point(self.scale);
+            let Interval { low, high } = point[axis];
+            let place = Interval { low: low * self.scale, high: high * self.scale };
+            Sloped { value: Interval::point(self.centre[axis]) + place, slopes }
+        };
+        let mut all = self.run::<Sloped<3>>().at([0, 1, 2].map(along));
+        all.value = all.value - Interval::point(self.threshold);
+        all
+    }
+
+    /// What the function rises by within `step` to both sides.
+    fn differences(&self, point: Vector, step: f64) -> Vector {
+        let along = |axis: Vector| {
+            (self.value(point + axis * step) - self.value(point - axis * step)) / (2.0 * step)
+        };
+        Vector::new(along(Vector::X), along(Vector::Y), along(Vector::Z))
+    }
+
+    /// The gradient where bounds tell no good one: at kinks and jumps, that of a wider and wider
+    /// neighbourhood; `None` where the function stays the same.
+    fn gradient_around(&self, point: Vector) -> Option<Vector> {
+        let steps = [1e-6, 0.1 * self.accuracy, self.accuracy, 4.0 * self.accuracy];
+        let gradients = steps.into_iter().map(|step| self.differences(point, step));
+        gradients.into_iter().find(|gradient| gradient.is_finite() && *gradient != Vector::ZERO)
+    }
+}
+
+/// What has been told of a search.
+struct Told {
+    changes: usize,
+    /// Whether the line starts inside, or that is not asked.
+    start: bool,
+}
+
+impl Isosurface {
+    fn search(&self, ray: &LocalRay, wanted: Wanted, found: &mut Crossings) {
+        let Some((enter, leave)) = self.container.chord(ray) else { return };
+        let (ends, width) = ((enter.t, leave.t), leave.t - enter.t);
+        if !width.gt(&0.0) {
+            return;
+        }
+        let line = Line::new(self, ray);
+        let blur = ray.blur_at(enter.t.abs().max(leave.t.abs()));
+        let rounded = blur + U * self.container.reach();
+        let fineness = Fineness { resolution: self.accuracy, least: 8.0 * rounded };
+        let mut search = Search::new(|s| line.bounds(s), fineness);
+        let first = || line.settle(enter.t, enter.error, 1.0, 0.1 * width);
+        let last = || line.settle(leave.t, leave.error, -1.0, 0.1 * width);
+        let (from, to) = match wanted {
+            Wanted::All => (f64::NEG_INFINITY, f64::INFINITY),
+            Wanted::First(from, to) => (from, to),
+        };
+        let half = self.container.half();
+        let mut told = Told { changes: 0, start: false };
+        // Whether the search has come to the line's end.
+        let mut is_whole = false;
+        if 16.0 * rounded > cells::MARGIN * half.max_element() {
+            // Too uncertain to be followed through cells.
+            search.through(first(), last());
+            is_whole = true;
+        } else {
+            let over = |point| self.bounds(point);
+            self.cells.along(ray, half, ends, &over, |piece| {
+                is_whole = piece.to == ends.1;
+                if piece.to < from {
+                    told.start = true;
+                    return true;
+                }
+                if piece.from > to {
+                    return false;
+                }
+                match piece.known.negative {
+                    Some(negative) => search.certain(piece.from, piece.to, negative),
+                    None => {
+                        let from = if piece.from == ends.0 { first() } else { piece.from };
+                        let to = if is_whole { last() } else { piece.to };
+                        if from < to {
+                            look(&mut search, ray, &piece, (from, to));
+                        }
+                    }
+                }
+                self.tell(&line, search.found(), &mut told, enter, found);
+                let is_enough = |met: &Met| met.is_seen() && met.t - met.error > from;
+                wanted == Wanted::All || !found.iter().any(is_enough)
+            });
+        }
+        self.tell(&line, search.found(), &mut told, enter, found);
+        if let Some((place, true)) = search.found().last
+            && is_whole
+        {
+            found.push(self.cap(leave, place));
+        }
+    }
+
+    fn tell(
+        &self,
+        line: &Line,
+        signs: &Changes,
+        told: &mut Told,
+        enter: Met,
+        found: &mut Crossings,
+    ) {
+        if !told.start
+            && let Some((place, negative)) = signs.first
+        {
+            told.start = true;
+            if negative {
+                found.push(self.cap(enter, place));
+            }
+        }
+        found.extend(signs.all[told.changes..].iter().map(|change| line.met(change)));
+        told.changes = signs.all.len();
+    }
+
+    /// An end of what is inside, where its sign is certain from `place` on.
+    fn cap(&self, end: Met, place: f64) -> Met {
+        let error = end.error.max((place - end.t).abs());
+        let part = if self.open { Met::UNSEEN } else { end.part };
+        Met { error, part, ..end }
+    }
+}
+
+impl Local for Isosurface {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.search(ray, Wanted::All, found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
+        self.search(ray, Wanted::First(from, to), found);
+    }
+
+    fn height(&self, part: u32, point: Vector) -> Height {
+        if part != SURFACE {
+            return self.container.height(part, point);
+        }
+        let Sloped { value: Interval { low, high }, slopes } =
+            self.bounds(point.to_array().map(Interval::point));
+        let value = 0.5 * (low + high);
+        let gradient = Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high)));
+        let width = Vector::from_array(slopes.map(|slope| slope.high - slope.low)).length();
+        let steepness = gradient.length();
+        let is_known = value.is_finite() && width <= 1e-3 * steepness;
+        if is_known && value.abs() <= self.accuracy * steepness {
+            return Height { value, gradient, error: 0.5 * (high - low) };
+        }
+        let gradient = self.gradient_around(point).unwrap_or(Vector::Y);
+        let (value, steepness) = (self.value(point), gradient.length());
+        if value.abs() <= self.accuracy * steepness {
+            let place = 1.0 + self.centre.length() / self.scale;
+            let error = 8.0 * U * (value.abs() + self.threshold.abs() + place * steepness);
+            return Height { value, gradient, error };
+        }
+        // A jump: the point is as near to it as its crossing was found.
+        Height { value: 0.0, gradient, error: 1e-9 * steepness }
+    }
+
+    fn extent(&self, along: Vector) -> (f64, f64) {
+        let half = self.container.extent(along);
+        (-half, half)
+    }
+
+    fn price(&self) -> u64 {
+        100 * self.function.function().operations() as u64
+    }
+
+    fn reach(&self) -> f64 {
+        self.container.reach()
+    }
+
+    fn numbers(&self) -> String {
+        let Self { function, threshold, container, centre, scale, open, .. } = self;
+        let operations = function.function().operations();
+        let open = if *open { " open" } else { "" };
+        format!(
+            " of {operations} operations, less than {threshold}, within {container:?} at {centre} × {scale}{open}"
+        )
+    }
+
+    fn is_iterated(&self) -> bool {
+        true
+    }
+
+    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+        let (enter, leave) = self.container.chord(ray)?;
+        let is_apart = |end: Met| (s - end.t).abs() > 2.0 * end.error + 64.0 * U * (1.0 + s.abs());
+        (is_apart(enter) && is_apart(leave)).then_some(SURFACE)
+    }
+
+    fn contains(&self, point: Vector) -> bool {
+        self.container.contains(point) && self.value(point) < 0.0
+    }
+}
