@@ -12,7 +12,7 @@ use lucarne::math::double::Double;
 use lucarne::math::terms::exponents;
 use lucarne::math::{Matrix, Vector};
 use lucarne::shape::curve::{Outline, Piece, Point};
-use lucarne::shape::isosurface::Container;
+use lucarne::shape::isosurface::{Cells, Container};
 use lucarne::shape::{
     Algebraic, Blob, Body, Isosurface, Lathe, Ovus, Prism, Sor, SphereSweep, Superellipsoid, blob,
     sor, sweep,
@@ -292,6 +292,7 @@ impl Field for Tube {
             scale: 1.0,
             accuracy: 1e-3,
             open: false,
+            cells: Cells::default(),
         }))
     }
     fn value<N: Number>([x, y, z]: &[N; 3]) -> N {
