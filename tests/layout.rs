@@ -123,14 +123,24 @@ fn keeps_its_meaning(name: &str, text: String, faults: &mut Vec<String>) -> bool
 
 /// How many of `paths` were laid out; none may mean anything else after it.
 fn compare(paths: &[PathBuf]) -> usize {
-    let mut faults = Vec::new();
-    let mut laid_out = 0;
-    for path in paths {
-        let Ok(bytes) = std::fs::read(path) else { continue };
-        let (text, _) = decode(bytes);
-        let kept = keeps_its_meaning(&path.display().to_string(), text, &mut faults);
-        laid_out += usize::from(kept);
-    }
+    let (next, done) = (Mutex::new(paths.iter()), Mutex::new((0, Vec::new())));
+    let work = || {
+        loop {
+            let Some(path) = next.lock().expect("no panic before").next() else { break };
+            let Ok(bytes) = std::fs::read(path) else { continue };
+            let (text, _) = decode(bytes);
+            let mut faults = Vec::new();
+            let kept = keeps_its_meaning(&path.display().to_string(), text, &mut faults);
+            let mut done = done.lock().expect("no panic before");
+            done.0 += usize::from(kept);
+            done.1.append(&mut faults);
+        }
+    };
+    std::thread::scope(|scope| {
+        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+        (0..cores).for_each(|_| drop(scope.spawn(work)));
+    });
+    let (laid_out, faults) = done.into_inner().expect("no panic before");
     assert!(faults.is_empty(), "these mean something else:\n{}", faults.join("\n"));
     laid_out
 }

@@ -97,7 +97,8 @@ fn families(random: &mut Random) -> Vec<(usize, Terms)> {
 fn polynomial_surfaces_are_crossed_where_exact_arithmetic_crosses_them() {
     let mut random = Random(81);
     let mut crossed = 0;
-    let rounds = tries_in(5000);
+    // A line takes milliseconds.
+    let rounds = tries_in(10_000);
     for _ in 0..rounds {
         for (degree, terms) in families(&mut random) {
             let placed = placed(&mut random, Body::Algebraic(surface(degree, &terms)));
