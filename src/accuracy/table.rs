@@ -6,7 +6,7 @@ use crate::math::elementary::log10;
 /// How much of it is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
-    /// No line is longer than [`COLUMNS`].
+    /// No line is longer than 100 columns.
     Narrow,
     /// All that was counted, and verdicts in full.
     Wide,

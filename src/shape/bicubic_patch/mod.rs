@@ -34,7 +34,7 @@ const SMALLEST: f64 = 1.0 / 64.0;
 /// Places along u and along v that a part tells apart: [`Local::height`] starts from there.
 const STEPS: f64 = (1 << 15) as f64 - 1.0;
 
-/// A part is where on the surface it is: u in the upper half, v in the lower, in [`STEPS`].
+/// A part is where on the surface it is: u in the upper half, v in the lower, in `STEPS`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BicubicPatch {
     net: Net,

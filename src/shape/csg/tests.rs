@@ -92,7 +92,7 @@ fn what_both_begin_with_is_shown_once() {
 
 /// How many levels one of so many trees has at most; a deep one has hundreds of leaves.
 fn levels(number: usize) -> usize {
-    if number % 10 == 0 { 8 } else { 5 }
+    if number.is_multiple_of(10) { 8 } else { 5 }
 }
 
 /// Operations of solids: merge and intersection.
