@@ -63,8 +63,7 @@ pub fn begin(
     let mut rest = complete(&Studio { watch: &most, ..*studio }, &plan(&settings), &mut traced);
     let took = (clock.cpu() - began.0, clock.wall() - began.1);
     if rest > 0 && settings != least {
-        let left = complete(&in_all, &plan(&least), &mut traced);
-        rest -= left;
+        rest -= complete(&in_all, &plan(&least), &mut traced);
     }
     Begun { traced, settings, least, is_less: settings != own, rest, took }
 }

@@ -14,6 +14,8 @@ pub enum Width {
 
 /// As wide as a page of text.
 const COLUMNS: usize = 100;
+/// How far the rest of a broken line is set in.
+const SET_IN: usize = 4;
 
 /// The whole report: first what to use, then what each setting costs and buys.
 pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String {
@@ -180,13 +182,14 @@ fn wrapped(line: &str) -> String {
     for (number, word) in words.split(' ').enumerate() {
         let long = word.chars().count();
         if number > 0 {
-            let is_full = length + 1 + long > COLUMNS;
-            out.push_str(&if is_full {
-                format!("\n{:1$}", "", blanks + 4)
+            if length + 1 + long > COLUMNS {
+                length = blanks + SET_IN;
+                out.push('\n');
+                out.push_str(&" ".repeat(length));
             } else {
-                " ".to_owned()
-            });
-            length = if is_full { blanks + 4 } else { length + 1 };
+                length += 1;
+                out.push(' ');
+            }
         }
         out.push_str(word);
         length += long;
