@@ -93,22 +93,39 @@ pub enum Depth {
 /// Shows a film: linear light is its `assumed_gamma` of the radiance; a display-referred number is the
 /// nearest to `255 · sRGB` (or `65535 · sRGB`) of it. Negative and undefined light is black.
 pub fn develop(film: &Film, depth: Depth) -> Image {
-    let (width, height) = (film.frame.region.width, film.frame.region.height);
-    let gamma = film.assumed_gamma;
-    let pixels = match depth {
-        Depth::Eight => {
-            let curve = Curve::new(255, gamma, film.radiance.len() * 3);
-            let encode = |c| curve.code(c) as u8;
-            Pixels::Eight(each(film, encode))
-        }
-        Depth::Sixteen => {
-            let curve = Curve::new(65_535, gamma, film.radiance.len() * 3);
-            let encode = |c| curve.code(c) as u16;
-            Pixels::Sixteen(each(film, encode))
-        }
-        Depth::Linear => Pixels::Linear(each(film, |c| gamma.linear(c) as f32)),
-    };
-    Image { width, height, pixels }
+    Developer::new(depth, film.assumed_gamma, film.radiance.len()).develop(film)
+}
+
+/// Shows films of one `assumed_gamma` as [`develop`] does; what it looks up is made once.
+pub struct Developer(Tones);
+
+enum Tones {
+    Eight(Curve),
+    Sixteen(Curve),
+    Linear(Gamma),
+}
+
+impl Developer {
+    /// For about so many pixels.
+    pub fn new(depth: Depth, gamma: Gamma, pixels: usize) -> Self {
+        let curve = |last| Curve::new(last, gamma, 3 * pixels);
+        Self(match depth {
+            Depth::Eight => Tones::Eight(curve(255)),
+            Depth::Sixteen => Tones::Sixteen(curve(65_535)),
+            Depth::Linear => Tones::Linear(gamma),
+        })
+    }
+
+    /// The whole of a film, or of a part of one.
+    pub fn develop(&self, film: &Film) -> Image {
+        let (width, height) = (film.frame.region.width, film.frame.region.height);
+        let pixels = match &self.0 {
+            Tones::Eight(curve) => Pixels::Eight(each(film, |c| curve.code(c) as u8)),
+            Tones::Sixteen(curve) => Pixels::Sixteen(each(film, |c| curve.code(c) as u16)),
+            Tones::Linear(gamma) => Pixels::Linear(each(film, |c| gamma.linear(c) as f32)),
+        };
+        Image { width, height, pixels }
+    }
 }
 
 fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {

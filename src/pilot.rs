@@ -2,7 +2,7 @@
 //!
 //! **In:** [`World`], its [`Plan`]. **Out:** the Plan with rays counted. **Invariant:** the same numbers
 //! on every run: they are counts, of pixels that depend on nothing but the picture's size, and of no more
-//! of them than a limit that is counted, too.
+//! of them than limits that are counted, too.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,6 +16,8 @@ const SIDE: u32 = 64;
 
 /// Rays that are enough to count, without those of the neighbours that adaptive antialiasing looks at.
 const RAYS: u64 = 1 << 20;
+/// Equations that are enough to solve, in those of a sphere: about as much time as so many rays take.
+const SOLVED_A_RAY: u64 = 16;
 /// Pixels that are traced at a time: those of one that goes beyond the limit do not count.
 const CHUNK: usize = 64;
 /// Where not so many chunks are done, less deep is better.
@@ -36,7 +38,7 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
         Antialias::Off | Antialias::Grid(_) => Antialias::Off,
         adaptive @ Antialias::Adaptive { .. } => adaptive,
     };
-    let options = TraceOptions::on_threads(1);
+    let options = TraceOptions { count_work: true, ..TraceOptions::on_threads(1) };
     let geometry = geometry(world, plan, &options);
     let (width, height) = thinned(plan.frame.region);
     let places = mixed(spread(plan.frame.region, (width, height)));
@@ -52,7 +54,7 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
             }
             counters += seen.counters;
             pixels_done += chunk.len();
-            if counters.rays() >= limit {
+            if counters.rays() >= limit || counters.work.solving >= SOLVED_A_RAY * limit {
                 break;
             }
         }
@@ -258,5 +260,21 @@ mod tests {
         assert!((128..64 * 48).contains(&fewer.pixels) && fewer.depth.is_none(), "{fewer:?}");
         let less = piloted(200, 1 << 16);
         assert!(less.pixels >= 128 && less.depth.is_some_and(|depth| depth < 20), "{less:?}");
+    }
+
+    #[test]
+    fn where_solids_are_dear_the_pilot_traces_fewer_pixels() {
+        let text = b"#include \"functions.inc\"
+            camera { location <0, 0, 6> look_at 0 angle 30 }
+            isosurface { function { f_noise3d(9*x, 9*y, 9*z) - 0.5 } contained_by { sphere { 0, 1 } } }";
+        let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+        let (world, origins) = road.compile("a.scene", text.to_vec());
+        assert!(!road.diagnostics.has_errors());
+        let mut plan = plan(&world, &origins, &PlanOptions::new(Frame::whole(320, 240)));
+        pilot_within(&world, &mut plan, 1 << 14);
+        let pilot = plan.pilot.expect("sent");
+        assert!((128..64 * 48).contains(&pilot.pixels), "{pilot:?}");
+        let rays = pilot.rays * plan.camera_rays_a_pixel() * pilot.pixels as f64;
+        assert!(rays < f64::from(1 << 14), "not for its rays: {rays}");
     }
 }

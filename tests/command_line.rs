@@ -191,9 +191,57 @@ fn stats_are_one_object_of_json_or_a_table() {
     // One ball: no tree of boxes, and an equation for each ray that may meet it.
     let solves = stats["work"]["root_solves"].as_u64().expect("a count");
     assert!((1..=16 * 8 * 2).contains(&solves) && stats["work"]["box_visits"] == 0, "{stats}");
-    let words = ["peak memory", "camera rays", "box visits", "root solves"];
+    // The ball's rays that meet it, by a light each; and no pattern.
+    assert!((1..=16 * 8).contains(&stats["evaluations"]["diffuse"].as_u64().expect("a count")));
+    assert_eq!(stats["evaluations"]["patterns"].as_u64(), Some(0));
+    let words = ["peak memory", "camera rays", "box visits", "root solves", "patterns"];
     let table = place.run("--stats a.scene --size 16x8").ends(0, &[]).stdout();
     assert!(table.contains(" CPU s\n") && words.iter().all(|word| table.contains(word)), "{table}");
+    // What is traced to keep a promise is no building of trees.
+    for promise in ["--max-error 0.2", "--time-budget 1s"] {
+        let run = place.run(&format!("a.scene --size 32x24 {promise} --stats json"));
+        let stats: serde_json::Value = serde_json::from_str(&run.stdout()).expect("JSON");
+        let seconds = |key: &str| stats[key].as_f64().expect("a number");
+        assert!(seconds("build_cpu_s") < seconds("trace_cpu_s"), "{stats}");
+    }
+}
+
+#[test]
+fn of_light_far_beyond_white_a_promise_says_what_no_sample_tells() {
+    let place = Place::new();
+    let run =
+        |scene: &str, promise: &str| place.run(&format!("{scene} --size 32x24 {promise}")).stderr();
+    place.write("glare.scene", &SCENE.replace("rgb 1 }", "rgb 1e6 }"));
+    // One that fades is as bright as it is where it shines.
+    let fading = "rgb 1e6 fade_distance 0.01 fade_power 2 }";
+    place.write("fading.scene", &SCENE.replace("rgb 1 }", fading));
+    for promise in ["--max-error 0.2", "--time-budget 1s"] {
+        let said = run("glare.scene", promise);
+        assert!(said.contains("note: light here is up to 1000000 times white: "), "{said}");
+        let others = run("a.scene", promise) + &run("fading.scene", promise);
+        assert!(!others.contains("times white"), "{others}");
+    }
+}
+
+#[test]
+fn flags_are_read_as_tables_and_scenes_write_them() {
+    let place = Place::new();
+    let bytes = |words: &str| {
+        place.run(&format!("a.scene --size 16x12 {words}")).ends(0, &[]);
+        place.read("a.png")
+    };
+    assert_eq!(bytes("--antialias 3x3"), bytes("--antialias 3"));
+    assert_eq!(bytes("--antialias 3×3"), bytes("--antialias 3"));
+    bytes("--root-tolerance 1/1000");
+    place
+        .run("accuracy a.scene --size 16x12 --budget 1s --knobs anti_alias")
+        .ends(2, &["antialias"]);
+    let idle = place.run("accuracy a.scene --size 16x12 --knobs adc_bailout").ends(0, &[]);
+    assert!(idle.stdout().starts_with("adc-bailout does nothing"), "{}", idle.stdout());
+    for seed in ["-1", "1.5"] {
+        let expected = "expected a whole number from 0 to 18446744073709551615";
+        place.run(&format!("a.scene --max-error 0.1 --seed {seed}")).ends(2, &[expected]);
+    }
 }
 
 #[test]
@@ -955,7 +1003,7 @@ fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
     // All but the lines with seconds: those that it is about to take, and those that it took.
     let found = |said: &str| -> Vec<String> {
         let is_timed = |line: &&str| {
-            [".png: ", " about ", " % after "].iter().any(|timed| line.contains(timed))
+            [".png: ", " about ", " takes ", " % after "].iter().any(|timed| line.contains(timed))
         };
         said.lines().filter(|line| !is_timed(line)).map(str::to_owned).collect()
     };
@@ -963,7 +1011,7 @@ fn the_flags_that_are_printed_make_the_picture_that_was_promised() {
     // Standard error is no terminal here: its steps are told in lines.
     assert!(said.starts_with("note: choosing settings"), "{said}");
     assert!(said.contains("\nnote: rendering with --antialias "), "{said}");
-    assert!(said.contains("\nnote: that takes about 0."), "{said}");
+    assert!(said.contains("\nnote: that takes less than a second\n"), "{said}");
 }
 
 #[test]

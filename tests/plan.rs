@@ -49,6 +49,10 @@ fn written(plan: &Value) -> String {
     if plan["precision"] != "double" {
         out += &format!("precision {}\n", text(&plan["precision"]));
     }
+    let tolerance = number(&plan["root_tolerance"]);
+    if tolerance > 0.0 {
+        out += &format!("root_tolerance {tolerance}\n");
+    }
     assert_eq!(list(&plan["kernels_compiled"]).len(), 4);
     let rays = match text(&plan["kernel"]) {
         "bare" => "the camera's alone",
@@ -238,6 +242,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         "scenes/atmosphere/background.scene --antialias off --region 3,4,20,10".to_owned(),
         "scenes/seed/mirror.scene --precision single".to_owned(),
         "tests/cases/glass.scene".to_owned(),
+        "scenes/shapes/torus.scene --root-tolerance 1e-4".to_owned(),
         format!("{hard} --precision single --size 640x480"),
     ] {
         let said = plan(&words);

@@ -8,19 +8,21 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let flag = |row: usize| report.flag(row).unwrap_or("the scene's own settings").to_owned();
     let is_alone = report.rows.len() == 1;
     let left_out = report.knobs.iter().any(|knob| !knob.left_out.is_empty());
-    let (best, first) = match report.rows.first().map(|own| own.verdict) {
+    let (best, named, first) = match report.rows.first().map(|own| own.verdict) {
         None => return Vec::new(),
         Some(_) if is_alone && left_out => (
             0,
+            None,
             "nothing but the scene's own settings was tried: `--budget` is too short".to_owned(),
         ),
         Some(_) if is_alone => {
-            (0, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
+            (0, None, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
         }
         Some(Verdict::Dominated { by, times, .. }) => {
             let times = times.map_or_else(|| "as fast".to_owned(), faster);
             (
                 by,
+                None,
                 format!(
                     "use {}: {times} than the scene's own settings, for {}",
                     flag(by),
@@ -32,6 +34,7 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
             let (row, times) = perhaps(report, order).unwrap_or((over, times));
             (
                 0,
+                Some(row),
                 format!(
                     "keep the scene's own settings, or perhaps {}: {}, and not proven to be worse ({})",
                     flag(row),
@@ -41,21 +44,26 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
             )
         }
         Some(Verdict::Front) => {
-            (0, "keep the scene's own settings: whatever is faster is worse".to_owned())
+            (0, None, "keep the scene's own settings: whatever is faster is worse".to_owned())
         }
-        Some(Verdict::Tied { .. }) => {
-            (0, "keep the scene's own settings: nothing is clearly faster and as good".to_owned())
-        }
+        Some(Verdict::Tied { .. }) => (
+            0,
+            None,
+            "keep the scene's own settings: nothing is clearly faster and as good".to_owned(),
+        ),
     };
     let rows: Vec<usize> = (0..report.rows.len()).collect();
     let sorted = order.from_cheap_to_dear(&rows);
     let front = || sorted.iter().copied().filter(|&row| report.rows[row].verdict == Verdict::Front);
-    let finer = front().find(|&row| order.is_cheaper(best, row) && order.gains(row, best));
-    let quicker = front().rev().find(|&row| order.is_cheaper(row, best));
+    let finer = front().find(|&row| order.gains(row, best));
+    // What was named is not named again.
+    let quicker = front().rev().find(|&row| order.is_cheaper(row, best) && Some(row) != named);
     let mut lines = vec![first];
-    if let Some((row, times)) = finer.and_then(|row| Some((row, order.times(best, row)?))) {
+    if let Some(row) = finer {
         let instead = instead(report, row, best);
-        lines.push(format!("for less error {}: {instead}, for {}", flag(row), more(times)));
+        let times = order.times(best, row).map(|times| format!("for {}", more(times)));
+        let times = times.unwrap_or_else(|| "as fast".to_owned());
+        lines.push(format!("for less error {}: {instead}, {times}", flag(row)));
     }
     if let Some((row, times)) = quicker.and_then(|row| Some((row, order.times(row, best)?))) {
         let instead = instead(report, row, best);
@@ -73,7 +81,13 @@ fn perhaps(report: &Report, order: &Order) -> Option<(usize, f64)> {
 }
 
 fn instead(report: &Report, row: usize, of: usize) -> String {
-    format!("an error of {} instead of {}", error(report, row), error(report, of))
+    match (error(report, row), error(report, of)) {
+        // What lies below the same bound is told apart by nothing.
+        (less, than) if less == than && less.starts_with('<') => {
+            format!("an error of {less} in both")
+        }
+        (less, than) => format!("an error of {less} instead of {than}"),
+    }
 }
 
 #[cfg(test)]

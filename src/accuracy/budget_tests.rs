@@ -51,9 +51,22 @@ fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_l
         let within = (0.95 * time..=1.05 * time).contains(&clock.wall());
         assert!(spent.traced.complete && within, "{}", clock.wall());
         // As deep as the scene looks, where all the way takes too long.
-        assert_eq!(spent.audit.expect("told").depth, Some(5));
+        let audit = spent.audit.expect("told");
+        assert_eq!((audit.depth, audit.adc_bailout), (Some(5), Some(1.0 / 255.0)));
         assert!(!spent.is_less && spent.traced.film.samples.iter().any(|&samples| samples > 1));
     }
+}
+
+#[test]
+fn a_reference_that_gives_up_rays_as_soon_as_the_scene_does_says_so() {
+    // As deep as can be, and yet not all the way.
+    let hasty = GLASS.replace("max_trace_level", "adc_bailout 0.5 max_trace_level");
+    let (world, origins) = compiled(&hasty, 250.0);
+    let clock = Ticking::new(1.0);
+    let spent = spend(&world, &origins, &asked(48, 36), &|_| 20_000.0, &clock, &Unwatched);
+    let audit = spent.audit.expect("told");
+    assert_eq!((audit.depth, audit.adc_bailout), (None, Some(0.5)));
+    assert!(!audit.proves(1.0));
 }
 
 #[test]
@@ -157,15 +170,14 @@ fn without_a_clock_a_reference_is_as_deep_on_every_run() {
 }
 
 /// A film of one ray a pixel, refined until the clock shows `until`.
-fn refined(threads: usize, until: f64) -> (Film, usize) {
+fn refined(until: f64) -> (Film, usize) {
     let (world, origins) = compiled(GLASS, 3.0);
     let own = own(&world, Frame::whole(40, 30));
     let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
     let geometry = Geometries::default();
     let clock = Ticking::new(1.0);
     let watch = afford::Deadline { clock: &clock, until, watch: &Unwatched };
-    let options = TraceOptions::on_threads(threads);
-    let studio = Studio { world: &world, geometry: &geometry, options, watch: &watch };
+    let studio = Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &watch };
     let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
     let pace = Pace { seconds: 100.0, samples: film.samples.len() as f64 };
     let mut canvas = Canvas::new(film, counters, pace);
@@ -181,7 +193,7 @@ fn refined(threads: usize, until: f64) -> (Film, usize) {
 
 #[test]
 fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
-    let (film, pixels) = refined(1, 6000.0);
+    let (film, pixels) = refined(6000.0);
     let counts: std::collections::BTreeSet<u32> = film.samples.iter().copied().collect();
     assert!(counts.len() > 3 && pixels > 100, "{counts:?}");
     let (world, origins) = compiled(GLASS, 3.0);
@@ -199,8 +211,8 @@ fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
 #[test]
 fn time_is_spent_over_the_whole_picture() {
     // Few pixels are done, and each quarter of those that are worth it has its share.
-    let (film, pixels) = refined(1, 60.0);
-    let (more, _) = refined(1, 6000.0);
+    let (film, pixels) = refined(60.0);
+    let (more, _) = refined(6000.0);
     let quarter = |film: &Film, top: usize, left: usize| {
         let inside = |i: &usize| i / 40 / 15 == top && i % 40 / 20 == left;
         (0..1200).filter(inside).filter(|&i| film.samples[i] > 1).count()

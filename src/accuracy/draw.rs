@@ -7,9 +7,11 @@
 //! **Source:** M. Hansen, W. Hurwitz, "On the theory of sampling from finite populations", Annals of
 //! Mathematical Statistics 14, 1943.
 
-use super::afford::Deadline;
+use std::collections::BTreeSet;
+
+use super::afford::{Deadline, LEAST};
 use super::measure::Clock;
-use super::promise::Audit;
+use super::proof::Audit;
 use super::reference::{Studio, clamped, colors_of};
 use super::refine::{Canvas, Worth, place};
 use super::statistics::{Deviation, Estimate, Metric, weighted};
@@ -25,8 +27,6 @@ const ANYWHERE: f64 = 0.5;
 const BLOCK: usize = 64;
 /// Pixels whose parts are added up before one is drawn among them.
 const CHUNK: usize = 64;
-/// Fewer draws than this say nothing of a picture.
-pub const LEAST: usize = 30;
 /// More than this tell little more: the interval is about a tenth of the error wide.
 pub const MOST: usize = 2000;
 
@@ -43,8 +43,9 @@ struct Drawn {
 /// Draws pixels one after the other, and any of them again.
 pub struct Urn<'a> {
     canvas: &'a Canvas,
+    /// How wrong each pixel is taken to be, squared.
     errors: Vec<f32>,
-    /// Of the squares of `errors`, chunk by chunk, each with all before it.
+    /// Of those, chunk by chunk, each with all before it.
     sums: Vec<f64>,
     random: Random,
 }
@@ -166,7 +167,9 @@ impl Truth {
         let off: Vec<Deviation> = off.collect();
         let (error, noise) = weighted(metric, &off, &weights);
         let resolution = resolution(metric, error, noise);
-        Audit { metric, error, resolution, pixels: list.len(), depth: None }
+        // Some are drawn more than once.
+        let pixels = list.iter().collect::<BTreeSet<_>>().len();
+        Audit { metric, error, resolution, pixels, depth: None, adc_bailout: None }
     }
 }
 

@@ -156,7 +156,7 @@ const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
 const SINGLE: f64 = 1.11;
 
 /// `1/255`, `0.3` or `1e-6`: read again it is the same number.
-fn share(weight: f64) -> String {
+pub fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
     let (plain, short) = (format!("{weight}"), format!("{weight:e}"));
     match format!("{parts}") {

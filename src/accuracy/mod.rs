@@ -14,10 +14,12 @@ mod draw;
 mod easel;
 mod forecast;
 mod front;
+mod glare;
 pub mod json;
 mod knob;
 mod measure;
 mod promise;
+mod proof;
 mod reference;
 mod refine;
 mod report;
@@ -30,9 +32,11 @@ mod trial;
 
 pub use afford::LEAST as LEAST_PIXELS;
 pub use front::{Order, Verdict};
-pub use knob::{KNOBS, Knob, Need};
+pub use glare::glare;
+pub use knob::{KNOBS, Knob, Need, share};
 pub use measure::{Clock, Span, Times};
-pub use promise::{Audit, Kept, Step, TooSmall, keep};
+pub use promise::{Kept, Step, TooSmall, keep};
+pub use proof::Audit;
 pub use report::{Cut, Line, Report, Row, Setting, Tried};
 pub use spend::{First, Spent, spend};
 pub use statistics::{Estimate, Metric};
@@ -267,6 +271,10 @@ struct Quiet<'a>(&'a dyn Watch);
 
 impl Watch for Quiet<'_> {
     fn progress(&self, _: usize, _: usize) {}
+
+    fn built(&self) {
+        self.0.built();
+    }
 
     fn should_stop(&self) -> bool {
         self.0.should_stop()

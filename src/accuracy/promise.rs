@@ -12,11 +12,12 @@ use super::choose::{Choice, Tuning};
 use super::easel::Easel;
 use super::knob::cost;
 use super::measure::Clock;
-use super::reference::{Geometries, Reference, Studio, colors_of};
+use super::proof::{Audit, audited, expected};
+use super::reference::{Geometries, Reference, Studio};
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet};
-use crate::plan::{Plan, PlanOptions, plan};
-use crate::trace::{Counters, TraceOptions, Traced, Watch};
+use crate::plan::{Antialias, Plan, PlanOptions, plan};
+use crate::trace::{Counters, Sampling, TraceOptions, Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Part of the promised error that is aimed at: room for what chance does to the audit.
@@ -29,36 +30,19 @@ const TIMED: usize = 256;
 /// where those are too many, fewer pixels are looked at, and at least so many.
 const MOST_RAYS: f64 = 4e9;
 const LEAST_KEPT: usize = 256;
+/// Samples of each pixel that a picture is taken to have: it costs as much as the coarsest reference of all of
+/// the pixels of one kind, or more. Where that leaves fewer pixels than are enough to prove by, it does not.
+const PICTURE: f64 = 9.0;
+const ENOUGH: f64 = 512.0;
+/// What the noise of a reference falls by from one step to the next; and how far beyond a promise the noise of
+/// the finest would have to lie for it not to be made. (Samples stratified in two dimensions lessen it by .6
+/// where they find edges, by .5 where all is smooth.)
+const FALLS: f64 = 0.6;
+const SURELY: f64 = 2.0;
 /// Of the promised error: what need not be told from nothing.
 const SMALL: f64 = 0.25;
 /// Samples of a pixel from which on more of them are dearer than to try the dearest settings.
 const DEAREST: u32 = 1000;
-
-/// What fresh pixels say of a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Audit {
-    pub metric: Metric,
-    pub error: Estimate,
-    /// Four times the reference's own error: what is below cannot be told from it.
-    pub resolution: f64,
-    pub pixels: usize,
-    /// How deep the reference looked, where that was not as deep as can be: of what lies deeper nothing
-    /// is known.
-    pub depth: Option<u32>,
-}
-
-impl Audit {
-    /// Its interval ends below `most`, the reference tells so small an error, and all that it can see was
-    /// looked at.
-    pub fn proves(&self, most: f64) -> bool {
-        self.shows(most) && self.depth.is_none()
-    }
-
-    /// The same, of what was looked at.
-    fn shows(&self, most: f64) -> bool {
-        self.error.high.max(self.resolution) <= most
-    }
-}
 
 /// A picture whose error was promised.
 #[derive(Debug, Clone, PartialEq)]
@@ -173,12 +157,19 @@ impl<'a> Search<'a> {
         let samples = f64::from(rough.samples()) * few.len() as f64;
         add(&effort, clock.wall() - began, samples, &rough.counters);
         let a_sample = rough.counters.rays() as f64 / samples;
-        let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))) as usize;
-        for set in &mut sets {
-            if set.len() > most.max(LEAST_KEPT) {
-                *set = audit::shuffled(std::mem::take(set), options.seed);
-                set.truncate(most.max(LEAST_KEPT));
-            }
+        let plain = PlanOptions { antialias: Antialias::Off, ..easel.own };
+        let plain = studio.pixels(&plan(studio.world, origins, &plain), few, Sampling::Planned);
+        let region = options.frame.region;
+        let picture = PICTURE * cost(&plain.counters) / few.len() as f64
+            * f64::from(region.width)
+            * f64::from(region.height);
+        let coarsest = f64::from(Reference::samples_at(Reference::COARSEST));
+        let worth = picture / (coarsest * cost(&rough.counters) / samples);
+        let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))).min(worth.max(ENOUGH));
+        let most = (most as usize).max(LEAST_KEPT);
+        for set in sets.iter_mut().filter(|set| set.len() > most) {
+            *set = audit::shuffled(std::mem::take(set), options.seed);
+            set.truncate(most);
         }
         Some(Self {
             studio,
@@ -220,6 +211,15 @@ impl<'a> Search<'a> {
         resolution <= error.max(SMALL * self.promise) || known.is_finest() || known.is_exact()
     }
 
+    /// Not even the finest reference will tell so small an error from its own. (Of shares nothing is
+    /// foretold.)
+    fn is_hopeless(&self, known: &Reference) -> bool {
+        let metric = self.options.metric;
+        let steps = Reference::finest_within(usize::MAX) - known.step();
+        let finest = (0..steps).fold(known.floor(metric), |floor, _| FALLS * floor);
+        metric != Metric::Bad && 4.0 * finest > SURELY * self.promise
+    }
+
     /// Until its own error is below a quarter of that, or it is as fine as it gets.
     fn resolved(
         &self,
@@ -233,7 +233,7 @@ impl<'a> Search<'a> {
         known
     }
 
-    /// Seconds that [`Search::resolved`] will take, whose noise falls as `refine` says.
+    /// Seconds that [`Search::resolved`] will take, if noise falls as [`FALLS`] has it.
     fn to_resolve(&self, known: &Reference, error: f64) -> f64 {
         let (mut floor, mut step, mut samples) =
             (known.floor(self.options.metric), known.step(), 0.0);
@@ -244,7 +244,7 @@ impl<'a> Search<'a> {
         {
             step += 1;
             samples += f64::from(Reference::samples_at(step));
-            floor *= 0.6;
+            floor *= FALLS;
         }
         samples * known.pixels() as f64 * self.a_sample()
     }
@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
         while !self.is_enough(&known, self.promise) {
             if known.samples() >= DEAREST {
                 let dearest = self.tuning(list, &known).dearest()?;
-                if dearest.error.low > self.promise {
+                if dearest.error.low > self.promise || self.is_hopeless(&known) {
                     return Some((known, Some(dearest)));
                 }
             }
@@ -320,12 +320,13 @@ impl<'a> Search<'a> {
         let mut goal = promise;
         let resolution = 4.0 * reference.floor(self.options.metric);
         if is_dearest && choice.error.high.max(resolution) > promise {
-            goal = choice.error.value.max(promise);
+            // What these pixels could not tell, others need not.
+            goal = choice.error.value.max(resolution).max(promise);
             let (error, pixels) = (choice.error, tuned.len());
             (self.tell)(Step::Unreachable { error, resolution, pixels });
         }
         let fresh = self.resolved(None, audited, goal)?;
-        let (first, fresh) = self.rendered(&choice, audited, fresh, is_dearest);
+        let (first, fresh) = self.rendered(&choice, audited, (fresh, goal), is_dearest);
         // A better picture proves no more where the reference does not look all the way, nor does the
         // same one.
         let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
@@ -354,26 +355,29 @@ impl<'a> Search<'a> {
         }
         let is_dearest = self.tuning(&both, &reference).is_dearest(&better.options);
         let fresh = self.resolved(None, again, promise)?;
-        let (second, _) = self.rendered(&better, again, fresh, is_dearest);
+        let (second, _) = self.rendered(&better, again, (fresh, promise), is_dearest);
         Some(Kept { refined: true, ..second })
     }
 
-    /// A picture, and what the pixels of a list, whose truth is known, say of it.
+    /// A picture, and what the pixels of a list, whose truth is known to within `goal`, say of it.
     fn rendered(
         &self,
         choice: &Choice,
         list: &[(u32, u32)],
-        reference: Reference,
+        (reference, goal): (Reference, f64),
         is_dearest: bool,
     ) -> (Kept, Option<Reference>) {
         let flags = self.easel.flags(&choice.options);
         let region = self.options.frame.region;
         let pixels = f64::from(region.width) * f64::from(region.height);
         let Effort { seconds, cost, .. } = self.effort.get();
+        // What no reference can tell is not asked of one.
+        let least = if goal > self.promise { goal } else { 0.0 };
+        let error = choice.error.value.max(least);
         (self.tell)(Step::Rendering {
             flags: flags.clone(),
             seconds: seconds / cost.max(1.0) * choice.cost * pixels,
-            audit: self.to_resolve(&reference, choice.error.value),
+            audit: self.to_resolve(&reference, error),
         });
         let asked = Studio { options: self.options.trace, ..self.studio };
         let plan = plan(self.studio.world, self.origins, &choice.options);
@@ -383,7 +387,7 @@ impl<'a> Search<'a> {
             return (kept, None);
         }
         let metric = self.options.metric;
-        let error = audited(&kept.traced, list, &reference, metric).error.value;
+        let error = audited(&kept.traced, list, &reference, metric).error.value.max(least);
         let reference = self.resolved(Some(reference), list, error);
         kept.audit = reference.as_ref().map(|reference| {
             let audit = audited(&kept.traced, list, reference, metric);
@@ -393,14 +397,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The upper end that an audit by `fresh` pixels will hardly exceed, of settings of which `known` pixels
-/// tell an error: intervals are as much wider as there are fewer pixels, and both are off by chance.
-fn expected(error: &Estimate, known: usize, fresh: usize) -> f64 {
-    let more = known as f64 / fresh as f64;
-    let width = (error.high - error.value) * more.sqrt();
-    error.value + width * (1.0 + (1.0 + 1.0 / more).sqrt())
-}
-
 fn add(effort: &Cell<Effort>, seconds: f64, samples: f64, counters: &Counters) {
     let before = effort.get();
     effort.set(Effort {
@@ -408,21 +404,4 @@ fn add(effort: &Cell<Effort>, seconds: f64, samples: f64, counters: &Counters) {
         samples: before.samples + samples,
         cost: before.cost + cost(counters),
     });
-}
-
-/// What the pixels of a list, whose truth is known, say of a picture.
-pub fn audited(
-    traced: &Traced,
-    list: &[(u32, u32)],
-    reference: &Reference,
-    metric: Metric,
-) -> Audit {
-    let colors = colors_of(&traced.film, list);
-    Audit {
-        metric,
-        error: metric.estimate(&audit::by_place(list, reference.deviations(&colors))),
-        resolution: 4.0 * reference.floor(metric),
-        pixels: list.len(),
-        depth: None,
-    }
 }

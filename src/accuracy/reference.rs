@@ -61,6 +61,7 @@ impl Studio<'_> {
             return geometry.clone();
         }
         let geometry = Arc::new(trace::geometry(self.world, plan, &self.options));
+        self.watch.built();
         made.push((plan.arithmetic(), geometry.clone()));
         geometry
     }
@@ -116,6 +117,10 @@ struct Part<'a> {
 impl Watch for Part<'_> {
     fn progress(&self, done: usize, _: usize) {
         self.watch.progress(self.before.load(Ordering::Relaxed) + done, self.all);
+    }
+
+    fn built(&self) {
+        self.watch.built();
     }
 
     fn should_stop(&self) -> bool {

@@ -4,12 +4,12 @@
 //! what is known of its error. **Invariant:** it is done in time, also where that is too short for the
 //! scene's own settings; and an error is told only against what looks as deep as the scene does.
 
-use super::afford::{Deadline, Depths};
+use super::afford::{Deadline, Depths, LEAST};
 use super::begin::{Begun, begin};
-use super::draw::{LEAST, Truth, Urn};
+use super::draw::{Truth, Urn};
 use super::easel::Easel;
 use super::measure::Clock;
-use super::promise::Audit;
+use super::proof::Audit;
 use super::reference::{Geometries, Studio};
 use super::refine::{Canvas, MOST_SIDE, Pace, Until, is_finest};
 use super::{Options, Quiet};
@@ -19,9 +19,9 @@ use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Of all the time: what finding the error may take, and what it may take where there are fewer than
-/// so many pixels by then. Ten pixels of a hundred fewer samples make an error 8 % larger.
+/// so many pixels by then: what samples have left. Ten pixels of a hundred fewer samples make an error 8 % larger.
 const FOR_AUDIT: f64 = 0.1;
-const FOR_FEW: f64 = 0.2;
+const FOR_FEW: f64 = 0.14;
 const FEW: usize = 200;
 /// Of all the time: what the first pass leaves at least, so that a whole picture's error is known.
 const KEPT: f64 = 0.05;
@@ -29,7 +29,7 @@ const KEPT: f64 = 0.05;
 const FOR_ALL_THE_WAY: f64 = 0.25;
 /// Of the time for more samples: what is spent before the audit. What is left is spent with what those
 /// samples have shown, and with what the audit did not need. Pixels traced anew lose the samples they had:
-/// with 0.8, and 16 for [`PILOT`], errors were a fifth larger than with 0.97 and 64.
+/// with 0.8, and 16 for [`PILOT`], errors were a fifth larger than with nearly all and 64.
 const BEFORE_AUDIT: f64 = 0.95;
 /// Of the samples there is time for: one of so many goes to every pixel alike, to learn which need more.
 const PILOT: f64 = 64.0;
@@ -41,7 +41,7 @@ const SLACK: f64 = 1.2;
 pub struct Spent {
     /// Not complete when even the first pass did not fit. Its film says how many samples each pixel has.
     pub traced: Traced,
-    /// The flags that all of it was made with, the number of samples aside.
+    /// The flags that all of it was made with but `rest`, the number of samples aside.
     pub flags: String,
     /// Those are less than the scene's own, which would not have fit.
     pub is_less: bool,
@@ -148,8 +148,9 @@ impl Spending<'_> {
         let metric = self.options.metric;
         let began = self.clock.wall();
         let audit = |film: &Film| {
-            let (truth, depth) = truth.as_ref()?;
-            Some(Audit { depth: *depth, ..truth.audit(film, metric) })
+            let Found { truth, depth, adc_bailout } = truth.as_ref()?;
+            let (depth, adc_bailout) = (*depth, *adc_bailout);
+            Some(Audit { depth, adc_bailout, ..truth.audit(film, metric) })
         };
         audit(&self.canvas.film);
         let until = self.until - SLACK * (self.clock.wall() - began);
@@ -180,9 +181,9 @@ impl Spending<'_> {
         }
     }
 
-    /// What drawn pixels really look like: with every knob at its dearest, or else as the scene has it; and
-    /// how deep that is where it is not all the way.
-    fn truth(&mut self, for_audit: f64) -> Option<(Truth, Option<u32>)> {
+    /// What drawn pixels really look like: with every knob at its dearest, or else with rays that go on as far
+    /// as the scene has them.
+    fn truth(&mut self, for_audit: f64) -> Option<Found> {
         let Self { studio, canvas, clock, options, .. } = self;
         let began = clock.wall();
         let most = began + for_audit.max((FOR_FEW * self.all).min(self.until - began));
@@ -193,10 +194,12 @@ impl Spending<'_> {
             0 => began + FOR_ALL_THE_WAY * for_audit,
             _ => enough(known),
         };
-        let deepest = self.depths.most();
-        let all = self.depths.plan(studio, deepest);
-        let own = plan(studio.world, self.depths.origins, &self.own);
+        let Depths { origins, deepest } = self.depths;
+        let all = plan(studio.world, origins, &deepest);
+        let PlanOptions { depth, adc_bailout, .. } = self.own;
+        let own = plan(studio.world, origins, &PlanOptions { depth, adc_bailout, ..deepest });
         // Where no ray goes on from what it meets, one look is as deep as another.
+        let most = (all.max_trace_level, all.adc_bailout);
         let looks: &[(Plan, &dyn Fn(usize) -> f64)] = match goes_on(&own) {
             true => &[(all, &all_the_way), (own, &enough)],
             false => &[(all, &enough)],
@@ -207,15 +210,27 @@ impl Spending<'_> {
             let asked = (options.metric, options.seed);
             let truth = Truth::find(studio, plan, &mut urn, asked, (*clock, until));
             if truth.pixels() >= LEAST {
-                let depth = plan.max_trace_level;
-                found = Some((truth, (depth < deepest).then_some(depth)));
+                let (depth, adc_bailout) = (plan.max_trace_level, plan.adc_bailout);
+                found = Some(Found {
+                    truth,
+                    depth: (depth < most.0).then_some(depth),
+                    adc_bailout: (adc_bailout > most.1).then_some(adc_bailout),
+                });
                 break;
             }
         }
-        let (truth, depth) = found?;
-        canvas.counters += truth.counters;
-        Some((truth, depth))
+        let found = found?;
+        canvas.counters += found.truth.counters;
+        Some(found)
     }
+}
+
+/// What pixels really look like, and how far rays were followed where that was not all the way: as
+/// [`Audit`] has them.
+struct Found {
+    truth: Truth,
+    depth: Option<u32>,
+    adc_bailout: Option<f64>,
 }
 
 /// Surfaces send rays on: what is seen depends on how deep one looks.

@@ -2,6 +2,7 @@
 
 use super::{Cut, Estimate, Line, Metric, Report, Setting, Span, Times, Tried, Verdict, answer};
 use crate::math::elementary::log10;
+use crate::plan::Frame;
 
 /// How much of it is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +15,8 @@ pub enum Width {
 
 /// As wide as a page of text.
 const COLUMNS: usize = 100;
+/// Of the settings' names, where none is longer.
+const NAME: usize = 17;
 /// How far the rest of a broken line is set in.
 const SET_IN: usize = 4;
 
@@ -23,9 +26,11 @@ pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String
     lines.push(String::new());
     lines.extend(heads(report, file, threads, width));
     lines.push(String::new());
+    let labels = report.knobs.iter().flat_map(Tried::lines).map(|line| line.label.chars().count());
+    let name = labels.max().unwrap_or(0).max(NAME);
     lines.push(match width {
         Width::Narrow => format!(
-            "  {:17} {:>6} {:>4} {:>6} {:>9} {:18} worth it?",
+            "  {:name$} {:>6} {:>4} {:>6} {:>9} {:18} worth it?",
             "setting",
             "CPU s",
             "±",
@@ -34,7 +39,7 @@ pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String
             "95 % interval"
         ),
         Width::Wide => format!(
-            "  {:18} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
+            "  {:name$} {:>14} {:>14} {:>4} {:>8} {:>8} {:>8} {:>8}  {:>9} {:18} worth it?",
             "setting",
             "CPU min..med",
             "wall min..med",
@@ -49,7 +54,7 @@ pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String
     });
     for knob in &report.knobs {
         lines.push(knob.name.to_owned());
-        lines.extend(knob.lines().map(|line| row(report, knob, &line, width)));
+        lines.extend(knob.lines().map(|line| row(report, knob, &line, (width, name))));
         let also = |what: &str, labels: &[String]| {
             (!labels.is_empty()).then(|| format!("  {what}: {}", labels.join(", ")))
         };
@@ -70,8 +75,13 @@ pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String
 fn heads(report: &Report, file: &str, threads: usize, width: Width) -> Vec<String> {
     let region = report.frame.region;
     let floor = report.floors[report.metric as usize];
+    let Frame { width: wide, height: high, .. } = report.frame;
+    let part = match (region.width, region.height) == (wide, high) {
+        true => String::new(),
+        false => format!(" of {wide}×{high}"),
+    };
     let mut lines = vec![format!(
-        "{file} {}×{}: {} audited pixels (seed {}), reference of {} samples each, noise floor {}",
+        "{file} {}×{}{part}: {} audited pixels (seed {}), reference of {} samples each, noise floor {}",
         region.width,
         region.height,
         report.audited,
@@ -121,7 +131,7 @@ pub(super) fn cut(report: &Report) -> Vec<String> {
 }
 
 /// The settings of a line.
-fn row(report: &Report, knob: &Tried, line: &Line, width: Width) -> String {
+fn row(report: &Report, knob: &Tried, line: &Line, (width, name): (Width, usize)) -> String {
     let row = &report.rows[line.first.row];
     let star = if line.is_own { '*' } else { ' ' };
     let cpu = Span::of(&row.times.cpu);
@@ -131,14 +141,14 @@ fn row(report: &Report, knob: &Tried, line: &Line, width: Width) -> String {
     let verdict = verdict(report, knob, line.first, width);
     match width {
         Width::Narrow => format!(
-            "{star} {:17} {:>6} {:>4} {:>6} {error_told:>9} {bounds:18} {verdict}",
+            "{star} {:name$} {:>6} {:>4} {:>6} {error_told:>9} {bounds:18} {verdict}",
             line.label,
             seconds(cpu.median),
             apart(&row.times),
             short(rays),
         ),
         Width::Wide => format!(
-            "{star} {:18} {:>14} {:>14} {:>4} {rays:>8.2} {:>8.2} {:>8.2} {:>8.2}  {error_told:>9} {bounds:18} {verdict}",
+            "{star} {:name$} {:>14} {:>14} {:>4} {rays:>8.2} {:>8.2} {:>8.2} {:>8.2}  {error_told:>9} {bounds:18} {verdict}",
             line.label,
             span(cpu),
             span(Span::of(&row.times.wall)),

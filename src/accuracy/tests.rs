@@ -110,12 +110,13 @@ impl Truth {
 
 #[test]
 fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
-    let frame = Frame::whole(96, 72);
-    for (text, antialias) in [
-        (BALLS, Antialias::Grid(2)),
-        (BALLS, Antialias::default()),
-        (PLAIN, Antialias::Off),
-        (GLASS, Antialias::default()),
+    // The plain picture is off at a few edges alone. It is larger, so that those drawn are few of its pixels:
+    // the intervals do not count on having seen a good part of the picture.
+    for (text, antialias, frame) in [
+        (BALLS, Antialias::Grid(2), Frame::whole(96, 72)),
+        (BALLS, Antialias::default(), Frame::whole(96, 72)),
+        (PLAIN, Antialias::Off, Frame::whole(192, 144)),
+        (GLASS, Antialias::default(), Frame::whole(96, 72)),
     ] {
         let (world, origins) = compiled(text, 0.0);
         let truth = Truth::new(&world, &origins, frame, 2);
@@ -129,7 +130,6 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
             Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let mut holds = [0; 3];
         for seed in 0..100 {
-            // A ninth of the pixels.
             let list = audit::sets(frame.region, 700, 1, seed).remove(0);
             let reference = Reference::new(&studio, &deep, &list, seed, Reference::COARSEST)
                 .expect("not stopped");
@@ -224,7 +224,7 @@ fn of_a_knob_that_is_not_called_for_it_is_said_why() {
 
 /// The wall clock's seconds of a picture are of its work: so a forecast by work is one by seconds.
 #[test]
-fn of_every_knob_the_cheap_settings_are_tried_and_none_twice_before() {
+fn of_every_knob_the_cheap_settings_are_tried_before_the_dear_ones() {
     let (world, origins) = compiled(BALLS, 0.0);
     let mut left = Vec::new();
     for budget in [2e4, 4e4, 1e5, 4e5] {

@@ -243,7 +243,8 @@ impl Bench<'_> {
     }
 
     /// One picture of each of `timed` not tried yet that there is time for: those that should take least
-    /// first, of whichever knob, until one does not fit. None looks deeper than the reference.
+    /// first, of whichever knob, until one does not fit. None looks deeper than the reference, or than the scene
+    /// itself.
     fn others(
         &self,
         (candidates, timed): (&[Candidate], &[usize]),
@@ -254,8 +255,9 @@ impl Bench<'_> {
         pictures: &mut Vec<Picture>,
     ) -> Result<(), Unmeasured> {
         let untried = |number: &usize| pictures.iter().all(|picture| picture.candidate != *number);
-        let shallow =
-            |number: &usize| candidates[*number].plan.max_trace_level <= deep.max_trace_level;
+        let depth = |number: usize| candidates[number].plan.max_trace_level;
+        let own = pictures.first().map_or(0, |own| depth(own.candidate));
+        let shallow = |number: &usize| depth(*number) <= deep.max_trace_level.max(own);
         let mut order: Vec<usize> = timed.iter().copied().filter(untried).filter(shallow).collect();
         order.sort_by(|&a, &b| forecast.compare(candidates, a, b));
         for number in order {

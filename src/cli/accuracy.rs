@@ -68,6 +68,12 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
             true => messages::print(&(json::nothing(&name, &idle) + "\n"))?,
             false => messages::print(&(idle.join(".\n") + ".\n"))?,
         }
+        if let Some(path) = svg_path {
+            messages::eprint(&format!(
+                "{}: not written: there is nothing to draw\n",
+                path.display()
+            ));
+        }
         return Ok(Exit::Done);
     }
     if arguments.knobs.is_empty() {

@@ -11,7 +11,7 @@ use super::exit::Failure;
 use super::messages;
 use super::scene::SceneArguments;
 use super::values::{
-    MetricArgument, antialias, depth, error, knob, region, seconds, size, threads, tolerance,
+    MetricArgument, antialias, depth, error, knob, region, seconds, seed, size, threads, tolerance,
     weight,
 };
 
@@ -87,6 +87,7 @@ pub struct RenderArguments {
     pub metric: MetricArgument,
     /// Of the pixels that `--max-error` and `--time-budget` choose and audit by
     #[arg(long, value_name = "N", default_value_t = 1, requires = "promise")]
+    #[arg(value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
@@ -223,6 +224,7 @@ pub struct AccuracyArguments {
     pub svg: Option<PathBuf>,
     /// Of the audited pixels and the reference's samples
     #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Threads to trace with [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]

@@ -5,14 +5,14 @@ use std::thread::available_parallelism;
 
 use lucarne::accuracy::{self, Clock, First, Options, Spent};
 use lucarne::color::Rgb;
-use lucarne::film::{Depth, Film, develop};
+use lucarne::film::{Depth, Developer, Film};
 use lucarne::picture::{Format, encode};
 use lucarne::plan::Region;
 use lucarne::world::{Origins, World};
 
 use super::exit::Exit;
 use super::progress::Progress;
-use super::promise::{Made, error};
+use super::promise::{Made, error, glare};
 use super::stats::Stopwatch;
 
 /// Of the time there is, what tracing and writing may take by forecast: half of the promised 5 % is for
@@ -43,6 +43,7 @@ pub(super) fn spend(
     clock: &Stopwatch,
     progress: &Progress,
 ) -> Made {
+    let desk = Desk::new(world, options, written, clock);
     let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
     // When the scene was read and the tree of boxes stood, and how long the picture takes to write.
     let (read, to_end) = (Cell::new(0.0), Cell::new(0.0));
@@ -55,7 +56,7 @@ pub(super) fn spend(
         None => {
             let wall = clock.wall();
             read.set(wall);
-            let end = end(writing(&unknown(options, world), written, clock), 1.0);
+            let end = end(desk.writing(&unknown(options, world)), 1.0);
             if is_late(wall, seconds) {
                 return end.max(wall * (1.0 + LATE));
             }
@@ -64,7 +65,7 @@ pub(super) fn spend(
         }
         Some(First { film, processors }) => {
             let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
-            let end = end(writing(film, written, clock), busy);
+            let end = end(desk.writing(film), busy);
             // A picture whose error is not known is worth less than one that is a little late.
             end.max(clock.wall() + FOR_ERROR * seconds)
         }
@@ -74,7 +75,7 @@ pub(super) fn spend(
     let (said, exit) = match (progress.is_stopped(), spent.traced.complete) {
         (true, complete) => (about.interrupted(&spent, complete), Exit::Interrupted),
         (false, false) => (about.unfinished(&spent), Exit::Limit),
-        (false, true) => about.finished(&spent, world.settings.max_trace_level),
+        (false, true) => about.finished(&spent, world),
     };
     Made { traced: spent.traced, said, exit }
 }
@@ -95,8 +96,8 @@ struct About {
 }
 
 impl About {
-    fn finished(&self, spent: &Spent, depth: u32) -> (String, Exit) {
-        let made = made(spent);
+    fn finished(&self, spent: &Spent, world: &World) -> (String, Exit) {
+        let (made, depth) = (made(spent), world.settings.max_trace_level);
         match &spent.audit {
             _ if is_late(self.read, self.seconds) => {
                 let Self { read, seconds, now, to_end } = self;
@@ -109,9 +110,10 @@ impl About {
             Some(audit) => {
                 let pixels = audit.pixels;
                 let said = format!(
-                    "{}, on {pixels} pixels, after {:.2} s\n{made}\n",
+                    "{}, on {pixels} pixels, after {:.2} s\n{}{made}\n",
                     error(audit),
-                    self.now
+                    self.now,
+                    glare(world)
                 );
                 (said, Exit::Done)
             }
@@ -134,7 +136,10 @@ impl About {
     fn unfinished(&self, spent: &Spent) -> String {
         let samples = &spent.traced.film.samples;
         let done = samples.iter().filter(|samples| **samples > 0).count();
-        let share = 100 * done / samples.len().max(1);
+        let share = match done {
+            0 => "none".to_owned(),
+            done => format!("{} %", 100 * done / samples.len().max(1)),
+        };
         let with = match spent.is_less || spent.rest > 0 {
             true => format!(", even with {}", spent.least),
             false => String::new(),
@@ -144,15 +149,15 @@ impl About {
             true => format!("; reading the scene took {read:.2} s"),
             false => String::new(),
         };
-        let enough = match share {
+        let enough = match done {
             0 => String::new(),
-            _ => {
+            done => {
                 let all = read + (now - read) * samples.len() as f64 / done as f64 + to_end;
                 format!("; about {:.1} s would be enough", 1.1 * all.max(now + to_end))
             }
         };
         format!(
-            "{seconds} s are too few for one ray a pixel{with}: {share} % of them are done{reading}{enough}\n"
+            "{seconds} s are too few for one ray a pixel{with}: {share} of them are done{reading}{enough}\n"
         )
     }
 
@@ -177,35 +182,60 @@ struct Writing {
     busy: f64,
 }
 
-/// About how long it takes to write a picture: measured on some of its rows, from top to bottom.
-fn writing(film: &Film, (depth, format): (Depth, Format), clock: &Stopwatch) -> Writing {
-    let Region { width, height, .. } = film.frame.region;
-    let row = width as usize;
-    let high = (height / (BANDS * ON_TRIAL)).max(1);
-    let bands = BANDS.min(height);
-    let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
-    some.frame.region.height = bands * high;
-    let part = f64::from(some.frame.region.height) / f64::from(height.max(1));
-    if film.radiance.is_empty() {
-        some.radiance = (0..row * (bands * high) as usize).map(speckled).collect();
-    } else {
-        for band in 0..bands {
-            let top = (height - high) / bands * band;
-            let rows = row * top as usize..row * (top + high) as usize;
-            some.radiance.extend(&film.radiance[rows]);
+/// Where pictures are written on trial.
+struct Desk<'a> {
+    developer: Developer,
+    /// Seconds that it took to make.
+    made: f64,
+    format: Format,
+    clock: &'a Stopwatch,
+}
+
+impl<'a> Desk<'a> {
+    fn new(
+        world: &World,
+        options: &Options,
+        (depth, format): (Depth, Format),
+        clock: &'a Stopwatch,
+    ) -> Self {
+        let Region { width, height, .. } = options.frame.region;
+        let began = clock.wall();
+        let pixels = width as usize * height as usize;
+        let developer = Developer::new(depth, world.settings.assumed_gamma, pixels);
+        Self { developer, made: clock.wall() - began, format, clock }
+    }
+
+    /// About how long it takes to write a picture: measured on some of its rows, from top to bottom.
+    fn writing(&self, film: &Film) -> Writing {
+        let Self { developer, made, format, clock } = self;
+        let Region { width, height, .. } = film.frame.region;
+        let row = width as usize;
+        let high = (height / (BANDS * ON_TRIAL)).max(1);
+        let bands = BANDS.min(height);
+        let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
+        some.frame.region.height = bands * high;
+        let part = f64::from(some.frame.region.height) / f64::from(height.max(1));
+        if film.radiance.is_empty() {
+            some.radiance = (0..row * (bands * high) as usize).map(speckled).collect();
+        } else {
+            for band in 0..bands {
+                let top = (height - high) / bands * band;
+                let rows = row * top as usize..row * (top + high) as usize;
+                some.radiance.extend(&film.radiance[rows]);
+            }
         }
+        some.samples = vec![1; some.radiance.len()];
+        let began = (clock.cpu(), clock.wall());
+        let (mut trials, mut took) = (0, (0.0, 0.0));
+        while trials < TRIALS && took.1 < TRIAL {
+            // What cannot be written is told when it is.
+            drop(encode(&developer.develop(&some), *format));
+            trials += 1;
+            took = (clock.cpu() - began.0, clock.wall() - began.1);
+        }
+        let busy = if took.0 > 0.0 { (took.1 / took.0).max(1.0) } else { 1.0 };
+        Writing { seconds: made + SLOWER * took.1 / f64::from(trials.max(1)) / part, busy }
     }
-    some.samples = vec![1; some.radiance.len()];
-    let began = (clock.cpu(), clock.wall());
-    let (mut trials, mut took) = (0, (0.0, 0.0));
-    while trials < TRIALS && took.1 < TRIAL {
-        // What cannot be written is told when it is.
-        drop(encode(&develop(&some, depth), format));
-        trials += 1;
-        took = (clock.cpu() - began.0, clock.wall() - began.1);
-    }
-    let busy = if took.0 > 0.0 { (took.1 / took.0).max(1.0) } else { 1.0 };
-    Writing { seconds: SLOWER * took.1 / f64::from(trials.max(1)) / part, busy }
 }
 
 /// A film of which nothing is known yet.

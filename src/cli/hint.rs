@@ -36,7 +36,10 @@ pub fn of(program: &Command, command: &str, word: &str) -> Option<Failure> {
     if elsewhere.is_empty() {
         return povray(word);
     }
-    let list = |commands: &[String]| commands.join(" and ");
+    let list = |commands: &[String]| match commands {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        commands => commands.concat(),
+    };
     let sentence =
         format!("`lucarne {command}` has no `{word}`: it is an option of {}", list(&elsewhere));
     let name = word.trim_start_matches('-');

@@ -1,6 +1,6 @@
 //! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
 
-use lucarne::accuracy::{self, Audit, KNOBS, Metric, Options, Step, TooSmall, table};
+use lucarne::accuracy::{self, Audit, KNOBS, Metric, Options, Step, TooSmall, share, table};
 use lucarne::film::Depth;
 use lucarne::picture::Format;
 use lucarne::plan::{Frame, PlanOptions, plan};
@@ -106,11 +106,23 @@ fn keep(
         flags => flags,
     };
     let said = format!(
-        "{} {sign} {amount}, on {} fresh pixels{refined}{better}\nthe same picture: {flags}\n",
+        "{} {sign} {amount}, on {} fresh pixels{refined}{better}\n{}the same picture: {flags}\n",
         error(&audit),
-        audit.pixels
+        audit.pixels,
+        glare(world)
     );
     Ok(Made { traced: kept.traced, said, exit: if proven { Exit::Done } else { Exit::Promise } })
+}
+
+/// What no error that samples tell can hold; empty where there is none of it.
+pub(super) fn glare(world: &World) -> String {
+    accuracy::glare(world).map_or_else(String::new, |whites| {
+        let whites: f64 = format!("{whites:.1e}").parse().unwrap_or(whites);
+        format!(
+            "note: light here is up to {whites} times white: where less of a pixel than a sample has shows it, \
+             the error does not tell\n"
+        )
+    })
 }
 
 /// What is being done.
@@ -171,8 +183,11 @@ fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
                 "" => "any settings",
                 flags => flags,
             };
-            let seconds = duration(*seconds);
-            Some(format!("rendering with {flags}\nnote: that takes about {seconds}{audit}"))
+            let seconds = match *seconds {
+                ..1.0 => "less than a second".to_owned(),
+                seconds => format!("about {}", duration(seconds)),
+            };
+            Some(format!("rendering with {flags}\nnote: that takes {seconds}{audit}"))
         }
         Step::Refining(audit) => {
             Some(format!("{}: not proven, choosing better settings", error(audit)))
@@ -206,9 +221,16 @@ pub(super) fn error(audit: &Audit) -> String {
         }
     };
     let depth = match audit.depth {
-        Some(1) => " against a reference only one surface deep".to_owned(),
-        Some(depth) => format!(" against a reference only {depth} surfaces deep"),
-        None => String::new(),
+        Some(1) => Some("one surface deep".to_owned()),
+        Some(depth) => Some(format!("{depth} surfaces deep")),
+        None => None,
     };
-    format!("error {error}{depth}")
+    let weight =
+        audit.adc_bailout.map(|weight| format!("of rays that count {} and more", share(weight)));
+    let cut: Vec<String> = depth.into_iter().chain(weight).collect();
+    let against = match cut.as_slice() {
+        [] => String::new(),
+        cut => format!(" against a reference only {}", cut.join(" and ")),
+    };
+    format!("error {error}{against}")
 }

@@ -65,7 +65,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     drop(life);
     let progress = Progress::start("rendering");
     let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
-    let threads = TraceOptions { threads, count_work: arguments.stats.is_some() };
+    let threads = TraceOptions { threads, count_work: arguments.stats.is_some(), tile_side: None };
     let (scene, written) = ((&world, &origins), (depth, format));
     let made = promise::make(arguments, scene, &options, threads, written, (&watch, &progress));
     progress.end();

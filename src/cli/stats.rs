@@ -1,10 +1,11 @@
-//! What a render took: CPU seconds of each stage, memory, rays, and what finding what they meet took.
+//! What a render took: CPU seconds of each stage, memory, rays, what finding what they meet took, and how
+//! often each effect was evaluated.
 
 use std::sync::OnceLock;
 use std::time::Instant;
 
 use lucarne::geometry;
-use lucarne::trace::Counters;
+use lucarne::trace::{self, Counters};
 use serde::Serialize;
 
 use super::arguments::StatsFormat;
@@ -19,6 +20,7 @@ pub struct Stats {
     pub lower_cpu_s: f64,
     /// The tree of boxes.
     pub build_cpu_s: f64,
+    /// With a promise all that was traced to keep it, beside the picture.
     pub trace_cpu_s: f64,
     pub encode_cpu_s: f64,
     pub wall_s: f64,
@@ -28,6 +30,7 @@ pub struct Stats {
     pub lights: usize,
     pub rays: Rays,
     pub work: Work,
+    pub evaluations: Evaluations,
 }
 
 /// Rays by what sent them.
@@ -49,6 +52,47 @@ pub struct Work {
     pub root_solves: u64,
 }
 
+/// How often each effect was evaluated that sends no rays of its own: as [`trace::Evaluations`].
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Evaluations {
+    pub diffuse: u64,
+    pub highlights: u64,
+    pub attenuation: u64,
+    pub from_behind: u64,
+    pub refraction: u64,
+    pub colored_shadows: u64,
+    pub patterns: u64,
+    pub hiding: u64,
+    pub sky: u64,
+}
+
+impl From<trace::Evaluations> for Evaluations {
+    fn from(counted: trace::Evaluations) -> Self {
+        let trace::Evaluations {
+            diffuse,
+            highlights,
+            attenuation,
+            from_behind,
+            refraction,
+            colored_shadows,
+            patterns,
+            hiding,
+            sky,
+        } = counted;
+        Self {
+            diffuse,
+            highlights,
+            attenuation,
+            from_behind,
+            refraction,
+            colored_shadows,
+            patterns,
+            hiding,
+            sky,
+        }
+    }
+}
+
 impl Stats {
     pub fn count(&mut self, counters: &Counters) {
         let Counters {
@@ -58,11 +102,12 @@ impl Stats {
             transmission,
             total_reflection,
             work,
-            evaluations: _,
+            evaluations,
         } = *counters;
         let geometry::Work { box_visits, root_solves, solving: _ } = work;
         self.rays = Rays { camera, shadow, reflection, transmission, total_reflection };
         self.work = Work { box_visits, root_solves };
+        self.evaluations = evaluations.into();
     }
 
     /// As one line of JSON, or as a table (`CPU s`: of all threads together); on standard error where a picture takes the other.
@@ -80,9 +125,9 @@ impl Stats {
     }
 
     fn table(&self) -> String {
-        let wall = |name: &str, s: f64| format!("{name:12}{s:14.3} s\n");
-        let seconds = |name: &str, s: f64| format!("{name:12}{s:14.3} CPU s\n");
-        let count = |name: &str, n: u64| format!("{name:12}{n:14}\n");
+        let wall = |name: &str, s: f64| format!("{name:17}{s:14.3} s\n");
+        let seconds = |name: &str, s: f64| format!("{name:17}{s:14.3} CPU s\n");
+        let count = |name: &str, n: u64| format!("{name:17}{n:14}\n");
         [
             seconds("parse", self.parse_cpu_s),
             seconds("evaluate", self.evaluate_cpu_s),
@@ -91,15 +136,25 @@ impl Stats {
             seconds("trace", self.trace_cpu_s),
             seconds("encode", self.encode_cpu_s),
             wall("wall clock", self.wall_s),
-            format!("{:12}{:14.1} MiB\n", "peak memory", self.peak_rss_bytes as f64 / 1_048_576.0),
+            format!("{:17}{:14.1} MiB\n", "peak memory", self.peak_rss_bytes as f64 / 1_048_576.0),
             count("objects", self.objects as u64),
             count("lights", self.lights as u64),
             count("camera rays", self.rays.camera),
             count("shadow rays", self.rays.shadow),
             count("mirrored", self.rays.reflection),
             count("let through", self.rays.transmission),
+            count("mirrored whole", self.rays.total_reflection),
             count("box visits", self.work.box_visits),
             count("root solves", self.work.root_solves),
+            count("lights scattered", self.evaluations.diffuse),
+            count("highlights", self.evaluations.highlights),
+            count("beams and fading", self.evaluations.attenuation),
+            count("light from behind", self.evaluations.from_behind),
+            count("borders that bend", self.evaluations.refraction),
+            count("coloured shadows", self.evaluations.colored_shadows),
+            count("patterns", self.evaluations.patterns),
+            count("hidden objects", self.evaluations.hiding),
+            count("sky", self.evaluations.sky),
         ]
         .concat()
     }

@@ -69,7 +69,9 @@ pub fn region(text: &str) -> Result<Region, String> {
 }
 
 pub fn antialias(text: &str) -> Result<Antialias, String> {
-    match (text, text.parse::<u32>()) {
+    // As tables write it: `3×3`.
+    let side = text.split_once(['x', '×']).filter(|(a, b)| a == b).map_or(text, |(side, _)| side);
+    match (text, side.parse::<u32>()) {
         ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
         ("adaptive", _) => Ok(Antialias::default()),
         (_, Ok(n @ 2..=64)) => Ok(Antialias::Grid(n)),
@@ -108,13 +110,18 @@ pub fn depth(text: &str) -> Result<u32, String> {
     depth.ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
 }
 
+pub fn seed(text: &str) -> Result<u64, String> {
+    let seed = text.parse().ok();
+    seed.ok_or_else(|| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
 pub fn threads(text: &str) -> Result<u16, String> {
     let threads = text.parse().ok().filter(|threads| (1..=1024).contains(threads));
     threads.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
 }
 
 pub fn tolerance(text: &str) -> Result<f64, String> {
-    let tolerance = text.parse().ok().filter(|tolerance: &f64| (0.0..=0.1).contains(tolerance));
+    let tolerance = fraction(text).filter(|tolerance| (0.0..=0.1).contains(tolerance));
     tolerance.ok_or_else(|| "expected a number from 0 to 0.1, such as 1e-6".to_owned())
 }
 
@@ -145,8 +152,10 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub fn knob(text: &str) -> Result<&'static str, String> {
+    // The scene's own `adc_bailout` is `adc-bailout` here.
+    let asked = text.trim().replace('_', "-");
     let mut names = KNOBS.iter().map(|knob| knob.name);
-    names.find(|&name| name == text).ok_or_else(|| {
+    names.find(|&name| name == asked).ok_or_else(|| {
         let names: Vec<_> = KNOBS.iter().map(|knob| knob.name).collect();
         format!("the knobs are {}", names.join(", "))
     })

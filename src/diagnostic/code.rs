@@ -114,6 +114,7 @@ codes! {
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
     NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
+    FarAway "far-away" lint "an object is too far from the camera, for its size, to be drawn exactly";
     LowIor "low-ior" lint "an index of refraction is below 1";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";

@@ -67,6 +67,7 @@ impl Lowering<'_, '_> {
             if !telescope && !self.lint_inside() {
                 self.lint_view();
             }
+            self.lint_far();
             self.lint_pigment();
         }
     }

@@ -150,6 +150,46 @@ impl Lowering<'_, '_> {
     }
 }
 
+/// Of a half width: what places may be rounded by before it shows.
+const SHOWS: f64 = 1e-3;
+/// Of a picture's width: what is seen.
+const SEEN: f64 = 1e-3;
+
+impl Lowering<'_, '_> {
+    /// What is in view, and so far away for its size that places there are not known to a thousandth of it.
+    pub(super) fn lint_far(&mut self) {
+        let (world, view) = (&self.world, View::of(&self.world.camera));
+        let mut far = world.solids().filter(|&solid| !self.is_inverse(solid)).filter_map(|solid| {
+            let bounds = bounds(world, solid)?;
+            let half = (bounds.high - bounds.low).max_element() * 0.5;
+            let middle = bounds.low + (bounds.high - bounds.low) * 0.5;
+            let distance = (middle - world.camera.location).abs().max_element();
+            let rounding = distance * f64::EPSILON / half;
+            let is_seen = || view.outside(&bounds).is_none() && view.pictures(&bounds) > SEEN;
+            (rounding > SHOWS && rounding.is_finite() && is_seen()).then_some((
+                solid,
+                distance / half,
+                rounding,
+            ))
+        });
+        let Some((solid, halves, rounding)) = far.next() else { return };
+        let Some(&site) = self.origins.objects.get(solid as usize) else { return };
+        let diagnostic = Diagnostic::new(
+            Code::FarAway,
+            format!("this is {:e} half widths from the camera, too far to be exact", shown(halves)),
+        )
+        .at(
+            site.span,
+            format!("places there are rounded by {} % of a half width", shown(100.0 * rounding)),
+        )
+        .help(
+            "come nearer, by as much as the `angle` becomes wider: nobody can tell the difference",
+        )
+        .traced(site, self.reporter.expansions);
+        self.reporter.diagnostics.push(diagnostic);
+    }
+}
+
 /// What the camera sees, in coordinates of its own: right and up in widths and heights of the screen,
 /// forward in its distance.
 struct View {

@@ -10,7 +10,7 @@ use super::numerics::numerics;
 use super::print::count;
 use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
-use crate::world::{Light, Material, MaterialOrigin, Origins, Pigment, World};
+use crate::world::{Light, Material, MaterialOrigin, Object, Origins, Pigment, World};
 
 /// Lists every effect the picture needs with what called for it, and every one it does not need
 /// with the reason.
@@ -153,7 +153,13 @@ impl Census<'_> {
         if self.world.objects.iter().all(|object| object.in_image && object.in_reflections) {
             return because("every object is seen", None);
         }
-        Ok((self.origins.hidden.clone(), "a second tree of boxes".to_owned()))
+        let hides = |seen: fn(&Object) -> bool| !self.world.objects.iter().all(seen);
+        let both = hides(|object| object.in_image) && hides(|object| object.in_reflections);
+        let cost = match both {
+            true => "two more acceleration structures",
+            false => "one more acceleration structure",
+        };
+        Ok((self.origins.hidden.clone(), cost.to_owned()))
     }
 
     fn reflection(&self) -> Decision {

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::shape::body::Local;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Object, Origins, World};
@@ -35,6 +36,9 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Cylinder(_) | Body::Cone(_) => "a map and a square root a ray",
                 Body::Disc(_) | Body::Polygon(_) => "a map and a division a ray",
                 Body::Torus(_) => "a map and up to four roots by steps a ray",
+                Body::Prism(_) if !body.is_iterated() => {
+                    "a map and a root for each piece of the outline a ray"
+                }
                 Body::Algebraic(_)
                 | Body::Blob(_)
                 | Body::Lathe(_)

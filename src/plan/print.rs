@@ -247,7 +247,7 @@ impl Printer<'_> {
 /// So many rays of a pixel: few are not none.
 pub fn a_pixel(rays: f64) -> String {
     match rays {
-        0.0 => "none seen by the pilot".to_owned(),
+        0.0 => "none sent by the pilot".to_owned(),
         ..0.005 => "below 0.01 a pixel".to_owned(),
         rays => format!("{rays:.2} a pixel"),
     }

@@ -1,8 +1,9 @@
 //! Gathers the light of a World by its Plan.
 //!
 //! **In:** [`World`], [`Plan`]. **Out:** [`Traced`]. **Invariant:** the film's bits do not depend
-//! on the number of threads, on their timing or on the tiles; nothing is allocated per ray; what
-//! the Plan leaves out costs nothing per ray.
+//! on the number of threads, on their timing or on the tiles; nothing is allocated per ray; a kernel has no
+//! instruction for a hot effect that the Plan leaves out, and for what is data (a material's lobes, a light's
+//! beam) asks where it stands.
 
 mod antialias;
 mod attenuation;
@@ -46,11 +47,14 @@ pub struct TraceOptions {
     pub threads: Option<usize>,
     /// Count the [`crate::geometry::Work`] and the [`Evaluations`], too. Some scenes take 1 % longer.
     pub count_work: bool,
+    /// Pixels along the side of a tile, what a thread takes at once; `None`: 32. No bit of a picture depends on it,
+    /// nor on the threads.
+    pub tile_side: Option<u32>,
 }
 
 impl TraceOptions {
     pub const fn on_threads(threads: usize) -> Self {
-        Self { threads: Some(threads), count_work: false }
+        Self { threads: Some(threads), count_work: false, tile_side: None }
     }
 }
 
@@ -172,7 +176,7 @@ pub fn trace_in(
 ) -> Traced {
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
-    let crew = Crew::new(options.threads, watch);
+    let crew = Crew::new(options, watch);
     match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
         (false, false, false) => frame::<false, false, false>(&tracer, plan, &crew),
         (false, true, false) => frame::<false, true, false>(&tracer, plan, &crew),

@@ -51,7 +51,7 @@ pub fn pixels(
 ) -> Pixels {
     let tracer = Tracer::new(world, geometry, plan, watch);
     let pixel = Pixel::new(&tracer, plan, geometry);
-    let crew = Crew::new(options.threads, watch);
+    let crew = Crew::new(options, watch);
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
         Sampling::Planned => pixel.planned(walk, place),
         Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
@@ -75,7 +75,7 @@ pub struct Seen {
     /// Of the samples, in the scene's working space.
     pub mean: Rgb,
     /// The standard deviation of each component of the samples, those beyond [`Seen::BRIGHTEST`] counted
-    /// as that.
+    /// as that; 0 of samples drawn at random.
     pub deviation: [f64; 3],
 }
 
@@ -96,7 +96,7 @@ pub fn seen(
 ) -> (Vec<Option<Seen>>, Counters) {
     let tracer = Tracer::new(world, geometry, plan, watch);
     let pixel = Pixel::new(&tracer, plan, geometry);
-    Crew::new(options.threads, watch).each(list, |walk, aim| pixel.aimed(walk, aim))
+    Crew::new(options, watch).each(list, |walk, aim| pixel.aimed(walk, aim))
 }
 
 struct Pixel<'a> {

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::{Counters, Traced, Walk, Watch};
+use super::{Counters, TraceOptions, Traced, Walk, Watch};
 use crate::color::Rgb;
 use crate::film::Film;
 use crate::plan::Region;
@@ -23,15 +23,18 @@ const PART: usize = 16;
 pub(super) struct Crew<'a> {
     /// `None` when the system grants no threads: then the caller's does all.
     pool: Option<rayon::ThreadPool>,
+    /// Of a tile, in pixels.
+    side: usize,
     watch: &'a dyn Watch,
 }
 
 impl<'a> Crew<'a> {
-    pub fn new(threads: Option<usize>, watch: &'a dyn Watch) -> Self {
+    pub fn new(options: &TraceOptions, watch: &'a dyn Watch) -> Self {
+        let threads = options.threads;
         // 0 stands for one a processor; one thread is the caller's own.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
         let pool = if threads == Some(1) { None } else { builder.build().ok() };
-        Self { pool, watch }
+        Self { pool, side: options.tile_side.unwrap_or(SIDE).max(1) as usize, watch }
     }
 
     /// Computes something for each thing of a list, begun in the list's order, and the work it was;
@@ -84,7 +87,7 @@ impl<'a> Crew<'a> {
         which: (usize, usize),
         pixel: impl Fn(&mut Walk, u32, u32) -> Option<(Rgb, u32)> + Sync,
     ) -> Traced {
-        let tiles = tiles(&mut film);
+        let tiles = tiles(&mut film, self.side);
         let total = tiles.len();
         let counters = Mutex::new(Counters::default());
         let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -143,9 +146,9 @@ struct Tile<'film> {
 }
 
 /// The tiles of a film, row by row.
-fn tiles(film: &mut Film) -> Vec<Tile<'_>> {
+fn tiles(film: &mut Film, side: usize) -> Vec<Tile<'_>> {
     let Region { x, y, width, height } = film.frame.region;
-    let (width, side) = (width.max(1) as usize, SIDE as usize);
+    let width = width.max(1) as usize;
     let mut rows = film.radiance.chunks_mut(width).zip(film.samples.chunks_mut(width));
     let mut tiles = Vec::new();
     for y in (y..y + height).step_by(side) {

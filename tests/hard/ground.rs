@@ -1,6 +1,6 @@
 //! Planes to the horizon, and checkers on them: rows 9, 11, 12, 13, 15 and 69.
 
-use crate::held::{hold, hold_sized};
+use crate::held::{hold, hold_horizon};
 use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 const FLOOR: Triple = [0.0, 1.0, 0.0];
@@ -57,7 +57,7 @@ fn row_12_a_checker_is_a_checker_out_to_1e10() {
             // Most of what is near the horizon changes faster than a pixel can tell.
             let camera = level([x, 3.0, z]);
             let scene = Scene::new(camera, &[sun(location)], vec![floor().finish(0.6, 0.0, 0.0)]);
-            hold_sized(&format!("a checker to the horizon at {x:e}, {z:e}"), &scene, (48, 12));
+            hold_horizon(&format!("a checker to the horizon at {x:e}, {z:e}"), &scene, (48, 12));
         }
     }
 }

@@ -41,6 +41,11 @@ fn the_pages_prices_are_the_benchmarks_rows() {
     let found: Vec<_> = rows.iter().map(|row| row[..2].to_vec()).collect();
     assert_eq!(found, expected.collect::<Vec<_>>());
     assert!(page.contains("`cargo bench --bench numerics` on 20"), "no command, or no date");
+    let times: Vec<f64> = rows.iter().map(|row| row[13].parse().expect("a number")).collect();
+    let least = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = times.iter().copied().fold(0.0, f64::max);
+    let said = format!("costs between {least} and {most} times a textbook's `f64`");
+    assert!(page.contains(&said), "{said}");
     // No bound is exceeded, and no crossing of ours is wrong but in single precision.
     for row in rows {
         let share: f64 = row[11].parse().expect("a number");

@@ -13,6 +13,9 @@ use crate::things::{CAMERAS, SHAPES, THINGS};
 
 const SIZE: (u32, u32) = (28, 21);
 
+/// Of several tiles.
+const LARGE: (u32, u32) = (70, 52);
+
 /// The first object's line begins so.
 const FIRST_OBJECT: &str = "plane";
 
@@ -27,10 +30,14 @@ fn scene(things: &str, k: f64, camera: &str) -> String {
 }
 
 fn film(text: &str, antialias: Antialias, threads: usize) -> Film {
+    film_of(text, antialias, SIZE, TraceOptions::on_threads(threads))
+}
+
+fn film_of(text: &str, antialias: Antialias, size: (u32, u32), options: TraceOptions) -> Film {
     let (world, origins) = compiled(text);
-    let frame = Frame::whole(SIZE.0, SIZE.1);
+    let frame = Frame::whole(size.0, size.1);
     let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-    trace(&world, &plan, &TraceOptions::on_threads(threads), &Unwatched).film
+    trace(&world, &plan, &options, &Unwatched).film
 }
 
 fn png(film: &Film) -> Vec<u8> {
@@ -161,8 +168,13 @@ fn assert_same_in_any_order(things: &str, touching: Option<&str>, antialias: Ant
     let text = scene(things, 1.0, CAMERAS[0]);
     let whole = film(&text, antialias, 1);
     let file = png(&whole);
-    for threads in [2, 5] {
-        assert!(png(&film(&text, antialias, threads)) == file, "{threads} threads");
+    let large = |threads, tile_side| {
+        let options = TraceOptions { tile_side, ..TraceOptions::on_threads(threads) };
+        png(&film_of(&text, antialias, LARGE, options))
+    };
+    let one_tile = large(1, Some(LARGE.0));
+    for (threads, side) in [(1, None), (2, None), (5, Some(7)), (3, Some(1)), (1, Some(33))] {
+        assert!(large(threads, side) == one_tile, "{threads} threads, tiles of {side:?}");
     }
     // The objects in another order, but for two that touch: which is first is seen there.
     let mut lines: Vec<&str> = text.lines().collect();

@@ -96,12 +96,42 @@ fn a_share_near_nothing_is_told_as_closely_as_its_pixels_allow_whatever_the_nois
 #[test]
 fn the_interval_of_a_percentile_holds_it_95_times_of_100() {
     let mut random = Random(5);
-    let holds = (0..400).filter(|_| {
-        let pixels: Vec<_> = (0..600).map(|_| gray(random.number(0.0, 1.0))).collect();
-        let Estimate { low, high, .. } = Metric::P99.estimate(&pixels);
-        low <= 0.99 && 0.99 <= high
-    });
-    assert!((365..=396).contains(&holds.count()));
+    for (count, times) in [(36, 400), (200, 400), (298, 400), (400, 400), (600, 400), (4096, 200)] {
+        let (mut holds, mut weighted_holds, mut known) = (0, 0, 0);
+        for _ in 0..times {
+            let off: Vec<f64> = (0..count).map(|_| random.number(0.0, 1.0)).collect();
+            let pixels: Vec<_> = off.iter().map(|&off| gray(off)).collect();
+            let held = |Estimate { low, high, .. }| u32::from(low <= 0.99 && 0.99 <= high);
+            let estimate = Metric::P99.estimate(&pixels);
+            holds += held(estimate);
+            known += u32::from(estimate.high < 1.0);
+            // Twice as likely to be drawn from above the middle, and half the weight there.
+            let drawn: Vec<f64> = (0..count)
+                .map(|_| random.number(0.0, 1.5))
+                .map(|x| if x < 0.5 { x } else { 0.5 + (x - 0.5) / 2.0 })
+                .collect();
+            let weights: Vec<f64> =
+                drawn.iter().map(|&x| if x < 0.5 { 1.5 } else { 0.75 }).collect();
+            let pixels: Vec<_> = drawn.iter().map(|&off| gray(off)).collect();
+            weighted_holds += held(weighted(Metric::P99, &pixels, &weights).0);
+        }
+        // 95 % and three standard deviations.
+        let least = f64::from(times) * 0.95 - 3.0 * (f64::from(times) * 0.95 * 0.05).sqrt();
+        assert!(f64::from(holds) >= least, "{holds} of {times} by {count}");
+        assert!(f64::from(weighted_holds) >= least, "weighted: {weighted_holds} by {count}");
+        // Not even the worst of 298 is beyond it often enough.
+        assert_eq!(known, if count > 298 { times } else { 0 }, "{count}");
+    }
+}
+
+#[test]
+fn the_ranks_of_a_percentile_have_their_tabulated_values() {
+    // Of 298 draws none lies beyond with a chance of .99^298 = .0500, of 299 .0495; half of it is held against
+    // 2½ of 100. Of 1000 draws 3 or fewer lie beyond with a chance of .0101, 4 or fewer with .0287, 16 or fewer
+    // with .9736, 17 or fewer with .9862.
+    assert_eq!(beyond_p99(298.0).0, None);
+    assert_eq!(beyond_p99(299.0).0, Some(0.0));
+    assert_eq!(beyond_p99(1000.0), (Some(4.0), 16.0));
 }
 
 #[test]

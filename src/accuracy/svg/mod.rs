@@ -38,7 +38,7 @@ const STYLE: &str = "\
 text{font:13px Helvetica,Arial,'Liberation Sans',sans-serif;fill:#222}
 .big{font-size:16px;font-weight:600}.small{font-size:11px}.dim{fill:#666}
 .page{fill:#fff}.plot{fill:none;stroke:#444}.grid{stroke:#e4e4e4}.minor{stroke:#f2f2f2}
-.floor{fill:#8882}.edge{stroke:#888;stroke-dasharray:5 3}
+.floor{fill:#888;fill-opacity:.13}.edge{stroke:#888;stroke-dasharray:5 3}
 .label{font-size:11px;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
 .leader{stroke:#888;stroke-width:.7}
 .front{fill:none;stroke:#222;stroke-width:1.6}.bar{stroke-width:1.2}.own{fill:none;stroke:#222;stroke-width:1.6}

@@ -6,7 +6,7 @@ use crate::geometry::Work;
 /// As it is traced when the work is counted.
 fn counted(world: &World, threads: usize, options: PlanOptions) -> Counters {
     let plan = plan(world, &Origins::default(), &options);
-    let options = TraceOptions { threads: Some(threads), count_work: true };
+    let options = TraceOptions { count_work: true, ..TraceOptions::on_threads(threads) };
     let counted = trace(world, &plan, &options, &Unwatched);
     let plain = traced_by(world, &plan);
     assert_eq!(counted.film, plain.film);
