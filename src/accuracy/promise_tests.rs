@@ -43,7 +43,7 @@ fn broken(metric: Metric, pairs: usize, errors: [f64; 5]) -> usize {
         let kept = keep(&world, &origins, &options, promise, &Ticking::new(1.0), NOBODY);
         let kept = kept.expect("large enough").expect("not stopped");
         // What single pixels are is less sure than what all of them are.
-        let step = if metric == Metric::Rmse { 1 } else { 3 };
+        let step = if metric == Metric::Rmse { 1 } else { 2 };
         let truth = Truth::new(&world, &origins, options.frame, step);
         let exact = metric.of(&truth.deviations(&kept.traced));
         let audit = kept.audit.expect("not interrupted");

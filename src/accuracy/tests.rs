@@ -115,7 +115,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
     for (text, antialias, frame) in [
         (BALLS, Antialias::Grid(2), Frame::whole(96, 72)),
         (BALLS, Antialias::default(), Frame::whole(96, 72)),
-        (PLAIN, Antialias::Off, Frame::whole(192, 144)),
+        (PLAIN, Antialias::Off, Frame::whole(144, 108)),
         (GLASS, Antialias::default(), Frame::whole(96, 72)),
     ] {
         let (world, origins) = compiled(text, 0.0);
