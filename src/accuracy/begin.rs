@@ -11,8 +11,9 @@ use super::knob::Knob;
 use super::measure::Clock;
 use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
+use crate::film::Film;
 use crate::plan::{Antialias, Plan, PlanOptions, plan};
-use crate::trace::{Sampling, Traced};
+use crate::trace::{Sampling, Traced, Watch};
 use crate::world::Origins;
 
 /// Of the time there is, what the first pass may be predicted to take: the rest is for what the
@@ -25,6 +26,13 @@ const SURELY: f64 = 0.5;
 /// Of the time for the first pass: what is kept for the cheapest settings, if others take too long after
 /// all. Those are many times as fast.
 const FOR_REST: f64 = 0.1;
+/// Into so many parts is a picture split, or what of a part was not done in its share of the time.
+const PARTS: usize = 16;
+/// So many shares of the time a part may take, for parts are not alike; so many once one took longer, for
+/// others will; and of the time that is left never more than that.
+const UNEVEN: f64 = 4.0;
+const IN_DOUBT: f64 = 0.5;
+const AT_MOST: f64 = 0.8;
 
 /// What came of it.
 pub struct Begun {
@@ -48,22 +56,21 @@ pub fn begin(
     seed: u64,
     (clock, until): (&dyn Clock, f64),
 ) -> Begun {
-    let in_time = |until| Deadline { clock, until, watch: studio.watch };
     let own = PlanOptions { antialias: Antialias::Off, ..easel.own };
     let least = least(easel, own);
-    let all = in_time(until);
-    let in_all = Studio { watch: &all, ..*studio };
+    let in_time = Deadline { clock, until, watch: studio.watch };
+    let in_all = Studio { watch: &in_time, ..*studio };
     let settings = affordable(&in_all, origins, easel, seed, (least, own), (clock, until));
     let kept = if settings == least { 0.0 } else { FOR_REST };
-    let most = in_time(until - kept * (until - clock.wall()));
+    let most = until - kept * (until - clock.wall());
     let began = (clock.cpu(), clock.wall());
     let gamma = studio.world.settings.assumed_gamma;
     let mut traced = Traced::unbegun(own.frame, gamma);
     let plan = |settings| plan(studio.world, origins, settings);
-    let mut rest = complete(&Studio { watch: &most, ..*studio }, &plan(&settings), &mut traced);
+    let mut rest = complete(studio, &plan(&settings), &mut traced, (clock, most));
     let took = (clock.cpu() - began.0, clock.wall() - began.1);
     if rest > 0 && settings != least {
-        rest -= complete(&in_all, &plan(&least), &mut traced);
+        rest -= complete(studio, &plan(&least), &mut traced, (clock, until));
     }
     Begun { traced, settings, least, is_less: settings != own, rest, took }
 }
@@ -86,29 +93,50 @@ fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
     easel.knobs.iter().copied().filter(|knob| knob.name != "antialias")
 }
 
-/// Traces the pixels that are undone, spread over the whole picture, and returns how many still are: where
-/// it is stopped, what is missing is nowhere a large part of it.
-fn complete(studio: &Studio, plan: &Plan, traced: &mut Traced) -> usize {
+/// Traces the pixels that are undone, spread over the whole picture, and returns how many still are when
+/// the clock shows `until`. No part has more than a few shares of the time; of parts that took longer, smaller
+/// ones are tried with what the others left: a pixel that takes all the time there is holds up no other.
+fn complete(
+    studio: &Studio,
+    plan: &Plan,
+    traced: &mut Traced,
+    (clock, until): (&dyn Clock, f64),
+) -> usize {
     let film = &mut traced.film;
-    let parts = film.samples.len().div_ceil(MOST_IN_PART).max(1);
-    for part in 0..parts {
-        let pixels = Spread::new(film.samples.len()).part(part, parts);
-        let undone: Vec<usize> = pixels.filter(|&i| film.samples[i] == 0).collect();
-        let places: Vec<_> = undone.iter().map(|&i| place(film.frame.region, i)).collect();
-        let seen = studio.pixels(plan, &places, Sampling::Planned);
-        traced.counters += seen.counters;
-        for (&i, radiance) in undone.iter().zip(seen.radiance) {
-            if let Some(radiance) = radiance {
-                (film.radiance[i], film.samples[i]) = (radiance, 1);
+    let in_time = Deadline { clock, until, watch: studio.watch };
+    let undone = |film: &Film| -> Vec<usize> {
+        let all = Spread::new(film.samples.len()).part(0, 1);
+        all.filter(|&i| film.samples[i] == 0).collect()
+    };
+    let (mut list, mut size, mut shares) = (undone(film), film.samples.len(), UNEVEN);
+    while !list.is_empty() && size > 0 {
+        size = (size / PARTS).clamp(1, MOST_IN_PART);
+        let mut parts = list.chunks(size);
+        while let Some(part) = parts.next() {
+            let now = clock.wall();
+            let share = (until - now) * (shares / (parts.len() + 1) as f64).min(AT_MOST);
+            let in_share = Deadline { until: now + share, ..in_time };
+            let places: Vec<_> = part.iter().map(|&i| place(film.frame.region, i)).collect();
+            let studio = Studio { watch: &in_share, ..*studio };
+            let seen = studio.pixels(plan, &places, Sampling::Planned);
+            traced.counters += seen.counters;
+            for (&i, radiance) in part.iter().zip(seen.radiance) {
+                match radiance {
+                    Some(radiance) => (film.radiance[i], film.samples[i]) = (radiance, 1),
+                    None => shares = IN_DOUBT,
+                }
+            }
+            if in_time.should_stop() {
+                size = 1;
+                break;
             }
         }
-        if studio.watch.should_stop() {
-            break;
-        }
+        list = undone(film);
+        // There is nothing smaller than a pixel.
+        size -= usize::from(size == 1);
     }
-    let left = film.samples.iter().filter(|&&samples| samples == 0).count();
-    traced.complete = left == 0;
-    left
+    traced.complete = list.is_empty();
+    list.len()
 }
 
 /// The settings of the first pass: the scene's `own`; where a few pixels say that those will not fit, each

@@ -1,6 +1,7 @@
 //! Budgets are kept where one pixel is more work than all others together. Time is counted here:
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
+use super::reference::{Geometries, Studio};
 use super::refine::{Canvas, Pace, Spread, Until};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
@@ -99,6 +100,32 @@ fn where_the_scenes_own_settings_do_not_fit_the_first_pass_is_made_with_what_doe
     assert!(!spent.traced.complete && spent.is_less && spent.audit.is_none());
     assert!(spent.flags.starts_with("--depth 1 --adc-bailout 1/10 "), "{}", spent.flags);
     assert_eq!(spent.flags, spent.least);
+}
+
+#[test]
+fn pixels_that_turn_out_too_dear_are_made_with_the_cheapest_settings_and_hold_up_no_other() {
+    // The heap is a corner of the picture: of the few pixels that are looked at first, none shows it. Each that
+    // does would take longer than there is.
+    let (world, origins) = compiled(&GLASS.replace("0 angle 45", "<9, 9, 0> angle 130"), 200.0);
+    let options = asked(48, 36);
+    let easel = easel::Easel::new(&world, &origins, &options);
+    let geometry = Geometries::default();
+    let studio =
+        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+    let begun = |time: f64| {
+        let clock = Ticking::new(1.0);
+        let begun = begin::begin(&studio, &origins, &easel, 1, (&clock, time));
+        assert!(begun.traced.complete && clock.wall() <= time, "{time} {}", clock.wall());
+        assert!(!begun.is_less && begun.settings.antialias == Antialias::Off);
+        let least = plan(&world, &origins, &begun.least);
+        let cheapest = trace(&world, &least, &ONE_THREAD, &Unwatched).film.radiance;
+        let as_cheap = begun.traced.film.radiance.iter().zip(&cheapest).filter(|(a, b)| a == b);
+        assert!(as_cheap.count() >= begun.rest);
+        begun.rest
+    };
+    let (short, long) = (begun(2000.0), begun(16_000.0));
+    assert!(0 < long && long < short && short < 48 * 36 / 3, "{short} {long}");
+    assert!(long < 48 * 36 / 16, "{long}");
 }
 
 #[test]

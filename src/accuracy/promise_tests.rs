@@ -200,7 +200,7 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
 fn whenever_the_picture_is_whole_its_error_is_told() {
     let (world, origins) = compiled(BALLS, 0.0);
     let mut whole = 0;
-    for time in (300..1500).step_by(60).map(f64::from) {
+    for time in (300..1800).step_by(60).map(f64::from) {
         let clock = Ticking::new(1.0);
         let spent = spend(&world, &origins, &asked(160, 120), &|_| time, &clock, &Unwatched);
         assert_eq!(spent.traced.complete, spent.audit.is_some(), "{time}");
