@@ -2,10 +2,12 @@
 //!
 //! **Invariant:** only what is certain; after a fault nothing about the whole is.
 
-use super::Lowering;
+use super::{Fault, Lowering};
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::CameraItemKind;
+use crate::shape::Body;
+use crate::shape::isosurface::Nowhere;
 use crate::source::Site;
 
 /// What a white surface gives off by default: it tells shapes apart from black, and no more.
@@ -70,6 +72,24 @@ impl Lowering<'_, '_> {
             self.lint_far();
             self.lint_pigment();
         }
+    }
+
+    /// Says so where there is nothing of an isosurface; `false` where that is proven.
+    pub(super) fn is_somewhere(&mut self, body: &Body, site: Site) -> bool {
+        let Body::Isosurface(surface) = body else { return true };
+        let Some(nowhere) = surface.nowhere() else { return true };
+        let label = match nowhere {
+            Nowhere::Above => format!(
+                "in all of its container its function is above its threshold, {}",
+                surface.threshold
+            ),
+            Nowhere::NoNumber(places) => {
+                format!("its function is no number at any of {places} places in its container")
+            }
+        };
+        let fault = Fault::new(Code::DegenerateShape, "there is nothing of this isosurface");
+        self.reporter.fault(fault.label(label), site);
+        nowhere != Nowhere::Above
     }
 
     /// Whether it was told that an object is never placed, or a macro never called: the scene is empty by that.

@@ -341,9 +341,18 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
             Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
-                let make =
-                    || body::isosurface(function, container, threshold, accuracy, open).map(Some);
-                self.place_stored(id, make, here, site)
+                let made = self.shared(id, |lowering| {
+                    let made = body::isosurface(function, container, threshold, accuracy, open)?;
+                    Ok(lowering.is_somewhere(&made.0, site).then_some(made))
+                })?;
+                match made {
+                    Some((body, frame)) => self.place_body(body, &frame, here, site),
+                    None => {
+                        self.drop_part(site, "isosurface", "nowhere is it below its threshold");
+                        self.nothing(here.flags.inverse);
+                        Ok(())
+                    }
+                }
             }
             Solid::Parametric { ref functions, corners, container } => {
                 let make = || body::parametric(functions, corners, container).map(Some);

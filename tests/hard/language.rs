@@ -221,6 +221,22 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
             assert!(told || !format!("{world:?}").contains("NaN"), "{number} in {place}");
         }
     }
+    // In a function it is a value: what is nowhere by that is told.
+    for number in ["1/0", "0/0", "1e400", "log(0)", "ln(-1)", "asin(2)", "sqrt(-1)", "exp(1e9)"] {
+        for function in ["x + #", "#*x", "max(#, x)", "sin(#)", "x*x + y + # - 2"] {
+            let written = function.replace('#', number);
+            let (world, lines) = said(&format!(
+                "isosurface {{ function {{ {written} }} contained_by {{ box {{ -1, 1 }} }} }}"
+            ));
+            let told = lines.iter().any(|line| {
+                line.starts_with("error") || line.contains("there is nothing of this isosurface")
+            });
+            assert!(told || world.objects.len() == 2, "{written}: {lines:?}");
+            // -1/0 is inside of everything, and the larger of x and no number is x.
+            let may_be_seen = number == "log(0)" || function == "#*x" || function == "max(#, x)";
+            assert!(told || may_be_seen, "{written}: {lines:?}");
+        }
+    }
 }
 
 #[test]

@@ -11,6 +11,7 @@
 mod cells;
 mod container;
 mod line;
+mod nowhere;
 
 use std::sync::Arc;
 
@@ -23,6 +24,7 @@ use crate::math::roots::isolate::{Changes, Fineness, Search};
 pub use cells::Cells;
 pub use container::Container;
 use line::{Line, look};
+pub use nowhere::Nowhere;
 
 /// The part that is the function's own; the container's are those after it.
 pub(super) const SURFACE: u32 = 0;
