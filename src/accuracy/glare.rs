@@ -13,7 +13,7 @@ pub fn glare(world: &World) -> Option<f64> {
     let lights = world
         .lights
         .iter()
-        .filter(|light| !light.attenuation.is_some_and(|less| less.fade.is_some()))
+        .filter(|light| light.attenuation.is_none_or(|less| less.fade.is_none()))
         .map(|light| light.color.largest());
     let glows = world.materials.iter().flat_map(|material| {
         let glow = material.finish.glow;

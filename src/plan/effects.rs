@@ -192,7 +192,7 @@ impl Census<'_> {
         let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
         let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
         let by = bending.flat_map(|(_, sites)| sites).copied().collect();
-        Ok((by, "one root a clear surface, and a list of what a ray is in".to_owned()))
+        Ok((by, "one root a clear surface, a list of what a ray is in, and a ray where all light is thrown back".to_owned()))
     }
 
     fn colored_shadows(&self) -> Decision {
