@@ -2,7 +2,7 @@
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
 use super::reference::{Geometries, Studio};
-use super::refine::{Canvas, Pace, Spread, Until};
+use super::refine::{Canvas, MOST_SIDE, Pace, Spread, Until, is_finest};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
 use crate::film::Film;
@@ -216,6 +216,31 @@ fn refined(until: f64) -> (Film, usize) {
     }
     let finer = canvas.film.samples.iter().filter(|&&samples| samples > 1).count();
     (canvas.film, finer)
+}
+
+#[test]
+fn from_any_first_number_of_samples_the_most_is_reached_where_there_is_time() {
+    let (world, origins) = compiled(
+        "camera { location y } light_source { 9, 1 } plane { y, -1 pigment { rgb 1 } }",
+        1.0,
+    );
+    let own = own(&world, Frame::whole(4, 3));
+    let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
+    let geometry = Geometries::default();
+    let studio =
+        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+    for side in 2..=MOST_SIDE {
+        let clock = Ticking::new(1.0);
+        let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
+        let pace = Pace { seconds: 1.0, samples: film.samples.len() as f64 };
+        let mut canvas = Canvas::new(film, counters, pace);
+        assert!(canvas.pilot(&studio, &plan, side, &clock));
+        let time = Until { clock: &clock, until: 1e9 };
+        while let Some(worth) = canvas.worth(&studio)
+            && canvas.pass(&studio, &plan, &worth, time)
+        {}
+        assert!(is_finest(&canvas.film), "{side}: {:?}", canvas.film.samples);
+    }
 }
 
 #[test]

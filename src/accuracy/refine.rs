@@ -84,7 +84,7 @@ impl Worth {
     fn side(&self, i: usize, fineness: f64) -> u32 {
         let weight =
             (f64::from(self.variances[i].sqrt()) + self.evenly) / (self.mean + self.evenly);
-        ((fineness * weight).sqrt().round() as u32).min(MOST_SIDE)
+        in_reach((fineness * weight).sqrt().round() as u32)
     }
 }
 
@@ -155,8 +155,9 @@ impl Canvas {
         Some(Worth { variances, evenly, mean })
     }
 
-    /// Traces every pixel by at least `side` × `side` samples. False when stopped.
+    /// Traces every pixel by at about `side` × `side` samples. False when stopped.
     pub fn pilot(&mut self, studio: &Studio, plan: &Plan, side: u32, clock: &dyn Clock) -> bool {
+        let side = in_reach(side);
         let parts = self.parts();
         (0..parts).all(|part| {
             let aim = |canvas: &Self, i| (canvas.side(i) < side).then_some(side);
@@ -258,6 +259,16 @@ pub fn is_finest(film: &Film) -> bool {
 
 fn is_anew(now: u32, side: u32) -> bool {
     side > now && ANEW.1 * side >= ANEW.0 * now
+}
+
+/// Of sides near the most: what is not so near that a pixel traced anew would no longer pay, or the most.
+fn in_reach(side: u32) -> u32 {
+    let last = MOST_SIDE * ANEW.1 / ANEW.0;
+    match side {
+        _ if side <= last => side,
+        _ if side < (last + MOST_SIDE) / 2 => last,
+        _ => MOST_SIDE,
+    }
 }
 
 /// The first level that takes as many `samples` a pixel, or the last; what it takes more, the next parts
