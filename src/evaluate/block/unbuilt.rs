@@ -2,6 +2,7 @@
 //!
 //! **Invariant:** the object is poison, whatever is found in it.
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -16,7 +17,71 @@ fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
     })
 }
 
+/// What belongs to a word that is not built, where it is a fixed number of values.
+fn values_not_built(word: Word) -> &'static [&'static str] {
+    match word {
+        Word::AreaLight => &[
+            "a vector for one side",
+            "a vector for the other side",
+            "a number of lights along the first side",
+            "a number of lights along the second side",
+        ],
+        Word::Adaptive | Word::Aperture | Word::MajorRadius => &["a number"],
+        _ => &[],
+    }
+}
+
 impl Evaluator<'_> {
+    /// Passes over what belongs to a word that is not built, for the mistakes in it.
+    pub(super) fn pass_not_built(&mut self, token: &Token, word: Word) {
+        let outer = self.poison.take();
+        for wanted in values_not_built(word) {
+            if self.unbuilt_part(token, wanted).is_err() {
+                break;
+            }
+        }
+        self.poison = outer;
+        if let Word::TextureMap
+        | Word::PigmentMap
+        | Word::NormalMap
+        | Word::SlopeMap
+        | Word::DensityMap = word
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.inside_block(&here, contents, span, Self::map_not_built);
+            return;
+        }
+        self.skip_arguments(word);
+    }
+
+    /// The entries of a map that is not built: each begins with a number.
+    fn map_not_built(&mut self) {
+        while let Some(token) = self.peek().cloned() {
+            let TokenKind::Entry(items) = token.kind else {
+                self.next();
+                if let TokenKind::Expression(id) = token.kind {
+                    self.run_expression(&token.here, id);
+                }
+                continue;
+            };
+            self.next();
+            self.inside(&token.here, items, |evaluator| {
+                if let Some(Token { kind: TokenKind::Word(word), here, span }) = evaluator.peek().cloned()
+                    && word.family() != Family::Directive
+                {
+                    let message = format!("expected a number before `{}`", word.name());
+                    let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                        .at(span, "an entry of a map begins with a number")
+                        .help(format!("write `[0.5 {} …]`", word.name()));
+                    evaluator.report(&here, diagnostic);
+                }
+                evaluator.run_items();
+            });
+        }
+    }
+
     pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
         let poison = Poison { word, site: token.here.site(token.span) };
         let Some(parts) = parts_not_built(word) else {
@@ -64,6 +129,9 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match &given.value {
             Value::Poison(_) | Value::Broken => Ok(()),
+            value if wanted.starts_with("a number") && value.as_number().is_none() => {
+                Err(self.wrong_type(&given.here, given.span, wanted, value))
+            }
             value if value.numbers().is_some() => Ok(()),
             value => Err(self.wrong_type(&given.here, given.span, wanted, value)),
         }

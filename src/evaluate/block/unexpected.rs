@@ -24,7 +24,10 @@ impl Evaluator<'_> {
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
             TokenKind::Word(word) if of_poison => {
                 let poison = Poison { word: *word, site: token.here.site(token.span) };
-                self.skip_arguments(*word);
+                match place.holds(*word) {
+                    true => self.pass_not_built(token, *word),
+                    false => self.skip_arguments(*word),
+                }
                 // What a pattern that is not built has goes with it.
                 if place.holds(*word) && !word.is_built() && word.family() != Family::PatternItem {
                     self.set_poison(poison);
@@ -45,7 +48,10 @@ impl Evaluator<'_> {
                         let symbol = token.here.symbol(name);
                         match self.scopes.read(symbol).cloned() {
                             None => self.unknown_word(token, token.span, place),
-                            Some(Value::Poison(poison)) => self.set_poison(poison),
+                            Some(Value::Poison(poison)) => {
+                                self.is_of_place(token, poison.word, place);
+                                self.set_poison(poison);
+                            }
                             Some(Value::Broken) => {}
                             Some(Value::Macro(_)) => {
                                 self.macro_not_called(&token.here, symbol, token.span);
@@ -118,6 +124,19 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Says of a name that stands for a fog or a rainbow that it does so, in a block of another kind.
+    fn is_of_place(&mut self, token: &Token, word: Word, place: Place) {
+        let Some(of) = place.word.filter(|_| matches!(word, Word::Fog | Word::Rainbow)) else {
+            return;
+        };
+        let text = self.sources.text(token.span);
+        let message = format!("`{text}` is a `{}`, and stands in a `{}`", word.name(), of.name());
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, format!("this is a `{}`", word.name()))
+            .help(of.sentence().to_owned());
+        self.report(&token.here, diagnostic);
+    }
+
     fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
         if let Value::Poison(poison) = value {
             self.set_poison(*poison);
@@ -184,7 +203,7 @@ impl Evaluator<'_> {
             diagnostic =
                 diagnostic.help(format!("write `texture {{ {text} }}` instead of this `{own}`"));
         } else if let Some(word) = place.word {
-            diagnostic = diagnostic.help(word.sentence().to_owned());
+            diagnostic = diagnostic.help(self.form_of(word));
         }
         self.report(&token.here, diagnostic);
         self.skip_values();
@@ -195,12 +214,12 @@ impl Evaluator<'_> {
             self.old_word(token, word, today);
             return;
         }
-        let is_setting = place.word.is_none()
-            && word.family() == Family::Setting
-            && home(word).is_some_and(|home| home == Word::GlobalSettings && home != word);
-        if !is_setting && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
+        let is_part = place.word.is_none()
+            && !is_at_top_level(word)
+            && home(word).is_some_and(|home| home != word);
+        if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
-            self.skip_arguments(word);
+            self.pass_not_built(token, word);
             self.set_poison(poison);
             return;
         }
@@ -259,6 +278,9 @@ impl Evaluator<'_> {
             let label = match home(word).filter(|home| *home != word) {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
+                }
+                Some(home) if word == Word::Media => {
+                    format!("it belongs in `{} {{ … }}`, or at the top level", home.name())
                 }
                 _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
