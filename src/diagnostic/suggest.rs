@@ -199,7 +199,8 @@ mod tests {
 
     #[test]
     fn a_word_of_the_same_parts_is_known_by_what_they_mean() {
-        let words = ["pretrace_start", "pretrace_end", "maximum_reuse", "nearest_count", "max_sample"];
+        let words =
+            ["pretrace_start", "pretrace_end", "maximum_reuse", "nearest_count", "max_sample"];
         for (word, meant) in [
             ("pretrace_begin", "pretrace_start"),
             ("pretrace_stop", "pretrace_end"),

@@ -86,8 +86,8 @@ impl Evaluator<'_> {
             }
             (None, _) => {
                 let message = format!("a vector has two to five components, this one has {count}");
-                let diagnostic = Diagnostic::new(Code::WrongArity, message)
-                    .at(span, "too many components");
+                let diagnostic =
+                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
                 let diagnostic = match self.commas_within(span) {
                     Some(vector) => diagnostic
                         .help(format!("a fraction is written with a point: `{vector}`"))

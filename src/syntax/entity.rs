@@ -29,9 +29,8 @@ pub(super) fn translate<'a>(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Cow<'a, str> {
-    let entity = |rest: &[u8]| {
-        ENTITIES.into_iter().find(|(name, _)| rest.starts_with(name.as_bytes()))
-    };
+    let entity =
+        |rest: &[u8]| ENTITIES.into_iter().find(|(name, _)| rest.starts_with(name.as_bytes()));
     if !text.contains('&') {
         return text;
     }

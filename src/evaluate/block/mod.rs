@@ -15,6 +15,7 @@ mod interior;
 mod isosurface;
 mod light;
 mod mesh;
+mod missing;
 mod modifier;
 mod named;
 mod object;

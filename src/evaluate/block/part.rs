@@ -103,60 +103,10 @@ impl Evaluator<'_> {
             {
                 return Err(reported);
             }
-            let name = self.describe(after);
-            let diagnostic = match next {
-                Some(ref found) => {
-                    let found_text = self.describe(found);
-                    Diagnostic::new(
-                        Code::MissingPart,
-                        format!("expected {wanted} after {name}, found {found_text}"),
-                    )
-                    .at(found.span_head(), format!("expected {wanted}"))
-                    .also(after.span, "for this")
-                }
-                None => {
-                    let message = format!("expected {wanted} after {name}");
-                    let diagnostic = Diagnostic::new(Code::MissingPart, message);
-                    match self.end_of_parts(after) {
-                        Some(end) => diagnostic
-                            .at(end, format!("{wanted} is missing here"))
-                            .also(after.span, "for this"),
-                        None => diagnostic
-                            .at(after.span, format!("{wanted} is missing after this")),
-                    }
-                }
-            };
-            let diagnostic = match after.kind {
-                TokenKind::Word(word) => diagnostic.help(self.form_of(word)),
-                _ => diagnostic,
-            };
-            let diagnostic = self.meant_by_word(diagnostic, next.as_ref(), wanted);
+            let diagnostic = self.missing(after, next.as_ref(), wanted);
             return Err(self.report(&after.here, diagnostic));
         }
         self.next().ok_or(Reported)
-    }
-
-    /// Behind the last part that was taken for `after` in its block; `None` before the first.
-    fn end_of_parts(&self, after: &Token) -> Option<Span> {
-        let (taken, after) = (self.taken?, after.here.site(after.span));
-        let is_part = taken.expansion == after.expansion
-            && taken.span.file == after.span.file
-            && taken.span.start >= after.span.end
-            && self.taken != self.blocks.last().copied();
-        is_part.then(|| taken.span.after())
-    }
-
-    /// How what `word` begins is written where it stands: the parts of a blob have a strength.
-    pub(super) fn form_of(&self, word: Word) -> &'static str {
-        let blob = |opener: &Span| self.sources.text(*opener) == Word::Blob.name();
-        let in_blob = self.openers.iter().rev().take(2).any(blob);
-        match word {
-            Word::Sphere if in_blob => "`sphere { <centre>, radius, strength }`: a ball of a blob",
-            Word::Cylinder if in_blob => {
-                "`cylinder { <end>, <end>, radius, strength }`: a bar of a blob"
-            }
-            _ => word.sentence(),
-        }
     }
 
     /// The value after `after`.

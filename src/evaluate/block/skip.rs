@@ -8,6 +8,7 @@ use crate::vocabulary::{Family, Word};
 use super::super::scope::Symbol;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Here};
+use super::Place;
 use super::place::home;
 
 impl Evaluator<'_> {
@@ -93,6 +94,21 @@ impl Evaluator<'_> {
             self.take_back(before);
             self.skip_parts();
         }
+    }
+
+    /// `sky_sphere { gradient y color_map { … } }`: what stands beside a word that belongs in the block of `own`,
+    /// and belongs there, too, is the same mistake.
+    pub(super) fn skip_of_home(&mut self, own: Word, place: Place) -> Vec<String> {
+        let mut beside = Vec::new();
+        while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && home(word) == Some(own)
+            && !place.holds(word)
+        {
+            self.next();
+            self.skip_arguments(word);
+            beside.push(format!("`{}`", word.name()));
+        }
+        beside
     }
 
     /// The name that an expression is, where it was never declared.

@@ -1,13 +1,15 @@
-//! Shapes that are not built yet: their parts and modifiers are read all the same, for the mistakes in them.
+//! What is not built yet: its parts and modifiers are read all the same, for the mistakes in them.
 //!
-//! **Invariant:** the object is poison, whatever is found in it.
+//! **Invariant:** it is poison, whatever is found in it.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
 
 /// The parts of a shape that come before its modifiers, where their number is fixed: vectors all.
 fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
@@ -46,6 +48,7 @@ impl Evaluator<'_> {
         | Word::NormalMap
         | Word::SlopeMap
         | Word::DensityMap = word
+            && self.follows_a_pattern(token)
             && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.peek().cloned()
         {
@@ -54,6 +57,22 @@ impl Evaluator<'_> {
             return;
         }
         self.skip_arguments(word);
+    }
+
+    /// Whether a pattern stands before a map in its block, and none is `average`, whose entries need no number.
+    fn follows_a_pattern(&self, map: &Token) -> bool {
+        let block = self.blocks.last().map(|block| block.span);
+        let Some(block) =
+            block.filter(|block| block.file == map.span.file && block.start < map.span.start)
+        else {
+            return false;
+        };
+        let before = self.sources.text(Span { end: map.span.start, ..block });
+        let words = before.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let mut patterns =
+            words.filter_map(Word::from_name).filter(|word| word.family() == Family::Pattern);
+        patterns.next().is_some_and(|first| first != Word::Average)
+            && patterns.all(|other| other != Word::Average)
     }
 
     /// The entries of a map that is not built: each begins with a number.
@@ -68,7 +87,8 @@ impl Evaluator<'_> {
             };
             self.next();
             self.inside(&token.here, items, |evaluator| {
-                if let Some(Token { kind: TokenKind::Word(word), here, span }) = evaluator.peek().cloned()
+                if let Some(Token { kind: TokenKind::Word(word), here, span }) =
+                    evaluator.peek().cloned()
                     && word.family() != Family::Directive
                 {
                     let message = format!("expected a number before `{}`", word.name());
@@ -135,5 +155,18 @@ impl Evaluator<'_> {
             value if value.numbers().is_some() => Ok(()),
             value => Err(self.wrong_type(&given.here, given.span, wanted, value)),
         }
+    }
+
+    /// Says of a name that stands for a fog or a rainbow that it does so, in a block of another kind.
+    pub(super) fn is_of_place(&mut self, token: &Token, word: Word, place: Place) {
+        let Some(of) = place.word.filter(|_| matches!(word, Word::Fog | Word::Rainbow)) else {
+            return;
+        };
+        let text = self.sources.text(token.span);
+        let message = format!("`{text}` is a `{}`, and stands in a `{}`", word.name(), of.name());
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, format!("this is a `{}`", word.name()))
+            .help(of.sentence().to_owned());
+        self.report(&token.here, diagnostic);
     }
 }

@@ -1,7 +1,7 @@
 //! What to say of an item that its block has no use for.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Role, Word};
 
@@ -124,23 +124,24 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Says of a name that stands for a fog or a rainbow that it does so, in a block of another kind.
-    fn is_of_place(&mut self, token: &Token, word: Word, place: Place) {
-        let Some(of) = place.word.filter(|_| matches!(word, Word::Fog | Word::Rainbow)) else {
-            return;
-        };
-        let text = self.sources.text(token.span);
-        let message = format!("`{text}` is a `{}`, and stands in a `{}`", word.name(), of.name());
-        let diagnostic = Diagnostic::new(Code::WrongType, message)
-            .at(token.span, format!("this is a `{}`", word.name()))
-            .help(of.sentence().to_owned());
-        self.report(&token.here, diagnostic);
-    }
-
     fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
         if let Value::Poison(poison) = value {
             self.set_poison(*poison);
             return;
+        }
+        // `sphere { pigment { … } 0, 1 }`: that the parts come first was told where one was missing.
+        let block = self.blocks.last().map(|block| block.span);
+        let was_missing = |at: Site| {
+            block.is_some_and(|block| {
+                at.span.file == block.file
+                    && block.start <= at.span.start
+                    && at.span.end <= block.end
+            })
+        };
+        if matches!(token.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
+            && self.missing_at.is_some_and(was_missing)
+        {
+            return self.skip_values();
         }
         let kind = value.kind();
         let mut diagnostic = Diagnostic::new(
@@ -321,11 +322,22 @@ impl Evaluator<'_> {
             Some(span) if has_block => diagnostic.also(span, "inside this block"),
             _ => diagnostic,
         };
-        self.report(&token.here, diagnostic);
         match near {
             Some(near) if is_transform(near) => self.skip_values(),
             _ => self.skip_arguments(word),
         }
+        let own = home(word).filter(|home| *home != word && Some(*home) != place.word);
+        let beside = match own.filter(|_| near.is_none() && meant.is_none()) {
+            Some(own) => self.skip_of_home(own, place),
+            None => Vec::new(),
+        };
+        let diagnostic = match beside.as_slice() {
+            [] => diagnostic,
+            beside => {
+                diagnostic.help(format!("so does what stands behind it: {}", beside.join(", ")))
+            }
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// The braces that stand where a call has parentheses.
