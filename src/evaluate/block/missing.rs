@@ -33,7 +33,23 @@ impl Evaluator<'_> {
             TokenKind::Word(word) => diagnostic.help(self.form_of(word)),
             _ => diagnostic,
         };
+        let diagnostic = match place.filter(|_| next.is_none()) {
+            Some(end) if self.has_lost_comma(Span { start: after.span.end, ..end }) => {
+                diagnostic.help("`a -b` is one value, and `a, -b` are two: is a comma missing?")
+            }
+            _ => diagnostic,
+        };
         self.meant_by_word(diagnostic, next, wanted)
+    }
+
+    /// `Base() -x`: whether a sign without a blank behind it rather begins a value of its own.
+    fn has_lost_comma(&self, parts: Span) -> bool {
+        let text = self.sources.text(parts);
+        text.match_indices(" -").any(|(at, _)| {
+            let ends = |c: char| c.is_ascii_alphanumeric() || matches!(c, ')' | '>' | '_' | '.');
+            let begins = |c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '<' | '.');
+            text[..at].ends_with(ends) && text[at + 2..].starts_with(begins)
+        })
     }
 
     /// Behind the last part that was taken for `after` in its block; `None` before the first, and in a block

@@ -63,23 +63,26 @@ impl Reader<'_> {
         }
         let span = self.span(0, 0);
         let gap = Span { start: span.end, end: self.span(1, 1).start, ..span };
-        let diagnostic =
+        let mut diagnostic =
             Diagnostic::new(Code::UnknownWord, "`return` is not a word of the language")
                 .at(span, "a function's body is its value, and a macro's is what is left of it")
                 .help("leave it out")
                 .fix(span.to(gap), "");
-        self.diagnostics.push(diagnostic);
         // `return a*2;`
         let ends = (1..).take_while(|ahead| {
             !matches!(self.kind(*ahead), None | Some(TokenKind::Directive(_)))
                 && !self.is(*ahead, Mark::Close(Bracket::Brace))
         });
-        if let Some(last) = ends.last().filter(|last| self.is(*last, Mark::Semicolon))
-            && (self.is(last + 1, Mark::Close(Bracket::Brace))
-                || self.kind(last + 1) == Some(TokenKind::Directive(Head::End)))
-        {
-            self.dropped.insert(self.at + last, false);
+        if let Some(last) = ends.last().filter(|last| self.is(*last, Mark::Semicolon)) {
+            let in_macro = self.kind(last + 1) == Some(TokenKind::Directive(Head::End));
+            if in_macro {
+                diagnostic = diagnostic.fix(self.span(last, last), "");
+            }
+            if in_macro || self.is(last + 1, Mark::Close(Bracket::Brace)) {
+                self.dropped.insert(self.at + last, false);
+            }
         }
+        self.diagnostics.push(diagnostic);
         self.at += 1;
         true
     }
