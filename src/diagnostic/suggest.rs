@@ -120,6 +120,48 @@ pub fn foreign(word: &str) -> impl Iterator<Item = &'static str> {
     FOREIGN.iter().filter(move |(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
 }
 
+/// The candidate that is made of the same parts as `word`, in another order or by words that mean the same:
+/// `pretrace_begin` for `pretrace_start`, `max_reuse` for `maximum_reuse`, `count_nearest`.
+pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    const SAME: [&[&str]; 13] = [
+        &["start", "begin", "first", "from"],
+        &["end", "finish", "last", "stop", "to"],
+        &["min", "minimum", "least"],
+        &["max", "maximum", "most"],
+        &["limit", "bound", "level", "depth", "max", "maximum"],
+        &["count", "number", "num", "samples"],
+        &["size", "scale"],
+        &["offset", "shift", "height", "start", "begin"],
+        &["distance", "dist", "length"],
+        &["color", "colour", "tint"],
+        &["exponent", "exp", "power"],
+        &["threshold", "thresh", "cutoff"],
+        &["level", "height", "depth"],
+    ];
+    let lower = word.to_lowercase();
+    let theirs: Vec<&str> = lower.split('_').collect();
+    if theirs.len() < 2 {
+        return None;
+    }
+    let same = |a: &str, b: &str| {
+        a == b || SAME.iter().any(|group| group.contains(&a) && group.contains(&b))
+    };
+    let fits = |candidate: &&str| {
+        let mut ours: Vec<&str> = candidate.split('_').collect();
+        let equal = theirs.iter().filter(|part| ours.contains(part)).count();
+        // Some part says what it is about, and the others say no more than that one means.
+        let all = theirs.iter().all(|part| {
+            let exact = ours.iter().position(|own| own == part);
+            let found = exact.or_else(|| ours.iter().position(|own| same(own, part)));
+            found.map(|at| ours.remove(at)).is_some()
+        });
+        **candidate != *word && equal > 0 && all && ours.is_empty()
+    };
+    let mut fitting = candidates.into_iter().filter(fits);
+    // Of several none is likely.
+    fitting.next().filter(|_| fitting.next().is_none())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,6 +195,24 @@ mod tests {
         assert_eq!(closest("Grey50", grays), Some("Gray50"));
         assert_eq!(closest("LightColour", ["LightColor", "LightColours"]), Some("LightColor"));
         assert_eq!(closest("A0", ["A00", "A10"]), Some("A00"));
+    }
+
+    #[test]
+    fn a_word_of_the_same_parts_is_known_by_what_they_mean() {
+        let words =
+            ["pretrace_start", "pretrace_end", "maximum_reuse", "nearest_count", "max_sample"];
+        for (word, meant) in [
+            ("pretrace_begin", "pretrace_start"),
+            ("pretrace_stop", "pretrace_end"),
+            ("max_reuse", "maximum_reuse"),
+            ("count_nearest", "nearest_count"),
+            ("num_nearest", "nearest_count"),
+        ] {
+            assert_eq!(reworded(word, words), Some(meant), "{word}");
+        }
+        for word in ["start", "retrace_x", "begin_finish", "max", "pretrace"] {
+            assert_eq!(reworded(word, words), None, "{word}");
+        }
     }
 
     #[test]

@@ -393,6 +393,7 @@ pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'sta
     let words = || Word::ALL.iter().filter(|word| fits(**word)).map(|word| word.name());
     suggest::closest(name, words().filter(|word| is_likely(name, word)))
         .or_else(|| suggest::foreign(name).find(|foreign| words().any(|word| word == *foreign)))
+        .or_else(|| suggest::reworded(name, words()))
 }
 
 /// Whether `word`, which is close to `name`, is rather meant than nothing: a name with a capital is one of

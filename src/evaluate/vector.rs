@@ -86,9 +86,14 @@ impl Evaluator<'_> {
             }
             (None, _) => {
                 let message = format!("a vector has two to five components, this one has {count}");
-                let diagnostic = Diagnostic::new(Code::WrongArity, message)
-                    .at(span, "too many components")
-                    .help("a position has three; a colour up to five: red, green, blue, filter and transmit");
+                let diagnostic =
+                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
+                let diagnostic = match self.commas_within(span) {
+                    Some(vector) => diagnostic
+                        .help(format!("a fraction is written with a point: `{vector}`"))
+                        .fix(span, vector),
+                    None => diagnostic.help("a position has three; a colour up to five: red, green, blue, filter and transmit"),
+                };
                 Err(self.report(here, diagnostic))
             }
         }

@@ -61,7 +61,7 @@ pub(super) fn drop_echoes(
         .collect();
     let keep = |later: &Diagnostic| {
         if later.code == Code::MissingPart
-            && later.primary().is_some_and(|label| declared.contains(&sources.text(label.span)))
+            && later.labels.iter().any(|label| declared.contains(&sources.text(label.span)))
         {
             return false;
         }

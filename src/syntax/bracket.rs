@@ -217,13 +217,18 @@ impl<'a> Nest<'a> {
         if !self.in_vector() {
             return false;
         }
-        let (mut directives, mut parentheses) = (0_usize, 0_usize);
+        let (mut directives, mut parentheses, mut declares) = (0_usize, 0_usize, false);
         for token in self.tokens[self.at..].iter().take(LONGEST_VECTOR) {
             match token.kind {
                 TokenKind::Directive(Head::End) if directives == 0 => return false,
                 TokenKind::Directive(Head::End) => directives -= 1,
                 TokenKind::Directive(head) if head.opens() => directives += 1,
                 TokenKind::Directive(head) if head.divides() && directives > 0 => {}
+                TokenKind::Directive(Head::Break) if directives > 0 => {}
+                TokenKind::Directive(Head::Declare | Head::Local) if directives > 0 => {
+                    declares = true;
+                }
+                TokenKind::Mark(Mark::Semicolon) if std::mem::take(&mut declares) => {}
                 TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
                 TokenKind::Mark(Mark::Close(Bracket::Round)) => {
                     parentheses = parentheses.saturating_sub(1);

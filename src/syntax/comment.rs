@@ -5,6 +5,7 @@
 //! **Invariant:** comments nest, to any depth; a byte outside comments keeps its place and value.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -28,15 +29,22 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
         }
         None => (scan, None),
     };
+    let mut scan = scan;
     if let Some(quote) = unclosed {
         let line = text[quote..].lines().next().unwrap_or("\"");
         let end = quote + line.trim_end_matches([' ', '\t', '\r', ';', ')', '}']).len();
+        let (quote, end, label) = match string_run_together(text, quote) {
+            Some(before) => {
+                if let Some(closer) = scan.closers.first_mut() {
+                    *closer = before.end;
+                }
+                (before.start, before.end, "opened here, and the next `\"` begins another")
+            }
+            None => (quote, end, "opened here, and no `\"` follows on this line"),
+        };
         diagnostics.push(
             Diagnostic::new(Code::UnclosedString, "this string is never closed")
-                .at(
-                    Span::new(file, quote, quote + 1),
-                    "opened here, and no `\"` follows on this line",
-                )
+                .at(Span::new(file, quote, quote + 1), label)
                 .fix(Span::new(file, end, end), "\""),
         );
     }
@@ -80,6 +88,18 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     }
     // Only whole comments and line breaks were replaced, by single bytes: still UTF-8.
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
+}
+
+/// `"a.ttf "POV" 1`: the string before the quote that has no partner, up to the blank where its own is missing.
+fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
+    let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
+    let strings = &text[line..quote];
+    let close = strings.rfind('"')?;
+    let inside = strings[..close].strip_suffix(' ')?;
+    let start = inside.rfind('"')?;
+    let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
+    let pairs = strings.matches('"').count() % 2 == 0 && !strings.contains('\\');
+    (runs_on && pairs && start + 1 < inside.len()).then(|| line + start..line + inside.len())
 }
 
 /// A string without its quote swallows the closers on its line, and a comment without its end all that

@@ -12,6 +12,7 @@ mod comment;
 mod control;
 mod directive;
 mod dump;
+mod entity;
 mod expression;
 mod foreign;
 mod format;
@@ -78,6 +79,7 @@ pub fn parse(
     let mut found = Diagnostics::new(true);
     let mut quiet = comment::quiet(&source.text, file, &mut found);
     quiet.text = control::blank(quiet.text, file, &mut found);
+    quiet.text = entity::translate(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);
     quiet.text = prose::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);

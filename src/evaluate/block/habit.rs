@@ -42,7 +42,7 @@ impl Evaluator<'_> {
     }
 
     /// `<0,5, 1,5, 2>`: the vector of three that is meant where a comma without a blank is a point.
-    pub(super) fn commas_within(&self, span: Span) -> Option<String> {
+    pub(in crate::evaluate) fn commas_within(&self, span: Span) -> Option<String> {
         let text = self.sources.text(span).strip_prefix('<')?.strip_suffix('>')?;
         let parts: Vec<&str> = text.split(", ").collect();
         let number = |part: &str| {
@@ -51,6 +51,21 @@ impl Evaluator<'_> {
         };
         let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// `0 -2`, where a sign without a blank behind it rather begins a number of its own: where a comma is
+    /// missing, and the two.
+    pub(super) fn commas_lost(&self, span: Span) -> Vec<(Span, String)> {
+        let text = self.sources.text(span);
+        let number = |c: char| c.is_ascii_digit() || c == '.';
+        let pair = |(at, _): (usize, &str)| {
+            let (before, behind) = (text.get(..at)?, text.get(at + 2..)?);
+            let length = behind.find(|c| !number(c)).unwrap_or(behind.len());
+            let start = before.trim_end_matches(number).len();
+            let place = Span { start: span.start + at as u32, end: span.start + at as u32, ..span };
+            (length > 0 && start < at).then(|| (place, text[start..at + 2 + length].to_owned()))
+        };
+        text.match_indices(" -").filter_map(pair).collect()
     }
 
     /// A word where a value should stand: `size` for `Size`, which is declared, or what other languages call.

@@ -15,6 +15,7 @@ mod interior;
 mod isosurface;
 mod light;
 mod mesh;
+mod missing;
 mod modifier;
 mod named;
 mod object;
@@ -287,7 +288,7 @@ impl Evaluator<'_> {
                     {
                         diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"))
                     }
-                    _ => diagnostic.help(word.sentence().to_owned()),
+                    _ => diagnostic.help(self.form_of(word)),
                 };
                 let reported = self.report(&token.here, diagnostic);
                 self.skip_missing_block(token);

@@ -58,10 +58,13 @@ impl Evaluator<'_> {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
                         self.unexpected(&token, place());
-                        // Behind an object by a misspelt word others may follow.
-                        if word.family() == Family::Csg
-                            && matches!(token.kind, TokenKind::Expression(_))
-                        {
+                        // Behind an object by a misspelt word, or a camera, others may follow.
+                        let no_modifier = match token.kind {
+                            TokenKind::Expression(_) => true,
+                            TokenKind::Word(of) => modifiers.is_empty() && !place().holds(of),
+                            _ => false,
+                        };
+                        if word.family() == Family::Csg && no_modifier {
                             self.children();
                         }
                         let harmless =

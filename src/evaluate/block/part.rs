@@ -103,27 +103,7 @@ impl Evaluator<'_> {
             {
                 return Err(reported);
             }
-            let name = self.describe(after);
-            let diagnostic = match next {
-                Some(ref found) => {
-                    let found_text = self.describe(found);
-                    Diagnostic::new(
-                        Code::MissingPart,
-                        format!("expected {wanted} after {name}, found {found_text}"),
-                    )
-                    .at(found.span_head(), format!("expected {wanted}"))
-                    .also(after.span, "for this")
-                }
-                None => {
-                    Diagnostic::new(Code::MissingPart, format!("expected {wanted} after {name}"))
-                        .at(after.span, format!("{wanted} is missing after this"))
-                }
-            };
-            let diagnostic = match after.kind {
-                TokenKind::Word(word) => diagnostic.help(word.sentence().to_owned()),
-                _ => diagnostic,
-            };
-            let diagnostic = self.meant_by_word(diagnostic, next.as_ref(), wanted);
+            let diagnostic = self.missing(after, next.as_ref(), wanted);
             return Err(self.report(&after.here, diagnostic));
         }
         self.next().ok_or(Reported)

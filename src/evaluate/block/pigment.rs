@@ -231,7 +231,10 @@ impl Evaluator<'_> {
                         self.color_of(pigment, &color, token);
                     }
                     // Not an error: what it lacks is told where it is needed.
-                    Value::Poison(poison) => self.set_poison(poison),
+                    Value::Poison(poison) => {
+                        self.is_of_place(token, poison.word, Place::PIGMENT);
+                        self.set_poison(poison);
+                    }
                     Value::Broken => return Err(Reported),
                     _ => {
                         self.unexpected(token, Place::PIGMENT);

@@ -199,6 +199,7 @@ fn is_part(word: Word) -> bool {
         Family::Camera => word != Word::Camera,
         Family::Light => !matches!(word, Word::LightSource | Word::LightGroup),
         Family::Setting => word != Word::GlobalSettings,
+        Family::Atmosphere => home(word).is_some(),
         family => family == Family::Directive,
     }
 }
@@ -210,16 +211,52 @@ pub(super) fn is_at_top_level(word: Word) -> bool {
 
 /// The block that a word is for, where it is not the one it stands in.
 pub(super) fn home(word: Word) -> Option<Word> {
-    match word.family() {
-        _ if word.block().is_some() => word.block(),
+    use Word as W;
+    Some(match word {
+        _ if word.block().is_some() => return word.block(),
         // Reserved, and nobody knows what for.
-        _ if word == Word::Size => None,
-        Family::FinishItem => Some(Word::Finish),
-        Family::Color | Family::Pattern | Family::PatternItem => Some(Word::Pigment),
-        Family::Camera => Some(Word::Camera),
-        Family::Light => Some(Word::LightSource),
-        Family::Setting => Some(Word::GlobalSettings),
-        Family::Interior => Some(Word::Interior),
-        _ => None,
-    }
+        W::Size | W::Altitude | W::Tile2 => return None,
+        W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
+        W::SlopeMap | W::NoBumpScale => W::Normal,
+        W::BlackHole | W::DistExp | W::Flip | W::Offset | W::Repeat | W::Toroidal => W::Warp,
+        W::Eccentricity | W::Extinction => W::Scattering,
+        W::Absorption | W::Density | W::Intervals | W::Method | W::Ratio | W::Samples => W::Media,
+        W::AaLevel | W::AaThreshold | W::Scattering => W::Media,
+        W::DensityMap => W::Density,
+        W::Collect | W::PassThrough | W::Target => W::Photons,
+        W::Autostop | W::ExpandThresholds | W::Gather | W::Spacing => W::Photons,
+        W::AlwaysSample | W::Brightness | W::Count | W::ErrorBound | W::GrayThreshold => {
+            W::Radiosity
+        }
+        W::LowErrorFactor | W::MaxSample | W::MaximumReuse | W::MinimumReuse => W::Radiosity,
+        W::NearestCount | W::PretraceEnd | W::PretraceStart | W::RecursionLimit => W::Radiosity,
+        W::Importance => W::Radiosity,
+        W::FogAlt | W::FogOffset | W::FogType | W::Distance => W::Fog,
+        W::ArcAngle | W::FalloffAngle | W::Width => W::Rainbow,
+        W::GlobalLights => W::LightGroup,
+        W::FaceIndices | W::NormalIndices | W::NormalVectors | W::TextureList => W::Mesh2,
+        W::UvIndices | W::VertexVectors => W::Mesh2,
+        W::InsideVector => W::Mesh,
+        W::AllIntersections | W::ContainedBy | W::Evaluate | W::MaxGradient | W::MaxTrace => {
+            W::Isosurface
+        }
+        W::Precompute => W::Parametric,
+        W::ConicSweep | W::LinearSweep => W::Prism,
+        W::Component | W::Strength => W::Blob,
+        W::Smooth | W::WaterLevel => W::HeightField,
+        W::Ttf => W::Text,
+        W::Flatness | W::Type | W::USteps | W::VSteps => W::BicubicPatch,
+        W::Cube | W::Hypercomplex | W::MaxIteration | W::Precision | W::Quaternion | W::Slice => {
+            W::JuliaFractal
+        }
+        _ => match word.family() {
+            Family::FinishItem => W::Finish,
+            Family::Color | Family::Pattern | Family::PatternItem => W::Pigment,
+            Family::Camera => W::Camera,
+            Family::Light => W::LightSource,
+            Family::Setting => W::GlobalSettings,
+            Family::Interior => W::Interior,
+            _ => return None,
+        },
+    })
 }

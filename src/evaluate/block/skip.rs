@@ -8,7 +8,8 @@ use crate::vocabulary::{Family, Word};
 use super::super::scope::Symbol;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Here};
-use super::place::home;
+use super::Place;
+use super::place::{home, is_at_top_level};
 
 impl Evaluator<'_> {
     /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
@@ -93,6 +94,25 @@ impl Evaluator<'_> {
             self.take_back(before);
             self.skip_parts();
         }
+    }
+
+    /// `sky_sphere { gradient y color_map { … } }`: what stands beside a word that belongs in the block of `own`,
+    /// and belongs there, too, is the same mistake.
+    pub(super) fn skip_of_home(&mut self, own: Word, place: Place) -> Vec<String> {
+        let stands = |word| match place.word {
+            Some(_) => place.holds(word),
+            None => is_at_top_level(word),
+        };
+        let mut beside = Vec::new();
+        while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && home(word) == Some(own)
+            && !stands(word)
+        {
+            self.next();
+            self.skip_arguments(word);
+            beside.push(format!("`{}`", word.name()));
+        }
+        beside
     }
 
     /// The name that an expression is, where it was never declared.

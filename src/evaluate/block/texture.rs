@@ -60,7 +60,10 @@ impl Evaluator<'_> {
                 // As in POV-Ray, their words may be left out here.
                 Some(Value::Pigment(id)) => texture.pigment = id,
                 Some(Value::Finish(id)) => texture.finish = id,
-                Some(Value::Poison(poison)) => self.set_poison(poison),
+                Some(Value::Poison(poison)) => {
+                    self.is_of_place(token, poison.word, Place::TEXTURE);
+                    self.set_poison(poison);
+                }
                 _ => {
                     self.unexpected(token, Place::TEXTURE);
                     return Err(Reported);

@@ -141,9 +141,20 @@ impl Evaluator<'_> {
             }
         }
         let Ok(numbers) = <[f64; 12]>::try_from(numbers.as_slice()) else {
-            let diagnostic = Diagnostic::new(Code::WrongArity, format!("a matrix has 12 numbers, this one has {}", numbers.len()))
-                .at(next.span, "expected four rows of three numbers")
-                .help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing");
+            let diagnostic = Diagnostic::new(
+                Code::WrongArity,
+                format!("a matrix has 12 numbers, this one has {}", numbers.len()),
+            )
+            .at(next.span, "expected four rows of three numbers");
+            let lost = self.commas_lost(next.span);
+            let diagnostic = match lost.len() {
+                0 => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
+                // Of several differences only the author knows which are meant.
+                n if n + numbers.len() != 12 => diagnostic.help("`0 -2` is one number, and `0, -2` are two"),
+                _ => lost.iter().fold(diagnostic, |told, (at, pair)| {
+                    told.help(format!("`{pair}` is one number: a comma is missing in it")).fix(*at, ",")
+                }),
+            };
             return Err(self.report(&next.here, diagnostic));
         };
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);

@@ -1,12 +1,15 @@
-//! Shapes that are not built yet: their parts and modifiers are read all the same, for the mistakes in them.
+//! What is not built yet: its parts and modifiers are read all the same, for the mistakes in them.
 //!
-//! **Invariant:** the object is poison, whatever is found in it.
+//! **Invariant:** it is poison, whatever is found in it.
 
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
 
 /// The parts of a shape that come before its modifiers, where their number is fixed: vectors all.
 fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
@@ -16,7 +19,89 @@ fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
     })
 }
 
+/// What belongs to a word that is not built, where it is a fixed number of values.
+fn values_not_built(word: Word) -> &'static [&'static str] {
+    match word {
+        Word::AreaLight => &[
+            "a vector for one side",
+            "a vector for the other side",
+            "a number of lights along the first side",
+            "a number of lights along the second side",
+        ],
+        Word::Adaptive | Word::Aperture | Word::MajorRadius => &["a number"],
+        _ => &[],
+    }
+}
+
 impl Evaluator<'_> {
+    /// Passes over what belongs to a word that is not built, for the mistakes in it.
+    pub(super) fn pass_not_built(&mut self, token: &Token, word: Word) {
+        let outer = self.poison.take();
+        for wanted in values_not_built(word) {
+            if self.unbuilt_part(token, wanted).is_err() {
+                break;
+            }
+        }
+        self.poison = outer;
+        if let Word::TextureMap
+        | Word::PigmentMap
+        | Word::NormalMap
+        | Word::SlopeMap
+        | Word::DensityMap = word
+            && self.follows_a_pattern(token)
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.inside_block(&here, contents, span, Self::map_not_built);
+            return;
+        }
+        self.skip_arguments(word);
+    }
+
+    /// Whether a pattern stands before a map in its block, and none is `average`, whose entries need no number.
+    fn follows_a_pattern(&self, map: &Token) -> bool {
+        let block = self.blocks.last().map(|block| block.span);
+        let Some(block) =
+            block.filter(|block| block.file == map.span.file && block.start < map.span.start)
+        else {
+            return false;
+        };
+        let before = self.sources.text(Span { end: map.span.start, ..block });
+        let words = before.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let mut patterns =
+            words.filter_map(Word::from_name).filter(|word| word.family() == Family::Pattern);
+        patterns.next().is_some_and(|first| first != Word::Average)
+            && patterns.all(|other| other != Word::Average)
+    }
+
+    /// The entries of a map that is not built: each begins with a number.
+    fn map_not_built(&mut self) {
+        while let Some(token) = self.peek().cloned() {
+            let TokenKind::Entry(items) = token.kind else {
+                self.next();
+                if let TokenKind::Expression(id) = token.kind {
+                    self.run_expression(&token.here, id);
+                }
+                continue;
+            };
+            self.next();
+            self.inside(&token.here, items, |evaluator| {
+                if let Some(Token { kind: TokenKind::Word(word), here, span }) =
+                    evaluator.peek().cloned()
+                    && word.family() != Family::Directive
+                {
+                    let message = format!("expected a number before `{}`", word.name());
+                    let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                        .at(span, "an entry of a map begins with a number")
+                        .help(format!("write `[0.5 {} …]`", word.name()));
+                    evaluator.report(&here, diagnostic);
+                }
+                evaluator.run_items();
+            });
+        }
+    }
+
     pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
         let poison = Poison { word, site: token.here.site(token.span) };
         let Some(parts) = parts_not_built(word) else {
@@ -64,8 +149,24 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match &given.value {
             Value::Poison(_) | Value::Broken => Ok(()),
+            value if wanted.starts_with("a number") && value.as_number().is_none() => {
+                Err(self.wrong_type(&given.here, given.span, wanted, value))
+            }
             value if value.numbers().is_some() => Ok(()),
             value => Err(self.wrong_type(&given.here, given.span, wanted, value)),
         }
+    }
+
+    /// Says of a name that stands for a fog or a rainbow that it does so, in a block of another kind.
+    pub(super) fn is_of_place(&mut self, token: &Token, word: Word, place: Place) {
+        let Some(of) = place.word.filter(|_| matches!(word, Word::Fog | Word::Rainbow)) else {
+            return;
+        };
+        let text = self.sources.text(token.span);
+        let message = format!("`{text}` is a `{}`, and stands in a `{}`", word.name(), of.name());
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, format!("this is a `{}`", word.name()))
+            .help(of.sentence().to_owned());
+        self.report(&token.here, diagnostic);
     }
 }

@@ -1,7 +1,7 @@
 //! What to say of an item that its block has no use for.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Role, Word};
 
@@ -24,7 +24,10 @@ impl Evaluator<'_> {
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
             TokenKind::Word(word) if of_poison => {
                 let poison = Poison { word: *word, site: token.here.site(token.span) };
-                self.skip_arguments(*word);
+                match place.holds(*word) {
+                    true => self.pass_not_built(token, *word),
+                    false => self.skip_arguments(*word),
+                }
                 // What a pattern that is not built has goes with it.
                 if place.holds(*word) && !word.is_built() && word.family() != Family::PatternItem {
                     self.set_poison(poison);
@@ -45,7 +48,10 @@ impl Evaluator<'_> {
                         let symbol = token.here.symbol(name);
                         match self.scopes.read(symbol).cloned() {
                             None => self.unknown_word(token, token.span, place),
-                            Some(Value::Poison(poison)) => self.set_poison(poison),
+                            Some(Value::Poison(poison)) => {
+                                self.is_of_place(token, poison.word, place);
+                                self.set_poison(poison);
+                            }
                             Some(Value::Broken) => {}
                             Some(Value::Macro(_)) => {
                                 self.macro_not_called(&token.here, symbol, token.span);
@@ -123,6 +129,20 @@ impl Evaluator<'_> {
             self.set_poison(*poison);
             return;
         }
+        // `sphere { pigment { … } 0, 1 }`: that the parts come first was told where one was missing.
+        let block = self.blocks.last().map(|block| block.span);
+        let was_missing = |at: Site| {
+            block.is_some_and(|block| {
+                at.span.file == block.file
+                    && block.start <= at.span.start
+                    && at.span.end <= block.end
+            })
+        };
+        if matches!(token.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
+            && self.missing_at.is_some_and(was_missing)
+        {
+            return self.skip_values();
+        }
         let kind = value.kind();
         let mut diagnostic = Diagnostic::new(
             Code::ExtraPart,
@@ -184,7 +204,7 @@ impl Evaluator<'_> {
             diagnostic =
                 diagnostic.help(format!("write `texture {{ {text} }}` instead of this `{own}`"));
         } else if let Some(word) = place.word {
-            diagnostic = diagnostic.help(word.sentence().to_owned());
+            diagnostic = diagnostic.help(self.form_of(word));
         }
         self.report(&token.here, diagnostic);
         self.skip_values();
@@ -195,12 +215,12 @@ impl Evaluator<'_> {
             self.old_word(token, word, today);
             return;
         }
-        let is_setting = place.word.is_none()
-            && word.family() == Family::Setting
-            && home(word).is_some_and(|home| home == Word::GlobalSettings && home != word);
-        if !is_setting && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
+        let is_part = place.word.is_none()
+            && !is_at_top_level(word)
+            && home(word).is_some_and(|home| home != word);
+        if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison { word, site: token.here.site(token.span) };
-            self.skip_arguments(word);
+            self.pass_not_built(token, word);
             self.set_poison(poison);
             return;
         }
@@ -260,6 +280,9 @@ impl Evaluator<'_> {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }
+                Some(home) if word == Word::Media => {
+                    format!("it belongs in `{} {{ … }}`, or at the top level", home.name())
+                }
                 _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
                 Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
                 None if !matches!(word.role(), Role::Statement) => {
@@ -299,11 +322,22 @@ impl Evaluator<'_> {
             Some(span) if has_block => diagnostic.also(span, "inside this block"),
             _ => diagnostic,
         };
-        self.report(&token.here, diagnostic);
         match near {
             Some(near) if is_transform(near) => self.skip_values(),
             _ => self.skip_arguments(word),
         }
+        let own = home(word).filter(|home| *home != word && Some(*home) != place.word);
+        let beside = match own.filter(|_| near.is_none() && meant.is_none()) {
+            Some(own) => self.skip_of_home(own, place),
+            None => Vec::new(),
+        };
+        let diagnostic = match beside.as_slice() {
+            [] => diagnostic,
+            beside => {
+                diagnostic.help(format!("so does what stands behind it: {}", beside.join(", ")))
+            }
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// The braces that stand where a call has parentheses.

@@ -91,7 +91,8 @@ impl Evaluator<'_> {
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
             .find(|word| *word == "transmit" || words().any(|other| other == *word))
-            .or_else(|| suggest::closest(&name, words()));
+            .or_else(|| suggest::closest(&name, words()))
+            .or_else(|| suggest::reworded(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)

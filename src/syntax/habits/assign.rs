@@ -12,6 +12,9 @@ const DECLARERS: &[&str] = &[
     "color3",
 ];
 
+/// How many tokens behind `+=` the end of its statement is looked for.
+const LONGEST_CHANGE: usize = 40;
+
 impl Reader<'_> {
     /// `let A = 1`.
     pub(super) fn declarer(&mut self, meant: &mut Vec<Token>) -> bool {
@@ -60,22 +63,26 @@ impl Reader<'_> {
         }
         let span = self.span(0, 0);
         let gap = Span { start: span.end, end: self.span(1, 1).start, ..span };
-        let diagnostic =
+        let mut diagnostic =
             Diagnostic::new(Code::UnknownWord, "`return` is not a word of the language")
                 .at(span, "a function's body is its value, and a macro's is what is left of it")
                 .help("leave it out")
                 .fix(span.to(gap), "");
-        self.diagnostics.push(diagnostic);
         // `return a*2;`
         let ends = (1..).take_while(|ahead| {
             !matches!(self.kind(*ahead), None | Some(TokenKind::Directive(_)))
                 && !self.is(*ahead, Mark::Close(Bracket::Brace))
         });
-        if let Some(last) = ends.last().filter(|last| self.is(*last, Mark::Semicolon))
-            && self.is(last + 1, Mark::Close(Bracket::Brace))
-        {
-            self.dropped.insert(self.at + last, false);
+        if let Some(last) = ends.last().filter(|last| self.is(*last, Mark::Semicolon)) {
+            let in_macro = self.kind(last + 1) == Some(TokenKind::Directive(Head::End));
+            if in_macro {
+                diagnostic = diagnostic.fix(self.span(last, last), "");
+            }
+            if in_macro || self.is(last + 1, Mark::Close(Bracket::Brace)) {
+                self.dropped.insert(self.at + last, false);
+            }
         }
+        self.diagnostics.push(diagnostic);
         self.at += 1;
         true
     }
@@ -171,13 +178,21 @@ impl Reader<'_> {
         }
         let name = self.slice(0).to_owned();
         let sign = format!("{operator}{}", if assigns { "=" } else { operator });
-        let change = if assigns { "…" } else { "1" };
+        let value = if assigns { self.changed_by(operator) } else { Some("1".to_owned()) };
+        let change = value.clone().unwrap_or_else(|| "…".to_owned());
+        let before = meant.last().map(|token| token.kind);
+        let declared = match before {
+            Some(TokenKind::Directive(Head::Local)) => Some("#local"),
+            Some(TokenKind::Directive(Head::Declare)) => Some("#declare"),
+            _ => None,
+        };
+        let head = declared.unwrap_or("#declare");
         let diagnostic = Diagnostic::new(
             Code::UnexpectedCharacter,
             format!("`{sign}` is not an operator of the language"),
         )
         .at(self.span(1, 2), "no value is changed in place")
-        .help(format!("write `#declare {name} = {name} {operator} {change};`"));
+        .help(format!("write `{head} {name} = {name} {operator} {change};`"));
         // `#declare N = N++`
         if steps && self.is_declared_as(meant, &name) {
             let right = format!("{name} {operator} 1");
@@ -187,13 +202,23 @@ impl Reader<'_> {
             self.at += 3;
             return true;
         }
+        let reach = if assigns { LONGEST_CHANGE } else { 1 };
+        let ends = (3..3 + reach).find(|ahead| self.is(*ahead, Mark::Semicolon));
+        let diagnostic = match (value, ends) {
+            (Some(value), Some(end)) => {
+                let whole = format!("{name} = {name} {operator} {value}");
+                let whole = match declared {
+                    Some(_) => whole,
+                    None => format!("{head} {whole}"),
+                };
+                diagnostic.fix(self.span(0, end - 1), whole)
+            }
+            _ => diagnostic,
+        };
         self.diagnostics.push(diagnostic);
         // Read as `#declare A = A + …`, with the `#declare` that may stand before it.
         let token = |kind| Token { kind, ..self.tokens[self.at] };
-        if !matches!(
-            meant.last().map(|token| token.kind),
-            Some(TokenKind::Directive(Head::Declare | Head::Local))
-        ) {
+        if declared.is_none() {
             meant.push(token(TokenKind::Directive(Head::Declare)));
         }
         meant.extend([
@@ -206,6 +231,19 @@ impl Reader<'_> {
         }
         self.at += 3;
         true
+    }
+
+    /// What stands behind `A +=` up to the `;` on its line, so that it may stand behind an operator.
+    fn changed_by(&self, operator: &str) -> Option<String> {
+        let end = (3..3 + LONGEST_CHANGE).find(|ahead| self.is(*ahead, Mark::Semicolon))?;
+        let (from, to) = (self.span(3, 3).start as usize, self.span(end, end).start as usize);
+        let text = self.text.get(from..to).map(str::trim)?;
+        if text.is_empty() || text.contains(['\n', '#', '{']) {
+            return None;
+        }
+        let is_sum = text.chars().skip(1).any(|c| matches!(c, '+' | '-'));
+        let is_term = operator == "+" || !(is_sum || operator == "/" && text.contains(['*', '/']));
+        Some(if is_term { text.to_owned() } else { format!("({text})") })
     }
 
     /// Whether what stands before is `#declare name =`.

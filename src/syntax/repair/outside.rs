@@ -70,7 +70,11 @@ impl Repair<'_> {
                     && before.is_some_and(|name| {
                         name.kind == TokenKind::Name && name.end == self.tokens[open.token].start
                     });
-                (ends || beside || body || index && self.begins_statement(at)).then_some(true)
+                // `#range (1, 2` and a directive below it.
+                let of_head =
+                    before.is_some_and(|head| matches!(head.kind, TokenKind::Directive(_)));
+                (ends || beside || body || of_head && begins || index && self.begins_statement(at))
+                    .then_some(true)
             }
         }
     }
