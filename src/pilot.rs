@@ -4,11 +4,9 @@
 //! on every run: they are counts, of pixels that depend on nothing but the picture's size, and of no more
 //! of them than limits that are counted, too.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use crate::math::random::Random;
 use crate::plan::{Antialias, Effect, Pilot, Plan, Region};
-use crate::trace::{Counters, Sampling, TraceOptions, Watch, geometry, pixels};
+use crate::trace::{Counters, Limited, Sampling, TraceOptions, Unwatched, geometry, pixels};
 use crate::world::World;
 
 /// Pixels along the longer side of the picture, of those that are traced.
@@ -44,7 +42,7 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     let places = mixed(spread(plan.frame.region, (width, height)));
     let look = |max_trace_level: u32| {
         let plan = Plan { antialias, max_trace_level, ..plan.clone() };
-        let patience = Patience { left: AtomicU64::new(limit / STEPS_A_QUESTION) };
+        let patience = Limited::to_steps(limit, &Unwatched);
         let (mut counters, mut pixels_done) = (Counters::default(), 0);
         for chunk in places.chunks(CHUNK) {
             let planned = Sampling::Planned;
@@ -93,23 +91,6 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
         called.rays = sent.or(more);
     }
     plan.pilot = Some(Pilot { rays: all, ..found });
-}
-
-/// Surfaces and samples between two questions whether to stop.
-const STEPS_A_QUESTION: u64 = 64;
-
-/// Stops a trace after so many questions: on one thread always in the same place.
-struct Patience {
-    left: AtomicU64,
-}
-
-impl Watch for Patience {
-    fn progress(&self, _: usize, _: usize) {}
-
-    fn should_stop(&self) -> bool {
-        let one_less = |left: u64| left.checked_sub(1);
-        self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_less).is_err()
-    }
 }
 
 /// The same in an order of which any first part is spread over all.
@@ -217,7 +198,7 @@ mod tests {
 
     /// Clear balls that mirror: paths fork at each surface.
     fn glass(depth: u32) -> (World, Plan) {
-        let text = format!(
+        compiled(format!(
             "global_settings {{ max_trace_level {depth} }}
             camera {{ location <0, 3, 6> look_at 0 angle 45 }}
             light_source {{ <-8, 12, 10>, rgb 1 }}
@@ -225,7 +206,20 @@ mod tests {
               <2*I - 3, 0, 2*J - 3>, 0.9 pigment {{ rgbt 1 }}
               finish {{ ambient 0 diffuse 0 reflection 0.9 }} interior {{ ior 1.5 }}
             }} #end #end"
-        );
+        ))
+    }
+
+    /// Within mirrors paths end only where one looks no deeper.
+    fn mirrors(depth: u32) -> (World, Plan) {
+        compiled(format!(
+            "global_settings {{ max_trace_level {depth} adc_bailout 0 }}
+            camera {{ location 0.1 look_at z }}
+            light_source {{ 0.2, rgb 1 }}
+            box {{ -1, 1 pigment {{ rgb 1 }} finish {{ reflection 1 ambient 0.1 }} }}"
+        ))
+    }
+
+    fn compiled(text: String) -> (World, Plan) {
         let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
         let (world, origins) = road.compile("a.scene", text.into_bytes());
         assert!(!road.diagnostics.has_errors());
@@ -233,8 +227,7 @@ mod tests {
         (world, plan)
     }
 
-    fn piloted(depth: u32, limit: u64) -> Pilot {
-        let (world, mut plan) = glass(depth);
+    fn piloted((world, mut plan): (World, Plan), limit: u64) -> Pilot {
         pilot_within(&world, &mut plan, limit);
         let again = plan.pilot;
         pilot_within(&world, &mut plan, limit);
@@ -254,12 +247,18 @@ mod tests {
 
     #[test]
     fn where_paths_fork_the_pilot_traces_fewer_pixels_or_looks_less_deep() {
-        let shallow = piloted(2, 1 << 20);
+        let shallow = piloted(glass(2), 1 << 20);
         assert_eq!((shallow.pixels, shallow.depth), (64 * 48, None));
-        let fewer = piloted(4, 1 << 15);
+        let fewer = piloted(glass(4), 1 << 15);
         assert!((128..64 * 48).contains(&fewer.pixels) && fewer.depth.is_none(), "{fewer:?}");
-        let less = piloted(200, 1 << 16);
+        let less = piloted(glass(200), 1 << 16);
         assert!(less.pixels >= 128 && less.depth.is_some_and(|depth| depth < 20), "{less:?}");
+    }
+
+    #[test]
+    fn where_paths_do_not_end_the_pilot_looks_less_deep() {
+        let less = piloted(mirrors(1_000_000), 1 << 16);
+        assert!(less.pixels >= 128 && less.depth == Some(20), "{less:?}");
     }
 
     #[test]

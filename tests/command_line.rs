@@ -1053,8 +1053,8 @@ fn a_promise_has_a_right_form_and_enough_pixels() {
 #[test]
 fn a_time_that_suffices_is_used_and_one_that_does_not_leaves_what_there_is() {
     let place = Place::new();
-    let run = place.run("a.scene --size 160x120 --time-budget 3s -o t.png");
-    let run = run.ends(0, &["t.png: 160×120", " samples a pixel, ", " on average\n"]);
+    let run = place.run("a.scene --size 640x480 --time-budget 3s -o t.png");
+    let run = run.ends(0, &["t.png: 640×480", " samples a pixel, ", " on average\n"]);
     let said = run.stderr();
     let took: f64 = said
         .split(", ")

@@ -8,7 +8,7 @@
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
 use crate::plan::{Plan, PlanOptions, plan};
-use crate::trace::Watch;
+use crate::trace::{Limited, Watch};
 use crate::world::Origins;
 
 /// Fewer pixels than this say nothing of a picture.
@@ -17,13 +17,17 @@ pub const LEAST: usize = 30;
 pub const FEW: usize = 128;
 /// Of the time there is: what a first look all the way may take, and each one less deep.
 const FOR_ALL_THE_WAY: f64 = 1.0 / 3.0;
-const FOR_LESS: f64 = 1.0 / 6.0;
+const FOR_LESS: f64 = 1.0 / 12.0;
+/// So many of those may turn out to be too deep.
+const LOOKS_TOO_DEEP: u32 = 3;
 /// Of the time that is left then: what the prediction may be wrong by.
 const PREDICTED: f64 = 0.85;
 /// Where no clock is read: the most rays, of all kinds, that a sample of a reference may send as a rule,
 /// and where it looks no deeper than the scene itself.
 const MOST_RAYS: f64 = 2048.0;
 const MOST_OWN_RAYS: f64 = 8.0 * MOST_RAYS;
+/// Steps that stand for the questions whether to stop between the parts of a list, for each pixel.
+const STEPS_A_PIXEL: f64 = 256.0;
 
 /// Asks to stop when the time is up.
 pub struct Deadline<'a> {
@@ -127,8 +131,7 @@ fn finest(
 }
 
 /// A rough reference of a few pixels, as deep as there is time for: all the way, or where that takes
-/// too long, from one surface on as much deeper each time as there can be time for if every path
-/// forks at each.
+/// too long, from one surface on deeper and deeper.
 fn deepest(
     studio: &Studio,
     depths: &Depths,
@@ -155,17 +158,21 @@ fn deepest(
         return Some(all);
     }
     let allowed = FOR_LESS * left;
-    let (mut depth, mut found) = (1, None);
-    while let Some((affordable, took)) = look(depth, allowed) {
-        found = Some(affordable);
-        // A look all the way has failed already.
-        let deeper = (depth + doublings(took, allowed)).min(most.saturating_sub(1));
-        if deeper <= depth {
-            break;
+    let (mut found, mut failed) = (None, 0);
+    // A look all the way has failed already.
+    let mut ladder = Ladder::up_to(most.saturating_sub(1).max(1));
+    let mut depth = 1;
+    loop {
+        let seen = look(depth, allowed);
+        let reach = seen.as_ref().map(|(_, took)| doublings(*took, allowed));
+        failed += u32::from(seen.is_none());
+        found = seen.map(|(affordable, _)| affordable).or(found);
+        let has_time = failed < LOOKS_TOO_DEEP && reach != Some(0);
+        match ladder.next(depth, reach) {
+            Some(next) if has_time => depth = next,
+            _ => return found,
         }
-        depth = deeper;
     }
-    found
 }
 
 /// How deep a reference may look whose samples send no more than [`MOST_RAYS`] as a rule, or
@@ -178,21 +185,59 @@ pub fn counted_depth(
     own: u32,
 ) -> Option<u32> {
     let few = &list[..list.len().min(LEAST)];
-    let (mut depth, mut found) = (1, 1);
-    while depth <= depths.most() {
-        let plan = depths.plan(studio, depth);
-        let reference = Reference::new(studio, &plan, few, seed, Reference::ROUGH)?;
-        let samples = f64::from(reference.samples()) * few.len() as f64;
-        let rays = reference.counters.rays() as f64 / samples;
+    let samples = f64::from(Reference::samples_at(Reference::ROUGH)) * few.len() as f64;
+    let mut ladder = Ladder::up_to(depths.most());
+    let mut depth = 1;
+    loop {
         let allowed = if depth <= own { MOST_OWN_RAYS } else { MOST_RAYS };
-        if rays > allowed {
-            break;
+        // A ray leads to a step at most, and a sample is one: what takes longer sends more.
+        let steps = 2.0 * (allowed + 1.0) * samples + STEPS_A_PIXEL * few.len() as f64;
+        let limited = Limited::to_steps(steps as u64, studio.watch);
+        let plan = depths.plan(studio, depth);
+        let in_steps = Studio { watch: &limited, ..*studio };
+        let reference = Reference::new(&in_steps, &plan, few, seed, Reference::ROUGH);
+        if reference.is_none() && studio.watch.should_stop() {
+            return None;
         }
-        found = depth;
-        let deeper = depth + doublings(rays, MOST_RAYS).max(1);
-        depth = if depth < depths.most() { deeper.min(depths.most()) } else { deeper };
+        let rays = reference.map(|reference| reference.counters.rays() as f64 / samples);
+        let reach = rays.filter(|rays| *rays <= allowed).map(|rays| doublings(rays, MOST_RAYS));
+        match ladder.next(depth, reach) {
+            Some(next) => depth = next,
+            None => return Some(ladder.found.max(1)),
+        }
     }
-    Some(found.min(depths.most()))
+}
+
+/// Depths to look at: deeper and deeper, and once that was too deep, between.
+struct Ladder {
+    /// As deep as a look was done; 0 before.
+    found: u32,
+    /// What was too deep.
+    over: Option<u32>,
+    most: u32,
+}
+
+impl Ladder {
+    fn up_to(most: u32) -> Self {
+        Self { found: 0, over: None, most }
+    }
+
+    /// Behind a look that was done, `reach` levels more are thought to be; `None` of one that was too deep.
+    fn next(&mut self, depth: u32, reach: Option<u32>) -> Option<u32> {
+        match reach {
+            Some(_) => self.found = depth,
+            None => self.over = Some(depth),
+        }
+        let Self { found, over, most } = *self;
+        match over {
+            None => {
+                // Where paths do not fork a level is worth less.
+                let further = reach.unwrap_or(0).clamp(found / 8 + 1, found.max(1));
+                (found < most).then(|| found.saturating_add(further).min(most))
+            }
+            Some(over) => (over - found > 1).then(|| found + (over - found) / 2),
+        }
+    }
 }
 
 /// How much deeper one can look for `allowed` than for `took`, if every path forks at each surface.

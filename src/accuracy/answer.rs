@@ -1,6 +1,6 @@
 //! The answer that a report gives: what to use instead of the scene's own settings, if anything.
 
-use super::table::{error, faster, more};
+use super::table::{NO_LONGER, error, faster, more};
 use super::{Order, Report, Verdict};
 
 /// A line that says what to use, then one for those who want less error, and one for those with less time.
@@ -19,12 +19,14 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
             (0, None, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
         }
         Some(Verdict::Dominated { by, times, .. }) => {
-            let times = times.map_or_else(|| "as fast".to_owned(), faster);
+            // No dearer without being cheaper is the same work.
+            let times =
+                times.map_or_else(|| "as fast as".to_owned(), |times| faster(times) + " than");
             (
                 by,
                 None,
                 format!(
-                    "use {}: {times} than the scene's own settings, for {}",
+                    "use {}: {times} the scene's own settings, for {}",
                     flag(by),
                     instead(report, by, 0)
                 ),
@@ -61,9 +63,9 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let mut lines = vec![first];
     if let Some(row) = finer {
         let instead = instead(report, row, best);
-        let times = order.times(best, row).map(|times| format!("for {}", more(times)));
-        let times = times.unwrap_or_else(|| "as fast".to_owned());
-        lines.push(format!("for less error {}: {instead}, {times}", flag(row)));
+        // What is not proven to take longer may.
+        let times = order.times(best, row).map_or_else(|| NO_LONGER.to_owned(), more);
+        lines.push(format!("for less error {}: {instead}, for {times}", flag(row)));
     }
     if let Some((row, times)) = quicker.and_then(|row| Some((row, order.times(row, best)?))) {
         let instead = instead(report, row, best);
@@ -113,6 +115,11 @@ mod tests {
                 "for less error --knob 3: an error of 0.00500 instead of 0.0200, for 4.5× the time",
                 "in less time --knob 1: 2.0× faster, for an error of 0.100 instead of 0.0200",
             ]
+        );
+        let tied = lines(&[own, (4.05, 0.01, 0.0)]);
+        assert_eq!(
+            tied[1],
+            "for less error --knob 1: an error of 0.0100 instead of 0.0200, for no clearly longer time"
         );
         let kept = lines(&[own, coarse]);
         assert_eq!(kept[0], "keep the scene's own settings: whatever is faster is worse");

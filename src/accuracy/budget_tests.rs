@@ -1,7 +1,7 @@
 //! Budgets are kept where one pixel is more work than all others together. Time is counted here:
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
-use super::reference::{Geometries, Studio};
+use super::reference::{Geometries, Reference, Studio};
 use super::refine::{Canvas, MOST_SIDE, Pace, Spread, Until, is_finest};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
@@ -26,20 +26,31 @@ plane { y, -1 pigment { checker rgb 1, rgb 0.1 } }
 #end
 ";
 
+/// Mirrors all around: a path ends only where one looks no deeper.
+const MIRRORS: &str = "
+global_settings { max_trace_level {} adc_bailout 0 }
+camera { location 0.1 look_at z }
+light_source { 0.2, rgb 1 }
+box { -1, 1 pigment { rgb 1 } finish { reflection 1 ambient 0.1 } }
+";
+
 #[test]
 fn work_is_stopped_within_a_pixel_and_the_pixel_is_left_undone() {
     // A single one of these pixels would take longer than there is.
-    let (world, origins) = compiled(GLASS, 200.0);
-    let own = own(&world, Frame::whole(8, 6));
-    for antialias in [Antialias::Off, Antialias::Grid(3), Antialias::default()] {
-        let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
-        let clock = Ticking::new(1.0);
-        let watch = afford::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
-        let Traced { film, counters, complete } = trace(&world, &plan, &ONE_THREAD, &watch);
-        assert!(!complete && film.samples.contains(&0), "{antialias:?}");
-        assert!(counters.rays() < 300 * 1000, "{counters:?}");
-        let undone = film.samples.iter().zip(&film.radiance).filter(|(samples, _)| **samples == 0);
-        assert!(undone.into_iter().all(|(_, &radiance)| radiance == crate::color::Rgb::BLACK));
+    for (text, depth) in [(GLASS, 200.0), (MIRRORS, 1e6)] {
+        let (world, origins) = compiled(text, depth);
+        let own = own(&world, Frame::whole(8, 6));
+        for antialias in [Antialias::Off, Antialias::Grid(3), Antialias::default()] {
+            let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
+            let clock = Ticking::new(1.0);
+            let watch = afford::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
+            let Traced { film, counters, complete } = trace(&world, &plan, &ONE_THREAD, &watch);
+            assert!(!complete && film.samples.contains(&0), "{antialias:?}");
+            assert!(counters.rays() < 300 * 1000, "{counters:?}");
+            let undone = film.samples.iter().zip(&film.radiance);
+            let mut undone = undone.filter(|(samples, _)| **samples == 0);
+            assert!(undone.all(|(_, &radiance)| radiance == crate::color::Rgb::BLACK));
+        }
     }
 }
 
@@ -194,6 +205,45 @@ fn without_a_clock_a_reference_is_as_deep_on_every_run() {
         Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
     let own = afford::counted_depth(&studio, &depths, &list, 1, 200).expect("not stopped");
     assert!(own >= depth(1) && own < 60, "{own}");
+}
+
+/// Clear panes that bend nothing: what lies behind any number of them is as deep as the first.
+const PANES: &str = "
+camera { location <2, 1, 7> look_at <0, 0.5, 0> angle 40 }
+light_source { <4, 8, 6>, rgb 1 }
+plane { y, -0.5 pigment { checker rgb 0.9, rgb 0.2 } }
+#for (I, 1, {})
+  box {
+    <-1.5, -0.4, I/2>, <1.5, 1.6, I/2 + 0.02>
+    pigment { rgbf <0.95, 0.97, 0.97, 0.95> } finish { diffuse 0.05 reflection 0.15 }
+  }
+#end
+";
+
+#[test]
+fn where_a_level_is_worth_many_a_reference_is_as_deep_as_can_be_and_no_look_is_endless() {
+    let depth = |panes: f64, asked: u32| {
+        let (world, origins) = compiled(PANES, panes);
+        let settings = own(&world, Frame::whole(48, 36));
+        let depths = Depths { origins: &origins, deepest: dearest(settings, KNOBS) };
+        let list = audit::shuffled(audit::sets(settings.frame.region, 200, 1, 3).remove(0), 3);
+        let geometry = Geometries::default();
+        let studio =
+            Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+        let depth = afford::counted_depth(&studio, &depths, &list, 1, asked).expect("not stopped");
+        let rays = |depth: u32| {
+            let plan = depths.plan(&studio, depth);
+            let reference = Reference::new(&studio, &plan, &list[..30], 1, Reference::ROUGH);
+            let reference = reference.expect("not stopped");
+            reference.counters.rays() as f64 / f64::from(reference.samples()) / 30.0
+        };
+        (depth, rays(depth), rays(depth + 1))
+    };
+    let (deep, rays, more) = depth(3.0, 2);
+    assert!(deep > 3 && rays <= 2048.0 && more > 2048.0, "{deep}: {rays} {more}");
+    // As deep as the scene looks more of them are worth sending.
+    let (own, rays, _) = depth(3.0, deep + 1);
+    assert!(own == deep + 1 && rays > 2048.0, "{own}: {rays}");
 }
 
 /// A film of one ray a pixel, refined until the clock shows `until`.

@@ -123,7 +123,7 @@ fn best<'a>(order: &Order, settings: &'a [Setting]) -> &'a Setting {
 
 /// What the second costs beyond the first.
 fn price(order: &Order, from: &Setting, to: &Setting) -> String {
-    order.times(from.row, to.row).map_or_else(|| "no clearly longer time".to_owned(), table::more)
+    order.times(from.row, to.row).map_or_else(|| table::NO_LONGER.to_owned(), table::more)
 }
 
 #[cfg(test)]

@@ -147,15 +147,22 @@ impl Spending<'_> {
         // At the end it takes as long to find the error as it does now.
         let metric = self.options.metric;
         let began = self.clock.wall();
-        let audit = |film: &Film| {
-            let Found { truth, depth, adc_bailout } = truth.as_ref()?;
+        let audit = |found: &Option<Found>, film: &Film| {
+            let Found { truth, depth, adc_bailout } = found.as_ref()?;
             let (depth, adc_bailout) = (*depth, *adc_bailout);
             Some(Audit { depth, adc_bailout, ..truth.audit(film, metric) })
         };
-        audit(&self.canvas.film);
-        let until = self.until - SLACK * (self.clock.wall() - began);
+        audit(&truth, &self.canvas.film);
+        let took = self.clock.wall() - began;
+        let until = self.until - SLACK * took;
         self.sample(until, until, false);
-        audit(&self.canvas.film)
+        let left = until - self.clock.wall();
+        let more = match is_finest(&self.canvas.film) && left > 2.0 * for_audit {
+            true => self.truth(left),
+            false => None,
+        };
+        let truth = more.or(truth);
+        audit(&truth, &self.canvas.film)
     }
 
     /// Passes of more samples, so fine that they are done when the clock shows `until`; `latest` stops

@@ -266,6 +266,9 @@ fn less(ratio: f64) -> String {
     }
 }
 
+/// What is said of the dearer of two that is not proven to take longer.
+pub(super) const NO_LONGER: &str = "no clearly longer time";
+
 /// How much faster the faster of two is.
 pub(super) fn faster(ratio: f64) -> String {
     match ratio {

@@ -265,7 +265,7 @@ pub struct PictureArguments {
     /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
     #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     depth: Option<u32>,
-    /// Follow no reflection of less weight than this (0.01, 1/255), instead of the scene's adc_bailout
+    /// Follow no ray that counts less than this (0.01, 1/255), mirrored or let through, instead of the scene's adc_bailout
     #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
     adc_bailout: Option<f64>,
     /// The arithmetic that rays and shapes meet in

@@ -108,9 +108,12 @@ impl About {
                 (said, Exit::Promise)
             }
             Some(audit) => {
-                let pixels = audit.pixels;
+                let pixels = match audit.pixels {
+                    1 => "1 pixel".to_owned(),
+                    pixels => format!("{pixels} pixels"),
+                };
                 let said = format!(
-                    "{}, on {pixels} pixels, after {:.2} s\n{}{made}\n",
+                    "{}, on {pixels}, after {:.2} s\n{}{made}\n",
                     error(audit),
                     self.now,
                     glare(world)
@@ -140,7 +143,7 @@ impl About {
             0 => "none".to_owned(),
             done => format!("{} %", 100 * done / samples.len().max(1)),
         };
-        let with = match spent.is_less || spent.rest > 0 {
+        let with = match spent.is_less || spent.least != spent.flags {
             true => format!(", even with {}", spent.least),
             false => String::new(),
         };
@@ -153,7 +156,7 @@ impl About {
             0 => String::new(),
             done => {
                 let all = read + (now - read) * samples.len() as f64 / done as f64 + to_end;
-                format!("; about {:.1} s would be enough", 1.1 * all.max(now + to_end))
+                format!("; about {} s would be enough", no_less(1.1 * all.max(now + to_end)))
             }
         };
         format!(
@@ -173,6 +176,17 @@ impl About {
             ),
         }
     }
+}
+
+/// Seconds to two digits, rounded up: less than was asked for would not do.
+fn no_less(seconds: f64) -> String {
+    let (digits, scale) = match seconds {
+        ..0.1 => (3, 1000.0),
+        ..1.0 => (2, 100.0),
+        ..10.0 => (1, 10.0),
+        _ => (0, 1.0),
+    };
+    format!("{:.digits$}", (seconds * scale).ceil() / scale)
 }
 
 /// How long a picture takes to write.

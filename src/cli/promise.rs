@@ -105,6 +105,15 @@ fn keep(
         "" => "any settings make it",
         flags => flags,
     };
+    let own = world.settings.max_trace_level;
+    if audit.depth.is_some_and(|depth| depth < own) {
+        // An error told against less would be too small.
+        let surfaces = if own == 1 { "surface" } else { "surfaces" };
+        let said = format!(
+            "warning: how far off it is is not known: it takes too long to look {own} {surfaces} deep, as the scene does\nthe same picture: {flags}\n"
+        );
+        return Ok(Made { traced: kept.traced, said, exit: Exit::Promise });
+    }
     let said = format!(
         "{} {sign} {amount}, on {} fresh pixels{refined}{better}\n{}the same picture: {flags}\n",
         error(&audit),

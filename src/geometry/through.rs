@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use super::search::Each;
 use super::work::{Tally, Uncounted};
 use super::{Entry, Geometry, Hit, Solid, Work};
-use crate::shape::{Crossing, Ray};
+use crate::shape::{Chord, Crossing, Ray};
 
 impl Geometry {
     /// Adds to `hits` every crossing with a clear surface that casts shadows and is certainly nearer
@@ -136,10 +136,14 @@ impl Geometry {
             }
             Solid::Whole(i) => return self.seen_of_whole(*i, ray, counts).collect(),
         };
-        let ends = chord.map(|chord| [(chord.enter, false), (chord.leave, true)]);
-        let seen =
-            |(crossing, leaving)| entry.sides.shows(leaving).then(|| entry.hit(crossing, leaving));
-        ends.into_iter().flatten().filter_map(seen).collect()
+        let Some(Chord { enter, leave }) = chord else { return Seen::new() };
+        let seen = |&(_, leaving): &(Crossing, bool)| entry.sides.shows(leaving);
+        let ends = [(enter, false), (leave, true)].into_iter().filter(seen);
+        // A flat box is one sheet.
+        let is_flat = |i: u32| self.boxes[i as usize].0.is_flat();
+        let is_sheet = enter.t == leave.t && matches!(entry.solid, Solid::Box(i) if is_flat(i));
+        let all = ends.map(|(crossing, leaving)| entry.hit(crossing, leaving));
+        all.take(if is_sheet { 1 } else { 2 }).collect()
     }
 
     /// Whether an object is the entry's, or a part of it.

@@ -83,7 +83,8 @@ pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
             }
             continue;
         };
-        let distance = length(centre - world.camera.location) / least;
+        // Of what is smaller than numbers can say, no less than the greatest number.
+        let distance = (length(centre - world.camera.location) / least).min(f64::MAX);
         keep(&mut found.smallest, least, site, |new, old| new < old);
         keep(&mut found.largest, greatest, site, |new, old| new > old);
         keep(&mut found.farthest, distance, site, |new, old| new > old);

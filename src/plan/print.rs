@@ -279,6 +279,7 @@ fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     match rounded.abs() {
         size if (1e-3..1e6).contains(&size) || size == 0.0 => format!("{rounded}"),
+        f64::INFINITY => "more than 1.79e308".to_owned(),
         _ => format!("{rounded:e}"),
     }
 }
@@ -315,6 +316,6 @@ mod tests {
         assert_eq!(number(1.0 / 3.0), "0.333");
         assert_eq!(number(123_456.0), "123000");
         assert_eq!(number(1.234e12), "1.23e12");
-        assert_eq!(number(f64::INFINITY), "inf");
+        assert_eq!(number(f64::MAX), "more than 1.79e308");
     }
 }

@@ -215,11 +215,15 @@ impl Algebraic {
     /// Its value in twice the digits.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::Double;
-        let power = |x: Double, n: usize| (0..n).fold(Double::of(1.0), |all, _| all * x);
+        let powers_of = |x: Double| {
+            let next = |power: &Double| Some(*power * x);
+            std::iter::successors(Some(Double::of(1.0)), next).take(self.degree + 1).collect()
+        };
+        let powers_of: [Vec<Double>; 3] = point.map(powers_of);
         let terms = self.terms.iter().zip(exponents(self.degree)).filter(|(term, _)| **term != 0.0);
         let value = |(term, powers): (&f64, [usize; 3])| {
-            let factors = point.into_iter().zip(powers);
-            factors.fold(Double::of(*term), |all, (x, n)| all * power(x, n))
+            let factors = powers_of.iter().zip(powers).map(|(powers, n)| powers[n]);
+            factors.fold(Double::of(*term), |all, factor| all * factor)
         };
         terms.map(value).fold(Double::of(0.0), |all, term| all + term)
     }

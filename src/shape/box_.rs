@@ -39,6 +39,11 @@ impl Box_ {
         [first.get(), second.get(), third.get()]
     }
 
+    /// It has no inside: a line that does not lie in it meets it in one place.
+    pub fn is_flat(&self) -> bool {
+        self.half_widths.contains(&0.0)
+    }
+
     #[inline(always)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         let slabs = slabs(self.centre, self.directions(), self.half_widths, ray)?;

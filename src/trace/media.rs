@@ -72,6 +72,9 @@ impl Media {
         self.behind.extend_from_slice(&self.inside);
         let mut from = self.inside.last().map_or(AIR, |&object| ior(world, object));
         for crossed in others.iter().chain([hit]) {
+            if world.is_flat_box(crossed.object) {
+                continue;
+            }
             let known =
                 self.behind.iter().position(|&object| world.is_same_solid(object, crossed.object));
             if let Some(place) = known {

@@ -23,6 +23,7 @@ mod shadow;
 mod sharpness;
 mod sky;
 mod tiles;
+mod watch;
 mod way;
 
 use crate::color::{Gamma, Rgb};
@@ -37,9 +38,11 @@ use media::Media;
 use path::{Fork, Link, Tracer};
 use shadow::Filters;
 use tiles::Crew;
+use watch::Patience;
 
 pub use counters::{Counters, Evaluations};
 pub use pixels::{Aim, Pixels, Sampling, Seen, pixels, seen};
+pub use watch::{Limited, Unwatched, Watch};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {
@@ -55,28 +58,6 @@ pub struct TraceOptions {
 impl TraceOptions {
     pub const fn on_threads(threads: usize) -> Self {
         Self { threads: Some(threads), count_work: false, tile_side: None }
-    }
-}
-
-/// Whoever waits for the film. Called from several threads at once.
-pub trait Watch: Sync {
-    /// The tree of boxes stands, and tracing begins. Called once.
-    fn built(&self) {}
-    /// `done` of `total` pieces of work are done.
-    fn progress(&self, done: usize, total: usize);
-    /// Asked before each piece, and now and then within one; once it says yes, no further piece is
-    /// begun, and the pixels under way are left as they were.
-    fn should_stop(&self) -> bool;
-}
-
-/// Nobody waits.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn progress(&self, _: usize, _: usize) {}
-    fn should_stop(&self) -> bool {
-        false
     }
 }
 
@@ -111,39 +92,6 @@ pub(crate) struct Walk {
     occluders: Vec<Occluder>,
     counters: Counters,
     patience: Patience,
-}
-
-/// How long a thread works within one pixel before it asks again whether to stop. One pixel can be
-/// more work than all others together: where every path forks, 250 surfaces deep.
-#[derive(Debug, Default)]
-struct Patience {
-    /// Steps until then.
-    left: u32,
-    /// The watch wants no more: what the pixel at hand shows is no longer true.
-    is_over: bool,
-}
-
-impl Patience {
-    /// A step is a sample of a pixel, or a surface that rays go on behind.
-    const STEPS: u32 = 64;
-
-    /// Whether to give up, after some more steps.
-    #[inline(always)]
-    fn is_over_after(&mut self, steps: u32, watch: &dyn Watch) -> bool {
-        if steps <= self.left {
-            self.left -= steps;
-            return false;
-        }
-        self.ask(watch)
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn ask(&mut self, watch: &dyn Watch) -> bool {
-        self.is_over = self.is_over || watch.should_stop();
-        self.left = if self.is_over { 0 } else { Self::STEPS };
-        self.is_over
-    }
 }
 
 impl Walk {

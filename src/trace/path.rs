@@ -163,6 +163,9 @@ impl<'a> Tracer<'a> {
                 let Some((weight, link)) = self.mirrored(way.weight, &place, 0.0, local) else {
                     break clamped(local);
                 };
+                if walk.patience.is_over_after(1, self.watch) {
+                    break clamped(local);
+                }
                 walk.counters.reflection += 1;
                 walk.chain.push(link);
                 way = way.mirrored(&place, weight);

@@ -67,6 +67,14 @@ impl World {
         }
     }
 
+    /// Whether an object is a box without thickness: who goes in goes out.
+    pub fn is_flat_box(&self, object: u32) -> bool {
+        match self.objects[object as usize].shape {
+            Shape::Box(i) => self.boxes[i as usize].is_flat(),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => false,
+        }
+    }
+
     /// Whether both are parts of one whole, or the same.
     pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
         let whole = |object: u32| self.objects[object as usize].whole;

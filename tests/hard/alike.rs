@@ -1,6 +1,6 @@
 //! Shapes in other words: spheres (row 30) and tori (row 29).
 
-use crate::held::{SIZE, hold_text};
+use crate::held::{SIZE, Truth};
 use crate::scene::{Camera, Light, Scene, Step, Triple, WHITE, sphere, ten, torus};
 
 const CLAY: Triple = [0.9, 0.5, 0.2];
@@ -38,12 +38,13 @@ fn row_30_blobs_superellipsoids_eggs_and_sweeps_may_be_spheres_of_any_size() {
         let camera = Camera::LookAt { location: [0.0, r, 3.0 * r], look_at: [0.0; 3], angle: 50.0 };
         let lights = [Light { position: [4.0 * r, 5.0 * r, 3.0 * r], color: WHITE }];
         let scene = Scene::new(camera, &lights, vec![sphere([0.0; 3], r).color(CLAY)]);
+        let truth = Truth::of(&scene, SIZE);
         let text = scene.text();
         let start = text.find("sphere {").expect("the sphere");
         let end = start + text[start..].find(" pigment").expect("its pigment");
         for (name, ball) in balls(r) {
             let text = format!("{}{ball}{}", &text[..start], &text[end..]);
-            hold_text(&format!("{name} of radius 1e{exponent}"), &scene, &text, SIZE);
+            truth.hold(&format!("{name} of radius 1e{exponent}"), &text);
         }
     }
 }
@@ -99,12 +100,13 @@ fn row_29_quartics_and_polynomials_may_be_tori_of_any_size() {
             let scene = Scene::new(camera, &lights, vec![ring]);
             let text = scene.text();
             let name = format!("a torus of {major} and {minor}, times 1e{exponent}");
-            hold_text(&name, &scene, &text, (32, 24));
+            let truth = Truth::of(&scene, (32, 24));
+            truth.hold(&name, &text);
             let start = text.find("torus {").expect("the torus");
             let end = start + text[start..].find(" pigment").expect("its pigment");
             for (word, other) in tori(major, minor) {
                 let text = format!("{}{other}{}", &text[..start], &text[end..]);
-                hold_text(&format!("{word} for {name}"), &scene, &text, (32, 24));
+                truth.hold(&format!("{word} for {name}"), &text);
             }
         }
     }

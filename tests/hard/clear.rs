@@ -3,7 +3,7 @@
 //! That what is mirrored and what goes through come to all, and that equal indices change no bit
 //! (row 40), is tested beside the laws, in `trace/refraction.rs`.
 
-use crate::held::{hold, hold_sized};
+use crate::held::{hold, hold_sized, rendered};
 use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 fn above() -> Camera {
@@ -36,6 +36,34 @@ fn row_37_a_clear_sheet_lies_just_above_a_floor() {
             let sheet = clear(sheet.color([0.9, 0.5, 0.2]), 0.6, 0.2, 1.0);
             let scene = Scene::new(above(), &[light([5.0, 8.0, 6.0])], vec![floor(), sheet]);
             hold(&format!("a sheet {gap:e} above the floor"), &scene.deep(20));
+        }
+    }
+}
+
+#[test]
+fn rows_17_and_37_a_flat_box_is_one_sheet_to_the_eye_and_to_the_light() {
+    let center = |text: &str| rendered(text, (1, 1)).radiance[0].components();
+    for box_ in
+        ["box { <-9, 1, -9>, <9, 1, 9>", "box { <-9, 0, -9>, <9, 0, 9> rotate x translate y"]
+    {
+        for interior in ["", "interior { ior 1.5 }", "interior { ior 1.0000001 }"] {
+            let sheet = format!(
+                "{box_} pigment {{ rgbf <0.5, 0.25, 1, 1> }} finish {{ diffuse 0 ambient 0 }} {interior} }}"
+            );
+            let seen = format!(
+                "camera {{ location 5*y look_at 0 angle 1 sky z }} {sheet}
+                plane {{ y, 0 pigment {{ rgb 1 }} finish {{ ambient 1 diffuse 0 }} }}"
+            );
+            let lit = format!(
+                "camera {{ location <0, 0.4, 2> look_at 0 angle 1 }} {sheet}
+                light_source {{ 1e9*y, rgb 1 }}
+                plane {{ y, 0 pigment {{ rgb 1 }} finish {{ ambient 0 diffuse 1 }} }}"
+            );
+            for text in [seen, lit] {
+                let found = center(&text);
+                let is = |(found, meant): (f64, f64)| (found - meant).abs() < 1e-12;
+                assert!(found.into_iter().zip([0.5, 0.25, 1.0]).all(is), "{found:?}: {text}");
+            }
         }
     }
 }

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use crate::dice::Dice;
-use crate::held::held;
+use crate::held::Truth;
 use crate::scene::{
     Camera, Light, Object, Operation, Scene, Solid, Step, Triple, WHITE, cone, cuboid, plane,
     sphere, ten, torus, whole,
@@ -316,7 +316,7 @@ fn solids_of_parts_whose_faces_coincide_are_seen_as_they_are() {
     };
     for seed in first..last {
         let (scene, text) = drawn(seed);
-        let held = held(&scene, &text, SIZE);
+        let held = Truth::of(&scene, SIZE).held(&text);
         shown += u64::from(held.shown > SIZE.0 * SIZE.1 / 10);
         unjudged += held.unjudged;
         if !held.bad.is_empty() {

@@ -45,31 +45,13 @@ pub fn hold(name: &str, scene: &Scene) {
 /// As [`hold`], in a given size.
 #[track_caller]
 pub fn hold_sized(name: &str, scene: &Scene, size: (u32, u32)) {
-    hold_text(name, scene, &scene.text(), size);
-}
-
-/// As [`hold_sized`], of a text that is to show the scene in words of its own.
-#[track_caller]
-pub fn hold_text(name: &str, scene: &Scene, text: &str, size: (u32, u32)) {
-    hold_judged(name, scene, text, size, 25);
+    Truth::of(scene, size).hold(name, &scene.text());
 }
 
 /// As [`hold_sized`], of a checker to its horizon, near which a pixel in four may change too fast to be judged.
 #[track_caller]
 pub fn hold_horizon(name: &str, scene: &Scene, size: (u32, u32)) {
-    hold_judged(name, scene, &scene.text(), size, 4);
-}
-
-/// No more than a pixel in so many may be left unjudged: a picture that is nowhere judged proves nothing.
-#[track_caller]
-fn hold_judged(name: &str, scene: &Scene, text: &str, size: (u32, u32), in_so_many: u32) {
-    let Held { mut bad, unjudged, shown } = held(scene, text, size);
-    assert!(shown > 0, "{name}: nothing but the background is to be seen");
-    let count = bad.len();
-    bad.truncate(6);
-    assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
-    let few = in_so_many * unjudged <= size.0 * size.1;
-    assert!(few, "{name}: {unjudged} pixels are not judged\n{text}");
+    Truth::of(scene, size).hold_judged(name, &scene.text(), 4);
 }
 
 /// What is seen at a pixel and is not what is there.
@@ -89,29 +71,67 @@ pub struct Held {
     pub shown: u32,
 }
 
-/// Renders a text that is to show the scene, and compares it.
-pub fn held(scene: &Scene, text: &str, (width, height): (u32, u32)) -> Held {
-    let film = rendered(text, (width, height));
-    let exact = Exact::new(scene);
-    let at = |x: f64, y: f64| exact.at(x, y, width, height);
-    let mut held = Held { bad: Vec::new(), unjudged: 0, shown: 0 };
-    for y in 0..height {
-        for x in 0..width {
-            let (px, py) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let seen = film.radiance[film.index(x, y)];
-            let expected = at(px, py);
-            held.shown += u32::from(apart(expected, scene.background) > OFF);
-            if apart(components(seen), expected) <= OFF {
-                continue;
-            }
-            if changes_near(&exact, (x, y), (width, height)) {
-                held.unjudged += 1;
-            } else {
-                held.bad.push(Bad { place: (x, y), seen, expected });
+/// The exact picture of a scene.
+pub struct Truth<'a> {
+    exact: Exact<'a>,
+    size: (u32, u32),
+    /// In rows from the top.
+    pixels: Vec<Triple>,
+    /// So many are not the background.
+    shown: u32,
+}
+
+impl<'a> Truth<'a> {
+    pub fn of(scene: &'a Scene, (width, height): (u32, u32)) -> Self {
+        let exact = Exact::new(scene);
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let center = |(x, y)| (f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let pixels: Vec<Triple> =
+            places.map(center).map(|(x, y)| exact.at(x, y, width, height)).collect();
+        let is_shown = |&&pixel: &&Triple| apart(pixel, scene.background) > OFF;
+        let shown = pixels.iter().filter(is_shown).count() as u32;
+        Self { exact, size: (width, height), pixels, shown }
+    }
+
+    /// Asserts that no pixel of the picture of a text that is to show the scene is bad.
+    #[track_caller]
+    pub fn hold(&self, name: &str, text: &str) {
+        self.hold_judged(name, text, 25);
+    }
+
+    /// No more than a pixel in so many may be left unjudged: a picture that is nowhere judged proves nothing.
+    #[track_caller]
+    fn hold_judged(&self, name: &str, text: &str, in_so_many: u32) {
+        let Held { mut bad, unjudged, shown } = self.held(text);
+        assert!(shown > 0, "{name}: nothing but the background is to be seen");
+        let count = bad.len();
+        bad.truncate(6);
+        assert!(count == 0, "{name}: {count} bad pixels, {unjudged} not judged: {bad:?}\n{text}");
+        let few = in_so_many * unjudged <= self.size.0 * self.size.1;
+        assert!(few, "{name}: {unjudged} pixels are not judged\n{text}");
+    }
+
+    /// Renders such a text, and compares it.
+    pub fn held(&self, text: &str) -> Held {
+        let film = rendered(text, self.size);
+        let mut held = Held { bad: Vec::new(), unjudged: 0, shown: self.shown };
+        let (width, height) = self.size;
+        for y in 0..height {
+            for x in 0..width {
+                let place = film.index(x, y);
+                let (seen, expected) = (film.radiance[place], self.pixels[place]);
+                if apart(components(seen), expected) <= OFF {
+                    continue;
+                }
+                if changes_near(&self.exact, (x, y), self.size) {
+                    held.unjudged += 1;
+                } else {
+                    held.bad.push(Bad { place: (x, y), seen, expected });
+                }
             }
         }
+        held
     }
-    held
 }
 
 /// Whether the exact picture changes so near the centre of a pixel that it is not judged.

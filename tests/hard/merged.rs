@@ -2,7 +2,7 @@
 //! inside: row 35.
 
 use crate::coinciding::text_moved;
-use crate::held::hold_text;
+use crate::held::Truth;
 use crate::scene::{
     Camera, Light, Object, Operation, Scene, Step, WHITE, cone, cuboid, sphere, ten, whole,
 };
@@ -12,6 +12,7 @@ const SIZE: (u32, u32) = (32, 24);
 /// Holds a scene, shown by the words of another that is to look alike, in several sizes and places.
 #[track_caller]
 fn hold_alike(name: &str, scene: &Scene, alike: &Scene) {
+    let truth = Truth::of(scene, SIZE);
     for exponent in [-12, -3, 0, 5, 12] {
         for (turn, far) in [(0.0, 0.0), (77.7, 10.0), (1e-5, 1e4)] {
             let k = ten(exponent);
@@ -21,7 +22,7 @@ fn hold_alike(name: &str, scene: &Scene, alike: &Scene) {
                 Step::Translate([far * k, -far * k, 0.3 * far * k]),
             ];
             let name = format!("{name}, size 1e{exponent}, turned by {turn}, {far} sizes off");
-            hold_text(&name, scene, &text_moved(alike, &steps), SIZE);
+            truth.hold(&name, &text_moved(alike, &steps));
         }
     }
 }

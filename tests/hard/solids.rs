@@ -99,6 +99,8 @@ impl<'a> Thing<'a> {
             }));
         }
         if self.parts.len() == 1 {
+            // A box without thickness is one sheet.
+            all.dedup_by(|second, first| second.t == first.t);
             return all;
         }
         all.sort_by(|a, b| a.t.partial_cmp(&b.t).expect("ordered"));

@@ -41,6 +41,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("evaluate/lint/unit.rs", "TYPED_PI", "radians: what a typed π may be off by, for a hint"),
     ("plan/print.rs", "..0.005", "rays of a pixel, as they are written"),
     ("plan/numerics.rs", "SINGLE", "a length over a length, for the plan to tell"),
+    ("plan/numerics.rs", "f64::MAX", "the greatest number there is, where it is more"),
     ("plan/numerics.rs", "THIN", "a length over a length, for the plan to tell"),
     ("color.rs", "f32::MAX", "of a colour: single precision holds no more"),
     ("film.rs", "let above", "all numbers in their order, halved"),

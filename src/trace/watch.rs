@@ -1,0 +1,91 @@
+//! Whoever waits for a picture, and when work is stopped.
+//!
+//! **Invariant:** between two questions whether to stop stands bounded work, also within one pixel.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Whoever waits for the film. Called from several threads at once.
+pub trait Watch: Sync {
+    /// The tree of boxes stands, and tracing begins. Called once.
+    fn built(&self) {}
+    /// `done` of `total` pieces of work are done.
+    fn progress(&self, done: usize, total: usize);
+    /// Asked before each piece, and now and then within one; once it says yes, no further piece is
+    /// begun, and the pixels under way are left as they were.
+    fn should_stop(&self) -> bool;
+}
+
+/// Nobody waits.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn progress(&self, _: usize, _: usize) {}
+    fn should_stop(&self) -> bool {
+        false
+    }
+}
+
+/// Stops after so many steps, too: where each piece of work is done by one thread, the same ones on every run.
+pub struct Limited<'a> {
+    /// Questions.
+    left: AtomicU64,
+    watch: &'a dyn Watch,
+}
+
+impl<'a> Limited<'a> {
+    /// A step is a sample of a pixel, or a surface that rays go on from.
+    pub fn to_steps(steps: u64, watch: &'a dyn Watch) -> Self {
+        Self { left: AtomicU64::new(steps / u64::from(Patience::STEPS)), watch }
+    }
+}
+
+impl Watch for Limited<'_> {
+    fn built(&self) {
+        self.watch.built();
+    }
+
+    fn progress(&self, done: usize, total: usize) {
+        self.watch.progress(done, total);
+    }
+
+    fn should_stop(&self) -> bool {
+        let one_less = |left: u64| left.checked_sub(1);
+        self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_less).is_err()
+            || self.watch.should_stop()
+    }
+}
+
+/// How long a thread works within one pixel before it asks again whether to stop. One pixel can be
+/// more work than all others together: where every path forks, 250 surfaces deep, or is mirrored a million
+/// times.
+#[derive(Debug, Default)]
+pub(super) struct Patience {
+    /// Steps until then.
+    left: u32,
+    /// The watch wants no more: what the pixel at hand shows is no longer true.
+    pub is_over: bool,
+}
+
+impl Patience {
+    /// A step is a sample of a pixel, or a surface that rays go on from.
+    pub const STEPS: u32 = 64;
+
+    /// Whether to give up, after some more steps.
+    #[inline(always)]
+    pub fn is_over_after(&mut self, steps: u32, watch: &dyn Watch) -> bool {
+        if steps <= self.left {
+            self.left -= steps;
+            return false;
+        }
+        self.ask(watch)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub fn ask(&mut self, watch: &dyn Watch) -> bool {
+        self.is_over = self.is_over || watch.should_stop();
+        self.left = if self.is_over { 0 } else { Self::STEPS };
+        self.is_over
+    }
+}
