@@ -98,7 +98,7 @@ fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
     let inside = strings[..close].strip_suffix(' ')?;
     let start = inside.rfind('"')?;
     let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
-    let pairs = strings.matches('"').count() % 2 == 0 && !strings.contains('\\');
+    let pairs = strings.matches('"').count().is_multiple_of(2) && !strings.contains('\\');
     (runs_on && pairs && start + 1 < inside.len()).then(|| line + start..line + inside.len())
 }
 
