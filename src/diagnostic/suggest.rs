@@ -162,6 +162,51 @@ pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
+/// The candidate that `word` abbreviates or writes out, part by part, or whose first parts it is:
+/// `LeafPigment` for `LeafPig`, `Copper_Old` for `Old_Copper`, `low_error` for `low_error_factor`.
+pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let theirs = parts(word);
+    if theirs.len() < 2 {
+        return None;
+    }
+    let begins = |a: &str, b: &str| a == b || (a.len() >= 3 && b.starts_with(a));
+    let fits = |candidate: &&str| {
+        let ours = parts(candidate);
+        let pairs = || theirs.iter().zip(&ours);
+        let same = theirs.len() == ours.len()
+            && pairs().any(|(a, b)| a == b)
+            && pairs().all(|(a, b)| begins(a, b) || begins(b, a));
+        let begun =
+            theirs.len() < ours.len() && candidate.contains('_') && ours.starts_with(&theirs);
+        let (mut a, mut b) = (theirs.clone(), ours);
+        a.sort_unstable();
+        b.sort_unstable();
+        **candidate != *word && (same || begun || a == b)
+    };
+    let mut fitting = candidates.into_iter().filter(fits);
+    fitting.next().filter(|_| fitting.next().is_none())
+}
+
+/// The words that a name is made of, in lower case: `LeafPigment`, `leaf_pigment`.
+fn parts(name: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut before = '_';
+    for c in name.chars() {
+        let begins = c == '_' || (c.is_uppercase() && before.is_lowercase());
+        if begins && parts.last().is_some_and(|part| !part.is_empty()) {
+            parts.push(String::new());
+        }
+        if c != '_'
+            && let Some(part) = parts.last_mut()
+        {
+            part.extend(c.to_lowercase());
+        }
+        before = c;
+    }
+    parts.retain(|part| !part.is_empty());
+    parts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -177,6 +222,20 @@ mod tests {
     fn a_word_in_the_wrong_case_is_known_however_short() {
         assert_eq!(near("BOX"), Some("box"));
         assert_eq!(closest("X", ["x", "y"]), Some("x"));
+    }
+
+    #[test]
+    fn a_name_of_parts_is_known_by_their_beginnings_and_in_any_order() {
+        let names = ["LeafPig", "Copper_Old", "low_error_factor", "Ball1", "Ball2"];
+        for (word, meant) in [
+            ("LeafPigment", Some("LeafPig")),
+            ("Old_Copper", Some("Copper_Old")),
+            ("low_error", Some("low_error_factor")),
+            ("LeafColor", None),
+            ("Ball", None),
+        ] {
+            assert_eq!(abridged(word, names), meant, "{word}");
+        }
     }
 
     #[test]

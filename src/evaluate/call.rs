@@ -48,6 +48,7 @@ impl Evaluator<'_> {
                     }
                     Some(other) => {
                         let kind = other.kind();
+                        let is_array = matches!(other, Value::Array(_));
                         let name = self.scopes.name(symbol).to_owned();
                         let mut diagnostic = Diagnostic::new(
                             Code::NotCallable,
@@ -57,11 +58,25 @@ impl Evaluator<'_> {
                         if let Some(declared) = self.scopes.declared(symbol) {
                             diagnostic = diagnostic.also(declared.site.span, "declared here");
                         }
+                        if is_array && let Some(element) = self.element_meant(span, name_span) {
+                            let help = format!("an element of it: `{element}`");
+                            diagnostic = diagnostic.help(help).fix(span, element);
+                        }
                         Err(self.report(here, diagnostic))
                     }
                 }
             }
         }
+    }
+
+    /// `A(3)`, `A(I, J)`: the element as it is written.
+    fn element_meant(&self, call: Span, name: Span) -> Option<String> {
+        let rest = self.sources.text(call).strip_prefix(self.sources.text(name))?.trim();
+        let inside = rest.strip_prefix('(')?.strip_suffix(')')?;
+        let plain = !inside.contains(['(', '[', '<']);
+        let indices: String =
+            inside.split(',').map(|index| format!("[{}]", index.trim())).collect();
+        plain.then(|| format!("{}{indices}", self.sources.text(name)))
     }
 
     /// Evaluates arguments for what they do (draw from a stream, set a parameter), not for their values.
@@ -128,7 +143,7 @@ impl Evaluator<'_> {
         }
         let Some(arity) = builtin::arity(word) else {
             self.run_arguments(here, arguments);
-            return Ok(Value::Poison(Poison { word, site: here.site(word_span) }));
+            return Ok(Value::Poison(Poison::new(word, here.site(word_span))));
         };
         let mut values = Vec::with_capacity(list.len());
         let mut failed = false;

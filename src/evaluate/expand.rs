@@ -132,7 +132,7 @@ impl Evaluator<'_> {
     ) -> Outcome<Value> {
         let definition = self.macros[id.0 as usize].clone();
         let MacroBody::Items(body) = definition.body else {
-            return Ok(Value::Poison(Poison { word: Word::Macro, site: here.site(span) }));
+            return Ok(Value::Poison(Poison::new(Word::Macro, here.site(span))));
         };
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.macro_depth += 1;

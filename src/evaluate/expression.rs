@@ -245,7 +245,7 @@ impl Evaluator<'_> {
             Word::ClockOn => number(0.0),
             Word::Now => number(self.options.now),
             Word::Version => number(self.version),
-            _ => Ok(Value::Poison(Poison { word, site: here.site(span) })),
+            _ => Ok(Value::Poison(Poison::new(word, here.site(span)))),
         }
     }
 
@@ -376,6 +376,18 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `A[I, J]`: whether what stands there is behind a comma in the brackets of an index.
+    fn is_index(&self, comma: Span) -> bool {
+        let text = &self.sources.get(comma.file).text;
+        let before = text.get(..comma.start as usize).unwrap_or("");
+        let opener = before.rfind(['[', ']', ';', '{', '}']);
+        let named = |at: usize| {
+            before[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == ']')
+        };
+        self.sources.text(comma) == ","
+            && opener.is_some_and(|at| before[at..].starts_with('[') && named(at))
+    }
+
     /// The one value that the current items leave.
     pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
         let value = self.value_or(here, span)?;
@@ -386,6 +398,10 @@ impl Evaluator<'_> {
             let diagnostic =
                 Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
                     .at(extra.span, "this is more than one value");
+            let diagnostic = match self.is_index(extra.span) {
+                true => diagnostic.help("each index has brackets of its own: `A[I][J]`"),
+                false => diagnostic,
+            };
             return Err(self.report(&extra.here, diagnostic));
         }
         Ok(value)

@@ -51,7 +51,7 @@ impl Evaluator<'_> {
             // `function 500, 500 { pigment { … } }`: a picture.
             self.skip_function();
             let site = token.here.site(token.span);
-            return Ok(Value::Poison(Poison { word: Word::Function, site }));
+            return Ok(Value::Poison(Poison::new(Word::Function, site)));
         };
         self.function_of(token, &parameters)
     }
@@ -71,6 +71,18 @@ impl Evaluator<'_> {
                 let message = "a function is one formula, and there is more";
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                     .at(extra.span, "this is more than one formula");
+                let text = evaluator.sources.text(first.span);
+                let names = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
+                let is_name = |name: &str| {
+                    !name.trim().is_empty()
+                        && name.trim().chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+                };
+                let diagnostic = match names.filter(|names| names.split(',').all(is_name)) {
+                    Some(_) => diagnostic.help(format!(
+                        "the parameters stand before the brace: `function{text} {{ … }}`"
+                    )),
+                    None => diagnostic,
+                };
                 return Err(evaluator.report(&extra.here, diagnostic));
             }
             value
@@ -104,7 +116,7 @@ impl Evaluator<'_> {
             TokenKind::Word(word) => {
                 let site = first.here.site(first.span);
                 self.run_items();
-                return Ok(Value::Poison(Poison { word, site }));
+                return Ok(Value::Poison(Poison::new(word, site)));
             }
             _ => {
                 let at = (&token.here, token.span);

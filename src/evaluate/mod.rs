@@ -37,6 +37,7 @@ mod turn;
 mod undeclared;
 pub mod value;
 mod vector;
+mod written;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;

@@ -33,6 +33,11 @@ impl Evaluator<'_> {
         fits: impl Fn(Word) -> bool,
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
+        if let Some(diagnostic) = self.of_another_writing(&name, span) {
+            let reported = self.report(here, diagnostic);
+            self.skip_behind(span);
+            return reported;
+        }
         if let Some(diagnostic) = self.alpha_color(&name, span) {
             let reported = self.report(here, diagnostic);
             self.skip_behind(span);
@@ -93,6 +98,7 @@ impl Evaluator<'_> {
             return None;
         }
         let close = suggest::closest(name, self.scopes.visible())
+            .or_else(|| suggest::abridged(name, self.scopes.visible()))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
             .map(str::to_owned);
         if let Some(include) = standard.as_deref()
@@ -394,6 +400,7 @@ pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'sta
     suggest::closest(name, words().filter(|word| is_likely(name, word)))
         .or_else(|| suggest::foreign(name).find(|foreign| words().any(|word| word == *foreign)))
         .or_else(|| suggest::reworded(name, words()))
+        .or_else(|| suggest::abridged(name, words()))
 }
 
 /// Whether `word`, which is close to `name`, is rather meant than nothing: a name with a capital is one of

@@ -114,6 +114,14 @@ pub struct Material {
 pub struct Poison {
     pub word: Word,
     pub site: Site,
+    /// The block that it would be, where a name stands for one.
+    pub of: Option<Word>,
+}
+
+impl Poison {
+    pub fn new(word: Word, site: Site) -> Self {
+        Self { word, site, of: None }
+    }
 }
 
 impl Value {

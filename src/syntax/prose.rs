@@ -186,7 +186,8 @@ fn is_sentence(line: &str, follows: bool) -> bool {
         of_speech += usize::from(SPEECH.contains(&bare.to_lowercase().replace('’', "'").as_str()));
     }
     let plain = count >= 3 && (of_speech >= 2 || (of_speech == 1 && punctuated));
-    plain || (follows && count > 0 && of_speech >= 1 && punctuated)
+    let short = count >= 2 && of_speech >= 1 && line.ends_with(['!', '.', '?']);
+    plain || short || (follows && count > 0 && of_speech >= 1 && punctuated)
 }
 
 #[cfg(test)]
@@ -200,6 +201,7 @@ mod tests {
             "Hello everybody, please help me",
             "ich weiss nicht, warum es dunkel ist",
             "this one works:",
+            "The end!",
         ] {
             assert!(is_sentence(line, false), "{line}");
         }

@@ -140,6 +140,7 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("refraction", "ior"),
     ("refractive_index", "ior"),
     ("index_of_refraction", "ior"),
+    ("refraction_index", "ior"),
     ("bump", "bumps"),
     ("checkerboard", "checker"),
     ("chessboard", "checker"),

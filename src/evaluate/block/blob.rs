@@ -176,6 +176,6 @@ impl Evaluator<'_> {
 
     fn not_per_component(&mut self, token: &Token) {
         let site = token.here.site(token.span);
-        self.set_poison(Poison { word: Word::Component, site });
+        self.set_poison(Poison::new(Word::Component, site));
     }
 }

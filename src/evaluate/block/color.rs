@@ -219,7 +219,7 @@ impl Evaluator<'_> {
         if let Some(today) = word.today() {
             return self.old_word(token, word, today);
         }
-        let poison = super::super::value::Poison { word, site: token.here.site(token.span) };
+        let poison = super::super::value::Poison::new(word, token.here.site(token.span));
         self.skip_arguments(word);
         self.set_poison(poison);
         super::super::Reported

@@ -260,7 +260,7 @@ impl Evaluator<'_> {
         if is_value {
             let back = self.number_after(token, "a number")?;
             if back.value != 0.0 {
-                self.set_poison(Poison { word: Word::Diffuse, site: back.site() });
+                self.set_poison(Poison::new(Word::Diffuse, back.site()));
             }
         }
         Ok(())

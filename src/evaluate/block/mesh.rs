@@ -193,7 +193,7 @@ impl Evaluator<'_> {
     fn not_per_face(&mut self, token: &Token, word: Word) {
         let site = token.here.site(token.span);
         self.skip_arguments(word);
-        self.set_poison(Poison { word: Word::TextureList, site });
+        self.set_poison(Poison::new(Word::TextureList, site));
     }
 
     /// A point of a texture, of two numbers.

@@ -191,7 +191,10 @@ impl Evaluator<'_> {
         self.poison = outer;
         // What ended for want of something not built has told nothing: that is told where it is needed.
         match inner {
-            Some(poison) => Ok(Value::Poison(poison)),
+            Some(poison) => Ok(Value::Poison(match token.kind {
+                TokenKind::Word(word) => Poison { of: Some(word), ..poison },
+                _ => poison,
+            })),
             None => value,
         }
     }
@@ -237,7 +240,7 @@ impl Evaluator<'_> {
                 self.object(token, word)
             }
             _ if !word.is_built() || word == Word::Background => {
-                let poison = Poison { word, site: token.here.site(token.span) };
+                let poison = Poison::new(word, token.here.site(token.span));
                 self.skip_arguments(word);
                 Ok(Value::Poison(poison))
             }

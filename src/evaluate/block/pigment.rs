@@ -232,7 +232,7 @@ impl Evaluator<'_> {
                     }
                     // Not an error: what it lacks is told where it is needed.
                     Value::Poison(poison) => {
-                        self.is_of_place(token, poison.word, Place::PIGMENT);
+                        self.is_of_place(token, poison, Place::PIGMENT);
                         self.set_poison(poison);
                     }
                     Value::Broken => return Err(Reported),
@@ -311,10 +311,8 @@ impl Evaluator<'_> {
                     self.skip_arguments(word);
                     not_built = Word::Checker;
                 }
-                self.set_poison(super::super::value::Poison {
-                    word: not_built,
-                    site: next.here.site(next.span),
-                });
+                let site = next.here.site(next.span);
+                self.set_poison(super::super::value::Poison::new(not_built, site));
             }
         }
         // Without any, the author knows the two that it has.

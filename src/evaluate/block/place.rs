@@ -209,6 +209,15 @@ pub(super) fn is_at_top_level(word: Word) -> bool {
     Place::SCENE.holds(word) && !is_part(word)
 }
 
+/// A block that belongs to nothing in another but what names it there.
+pub(super) fn stands_alone(word: Word) -> bool {
+    use Word as W;
+    matches!(
+        word,
+        W::Finish | W::Camera | W::LightSource | W::GlobalSettings | W::Background | W::Interior
+    )
+}
+
 /// The block that a word is for, where it is not the one it stands in.
 pub(super) fn home(word: Word) -> Option<Word> {
     use Word as W;
@@ -217,7 +226,8 @@ pub(super) fn home(word: Word) -> Option<Word> {
         // Reserved, and nobody knows what for.
         W::Size | W::Altitude | W::Tile2 => return None,
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
-        W::SlopeMap | W::NoBumpScale => W::Normal,
+        W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,
+        W::PigmentMap => W::Pigment,
         W::BlackHole | W::DistExp | W::Flip | W::Offset | W::Repeat | W::Toroidal => W::Warp,
         W::Eccentricity | W::Extinction => W::Scattering,
         W::Absorption | W::Density | W::Intervals | W::Method | W::Ratio | W::Samples => W::Media,

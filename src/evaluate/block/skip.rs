@@ -12,6 +12,10 @@ use super::Place;
 use super::place::{home, is_at_top_level};
 
 impl Evaluator<'_> {
+    pub(super) fn is_before_block(&mut self) -> bool {
+        matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)))
+    }
+
     /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
     pub(super) fn skip_missing_block(&mut self, token: &Token) {
         let before = self.told();

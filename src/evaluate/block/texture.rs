@@ -23,7 +23,7 @@ impl Evaluator<'_> {
         while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
             && let Some(next) = self.next()
         {
-            let poison = Poison { word: Word::Texture, site: next.here.site(next.span) };
+            let poison = Poison::new(Word::Texture, next.here.site(next.span));
             self.skip_arguments(Word::Texture);
             self.set_poison(poison);
         }
@@ -51,7 +51,7 @@ impl Evaluator<'_> {
             }
             // A texture of a pattern of textures.
             TokenKind::Word(word) if word.family() == Family::Pattern => {
-                self.set_poison(Poison { word, site: token.here.site(token.span) });
+                self.set_poison(Poison::new(word, token.here.site(token.span)));
                 self.skip_arguments(word);
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
@@ -61,7 +61,7 @@ impl Evaluator<'_> {
                 Some(Value::Pigment(id)) => texture.pigment = id,
                 Some(Value::Finish(id)) => texture.finish = id,
                 Some(Value::Poison(poison)) => {
-                    self.is_of_place(token, poison.word, Place::TEXTURE);
+                    self.is_of_place(token, poison, Place::TEXTURE);
                     self.set_poison(poison);
                 }
                 _ => {

@@ -10,6 +10,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::place::home;
 
 /// The parts of a shape that come before its modifiers, where their number is fixed: vectors all.
 fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
@@ -56,6 +57,16 @@ impl Evaluator<'_> {
             self.inside_block(&here, contents, span, Self::map_not_built);
             return;
         }
+        if let Word::Normal = word
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.openers.push(token.span);
+            self.inside_block(&here, contents, span, Self::normal_not_built);
+            self.openers.pop();
+            return;
+        }
         self.skip_arguments(word);
     }
 
@@ -73,6 +84,25 @@ impl Evaluator<'_> {
             words.filter_map(Word::from_name).filter(|word| word.family() == Family::Pattern);
         patterns.next().is_some_and(|first| first != Word::Average)
             && patterns.all(|other| other != Word::Average)
+    }
+
+    /// What stands in a normal: what belongs in a finish is none of it.
+    fn normal_not_built(&mut self) {
+        const PLACE: Place = Place { word: Some(Word::Normal), families: &[], others: &[] };
+        while let Some(token) = self.next() {
+            match token.kind {
+                TokenKind::Word(word) if home(word) == Some(Word::Finish) => {
+                    self.unexpected_word(&token, word, PLACE);
+                }
+                TokenKind::Word(word) => self.skip_arguments(word),
+                TokenKind::Expression(id) => self.run_expression(&token.here, id),
+                TokenKind::Block(contents) => {
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
+                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+            }
+        }
     }
 
     /// The entries of a map that is not built: each begins with a number.
@@ -103,7 +133,7 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
-        let poison = Poison { word, site: token.here.site(token.span) };
+        let poison = Poison::new(word, token.here.site(token.span));
         let Some(parts) = parts_not_built(word) else {
             self.set_poison(poison);
             self.skip_arguments(word);
@@ -157,16 +187,41 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Says of a name that stands for a fog or a rainbow that it does so, in a block of another kind.
-    pub(super) fn is_of_place(&mut self, token: &Token, word: Word, place: Place) {
-        let Some(of) = place.word.filter(|_| matches!(word, Word::Fog | Word::Rainbow)) else {
+    /// Says of a name that stands for something not built what it is, in a block that has another use for it.
+    pub(super) fn is_of_place(&mut self, token: &Token, poison: Poison, place: Place) {
+        let Some(of) = place.word.filter(|_| matches!(token.kind, TokenKind::Expression(_))) else {
             return;
         };
-        let text = self.sources.text(token.span);
-        let message = format!("`{text}` is a `{}`, and stands in a `{}`", word.name(), of.name());
-        let diagnostic = Diagnostic::new(Code::WrongType, message)
-            .at(token.span, format!("this is a `{}`", word.name()))
-            .help(of.sentence().to_owned());
+        let word = poison.of.unwrap_or(poison.word);
+        let of_object = place.families.contains(&Family::Modifier);
+        let is_layer = matches!(word, Word::Texture | Word::Pigment | Word::Finish | Word::Normal);
+        let is_other = matches!(
+            word,
+            Word::Fog | Word::Rainbow | Word::Camera | Word::Interior | Word::Material
+        );
+        let is_wrong = match of {
+            Word::Pigment => is_other || (is_layer && word != Word::Pigment),
+            Word::Texture => is_other,
+            _ => of_object && (is_layer || is_other),
+        };
+        if !is_wrong {
+            return;
+        }
+        let text = self.sources.text(token.span).to_owned();
+        let (name, block) = (word.name(), of.name());
+        let message = format!("`{text}` is a `{name}`, and stands in a `{block}`");
+        let diagnostic =
+            Diagnostic::new(Code::WrongType, message).at(token.span, format!("this is a `{name}`"));
+        let whole = format!("{name} {{ {text} }}");
+        let diagnostic = match of {
+            _ if of_object && !matches!(word, Word::Fog | Word::Rainbow | Word::Camera) => {
+                diagnostic.help(format!("write `{whole}`")).fix(token.span, whole)
+            }
+            Word::Pigment if word == Word::Texture => {
+                diagnostic.help(format!("write `{whole}` instead of this `{block}`"))
+            }
+            _ => diagnostic.help(of.sentence().to_owned()),
+        };
         self.report(&token.here, diagnostic);
     }
 }

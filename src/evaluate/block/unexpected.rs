@@ -11,19 +11,22 @@ use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Reported};
 use super::Place;
-use super::place::{home, is_at_top_level};
+use super::place::{home, is_at_top_level, stands_alone};
 use super::unknown::{is_transform, told_directive};
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
-        // Behind a word that is not built, what stands here may belong to it.
-        let of_poison = self.poison.is_some();
+        // What stands behind a word that is not built may belong to it.
+        let (of_poison, has_block) = (self.poison.is_some(), self.is_before_block());
         match &token.kind {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
+            TokenKind::Word(word) if of_poison && has_block && stands_alone(*word) => {
+                self.unexpected_word(token, *word, place);
+            }
             TokenKind::Word(word) if of_poison => {
-                let poison = Poison { word: *word, site: token.here.site(token.span) };
+                let poison = Poison::new(*word, token.here.site(token.span));
                 match place.holds(*word) {
                     true => self.pass_not_built(token, *word),
                     false => self.skip_arguments(*word),
@@ -49,7 +52,7 @@ impl Evaluator<'_> {
                         match self.scopes.read(symbol).cloned() {
                             None => self.unknown_word(token, token.span, place),
                             Some(Value::Poison(poison)) => {
-                                self.is_of_place(token, poison.word, place);
+                                self.is_of_place(token, poison, place);
                                 self.set_poison(poison);
                             }
                             Some(Value::Broken) => {}
@@ -126,6 +129,7 @@ impl Evaluator<'_> {
 
     fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
         if let Value::Poison(poison) = value {
+            self.is_of_place(token, *poison, place);
             self.set_poison(*poison);
             return;
         }
@@ -203,6 +207,17 @@ impl Evaluator<'_> {
             let own = word.name();
             diagnostic =
                 diagnostic.help(format!("write `texture {{ {text} }}` instead of this `{own}`"));
+        } else if let (
+            Some(
+                word @ (Word::Lathe | Word::Polygon | Word::Prism | Word::Sor | Word::SphereSweep),
+            ),
+            Value::Vector(_),
+        ) = (place.word, value)
+        {
+            let message = format!("`{}` has more points than its number of them says", word.name());
+            diagnostic = Diagnostic::new(Code::WrongArity, message)
+                .at(token.span, "this is one more")
+                .help("the number before the points says how many follow");
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(self.form_of(word));
         }
@@ -210,16 +225,19 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
+    pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
         if let Some(today) = word.today() {
             self.old_word(token, word, today);
             return;
         }
-        let is_part = place.word.is_none()
-            && !is_at_top_level(word)
-            && home(word).is_some_and(|home| home != word);
+        let is_part = match place.word {
+            None => !is_at_top_level(word) && home(word).is_some_and(|home| home != word),
+            // The map of a texture is one of textures.
+            Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
+            Some(_) => false,
+        };
         if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
-            let poison = Poison { word, site: token.here.site(token.span) };
+            let poison = Poison::new(word, token.here.site(token.span));
             self.pass_not_built(token, word);
             self.set_poison(poison);
             return;
@@ -228,7 +246,7 @@ impl Evaluator<'_> {
             // Told: a value should stand here.
             return self.skip_arguments(word);
         }
-        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let has_block = self.is_before_block();
         let name = word.name();
         let dialect = self.options.dialect;
         let near =

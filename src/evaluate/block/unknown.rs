@@ -20,7 +20,7 @@ use super::{Place, opens_value};
 impl Evaluator<'_> {
     /// A name that is no word of the language and was never declared, where a word should stand.
     pub(super) fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
-        let has_block = matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)));
+        let has_block = self.is_before_block();
         let at = (span, place.word, has_block);
         let unknown = match self.remembered.unknown.get(&at) {
             Some(unknown) => unknown.clone(),
@@ -31,7 +31,7 @@ impl Evaluator<'_> {
             }
         };
         match &*unknown {
-            Unknown::Color(told) => {
+            Unknown::Written(told) => {
                 self.report_again(&token.here, told);
                 self.skip_values();
             }
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         if !place.families.contains(&Family::Color) && !near.is_some_and(is_transform) {
             self.skip_color(token);
         }
-        if matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_))) {
+        if self.is_before_block() {
             // What is inside belongs to a word that is not known: run, but not judged.
             let before = self.told();
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
@@ -81,10 +81,13 @@ impl Evaluator<'_> {
         }
     }
 
-    fn taken_for(&self, token: &Token, span: Span, place: Place, has_block: bool) -> Unknown {
+    fn taken_for(&mut self, token: &Token, span: Span, place: Place, has_block: bool) -> Unknown {
         let name = self.sources.text(span).to_owned();
         if let Some(diagnostic) = self.alpha_color(&name, span) {
-            return Unknown::Color(diagnostic);
+            return Unknown::Written(diagnostic);
+        }
+        if let Some(diagnostic) = self.of_another_writing(&name, span) {
+            return Unknown::Written(diagnostic);
         }
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
@@ -92,7 +95,8 @@ impl Evaluator<'_> {
         let here = suggest::foreign(&name)
             .find(|word| *word == "transmit" || words().any(|other| other == *word))
             .or_else(|| suggest::closest(&name, words()))
-            .or_else(|| suggest::reworded(&name, words()));
+            .or_else(|| suggest::reworded(&name, words()))
+            .or_else(|| suggest::abridged(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)
@@ -111,6 +115,15 @@ impl Evaluator<'_> {
             .filter(|word| has_block || is_built(word) || is_likely(&name, word))
             .or_else(|| word_like(&name, elsewhere))
             .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name));
+        if let Some(name) = near.and_then(|near| self.color_meant(near)) {
+            let theirs = self.sources.text(span);
+            let message = format!("`{theirs}` is not a word {}", place.name());
+            let told = Diagnostic::new(Code::UnknownWord, message)
+                .at(span, format!("did you mean `{name}`?"))
+                .help(format!("replace it with `{name}`"))
+                .fix(span, name);
+            return Unknown::Word { told, near: None };
+        }
         if near.is_none()
             && let Some(diagnostic) = told_directive(&name, span, place)
         {
@@ -151,6 +164,19 @@ impl Evaluator<'_> {
         Unknown::Word { told: diagnostic, near }
     }
 
+    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
+    fn color_meant(&mut self, near: &str) -> Option<String> {
+        let has_value = matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        if has_value || !matches!(near, "red" | "green" | "blue") {
+            return None;
+        }
+        let mut visible = self.scopes.visible();
+        visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
+    }
+
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
     /// when that word has no block, and nothing was read.
     pub(super) fn judge_block(&mut self, token: &Token, word: Word) -> bool {
@@ -179,7 +205,8 @@ impl Evaluator<'_> {
         symbol: Symbol,
         here: Option<&str>,
     ) -> bool {
-        let close = suggest::closest(name, self.scopes.visible());
+        let close = suggest::closest(name, self.scopes.visible())
+            .or_else(|| suggest::abridged(name, self.scopes.visible()));
         if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
             return true;
         }
@@ -334,7 +361,7 @@ impl Evaluator<'_> {
 #[derive(Debug)]
 pub(in crate::evaluate) enum Unknown {
     /// A colour of another tool.
-    Color(Diagnostic),
+    Written(Diagnostic),
     /// A name that is not declared.
     Name(Symbol),
     /// A directive of another language.

@@ -344,7 +344,7 @@ mod tests {
     fn what_is_done_with_poison_is_that_poison() {
         let span = Span { file: FileId(0), start: 1, end: 2 };
         let site = Site { span, expansion: ExpansionId::MAIN };
-        let poison = Value::Poison(Poison { word: Word::Torus, site });
+        let poison = Value::Poison(Poison::new(Word::Torus, site));
         let mut streams = RandomStreams::default();
         let sum = call(Word::Vdot, &[Value::Number(1.0), poison.clone()], &mut streams, 100);
         assert_eq!(sum, Ok(poison));

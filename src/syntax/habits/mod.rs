@@ -171,6 +171,7 @@ impl Reader<'_> {
             }
             TokenKind::Name => {
                 self.suffix(meant)
+                    || self.space_of_names()
                     || self.parted_word(meant)
                     || self.declarer(meant)
                     || self.definer(meant)

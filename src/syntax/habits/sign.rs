@@ -309,6 +309,27 @@ impl Reader<'_> {
         true
     }
 
+    /// `Colors::Red`: a name of a space of names.
+    pub(super) fn space_of_names(&mut self) -> bool {
+        let (colon, second) = (self.is(1, Mark::Colon), self.is(2, Mark::Colon));
+        let is_name = matches!(self.kind(3), Some(TokenKind::Name | TokenKind::Word(_)));
+        let touch = |at: usize| self.span(at, at).end == self.span(at + 1, at + 1).start;
+        if !(colon && second && is_name && (0..3).all(touch)) {
+            return false;
+        }
+        let (whole, name) = (self.span(0, 3), self.slice(3).to_owned());
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::UnexpectedCharacter,
+                "names belong to no space: there is no `::`",
+            )
+            .at(whole, format!("the name is `{name}`"))
+            .fix(self.span(0, 2), ""),
+        );
+        self.at += 3;
+        true
+    }
+
     /// `look at`, `light source { … }`: a word of the language in two parts.
     pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
         if !matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_))) {
@@ -320,7 +341,7 @@ impl Reader<'_> {
             return false;
         };
         let rest = text[blank..].trim_start_matches([' ', '\t']);
-        let whole = format!("{}_{rest}", &text[..blank]);
+        let whole = format!("{}_{rest}", text[..blank].trim_end_matches('_'));
         let Some(word) = Word::from_name(&whole).filter(|word| word.role() == Role::Statement)
         else {
             return false;

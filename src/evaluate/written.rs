@@ -1,0 +1,40 @@
+//! What is no name, but how other languages write numbers and ranges.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+use super::Evaluator;
+
+impl Evaluator<'_> {
+    /// `0.25D+00`, `0.1 to 0.5`.
+    pub(super) fn of_another_writing(&self, name: &str, span: Span) -> Option<Diagnostic> {
+        let text = &self.sources.get(span.file).text;
+        let (before, after) = (text.get(..span.range().start)?, text.get(span.range().end..)?);
+        let ends_number = |before: &str| before.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+        let begins_number = |after: &str| {
+            after.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | '<'))
+        };
+        let exponent = name.strip_prefix(['D', 'd']).map(|digits| digits.to_owned());
+        if let Some(digits) = exponent.filter(|digits| digits.bytes().all(|b| b.is_ascii_digit()))
+            && ends_number(before)
+            && (!digits.is_empty() || begins_number(after))
+        {
+            let message = format!("`{name}` is no exponent");
+            return Some(
+                Diagnostic::new(Code::MalformedNumber, message)
+                    .at(span, "an exponent is written with `e`: `1.5e+00`")
+                    .fix(span, format!("e{digits}")),
+            );
+        }
+        let (blank, close) = (before.trim_end(), after.trim_start());
+        if name == "to" && blank.len() < before.len() && begins_number(close) {
+            let gap = Span::new(span.file, blank.len(), span.range().end);
+            return Some(
+                Diagnostic::new(Code::UnknownWord, "`to` is not a word of the language")
+                    .at(span, "two values are parted by a comma")
+                    .fix(gap, ","),
+            );
+        }
+        None
+    }
+}
