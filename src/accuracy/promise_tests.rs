@@ -32,9 +32,10 @@ const SCENES: [(&str, &str); 20] = [
     ("transforms/matrix", include_str!("../../scenes/transforms/matrix.scene")),
 ];
 
-/// Of `pairs` scenes and errors, those whose promise was broken.
+/// Of `pairs` scenes and errors, how many promises were broken. Hardly any of them is said to be kept: the
+/// others are told.
 fn broken(metric: Metric, pairs: usize, errors: [f64; 5]) -> usize {
-    let mut broken = Vec::new();
+    let (mut broken, mut untrue) = (Vec::new(), 0);
     for pair in 0..pairs {
         let (name, text) = SCENES[pair % SCENES.len()];
         let promise = errors[(pair + pair / SCENES.len()) % errors.len()];
@@ -47,11 +48,13 @@ fn broken(metric: Metric, pairs: usize, errors: [f64; 5]) -> usize {
         let truth = Truth::new(&world, &origins, options.frame, step);
         let exact = metric.of(&truth.deviations(&kept.traced));
         let audit = kept.audit.expect("not interrupted");
+        untrue += usize::from(audit.proves(promise) && exact > promise);
         if !audit.proves(promise) || exact > promise {
             broken.push((name, promise, exact, audit, kept.refined, kept.flags));
         }
     }
     println!("{} of {pairs} {metric:?} broken: {broken:#?}", broken.len());
+    assert!(20 * untrue <= pairs, "{untrue} said to be kept were not");
     broken.len()
 }
 
@@ -70,7 +73,9 @@ fn a_promised_error_of_one_pixel_in_a_hundred_is_kept_too() {
 #[test]
 fn a_promised_share_of_bad_pixels_is_kept_too() {
     let pairs = if long() > 1 { 100 } else { 5 };
-    assert!(20 * broken(Metric::Bad, pairs, [0.2, 0.1, 0.07, 0.05, 0.03]) <= pairs);
+    // In pictures of 1728 pixels 432 are audited, which prove no share much below 0.05, and three of these
+    // shares no settings reach: those are told.
+    assert!(10 * broken(Metric::Bad, pairs, [0.2, 0.1, 0.07, 0.05, 0.03]) <= pairs);
     // Where the first choice misses, the second leaves room for how wide its interval will be.
     let (world, origins) = compiled(SCENES[0].1, 0.0);
     let options = Options { metric: Metric::Bad, ..asked(64, 48) };
