@@ -58,27 +58,27 @@ impl Net {
         Self(self.0.map(f))
     }
 
-    /// The same with u and v exchanged.
-    pub fn turned(&self) -> Self {
-        Self(std::array::from_fn(|i| self.0[4 * (i % 4) + i / 4]))
-    }
-
     /// The part for the lower half of u, and that for the upper.
     pub fn halves_along_u(&self) -> (Self, Self) {
-        let (mut low, mut high) = (*self, *self);
-        for row in 0..4 {
-            let points = std::array::from_fn(|i| self.0[4 * row + i]);
-            let (first, second) = halves(points);
-            low.0[4 * row..4 * row + 4].copy_from_slice(&first);
-            high.0[4 * row..4 * row + 4].copy_from_slice(&second);
-        }
-        (low, high)
+        self.halves(|line, i| 4 * line + i)
     }
 
     /// As [`Self::halves_along_u`].
     pub fn halves_along_v(&self) -> (Self, Self) {
-        let (low, high) = self.turned().halves_along_u();
-        (low.turned(), high.turned())
+        self.halves(|line, i| 4 * i + line)
+    }
+
+    /// Each of four lines in halves, the i-th point of which is `at(line, i)`.
+    fn halves(&self, at: impl Fn(usize, usize) -> usize) -> (Self, Self) {
+        let (mut low, mut high) = (*self, *self);
+        for line in 0..4 {
+            let (first, second) = halves(std::array::from_fn(|i| self.0[at(line, i)]));
+            for i in 0..4 {
+                low.0[at(line, i)] = first[i];
+                high.0[at(line, i)] = second[i];
+            }
+        }
+        (low, high)
     }
 
     /// What spans the derivative along u.
