@@ -105,7 +105,7 @@ fn a_share_is_known_the_more_closely_the_more_of_all_pixels_were_looked_at() {
             let drawn = |i: usize| {
                 let is_drawn = random.below(all - i) < left;
                 left -= usize::from(is_drawn);
-                is_drawn.then(|| if i < bad { 0.5 } else { 0.0 })
+                is_drawn.then_some(if i < bad { 0.5 } else { 0.0 })
             };
             let off: Vec<f64> = (0..all).filter_map(drawn).collect();
             // Bad ones are anywhere.
