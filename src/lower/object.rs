@@ -349,6 +349,9 @@ impl<'s> Lowering<'s, '_> {
                     None => Err(no_size("this sphere_sweep has no thickness")),
                 }
             }
+            Solid::JuliaFractal(ref fractal) => {
+                self.place_made(body::julia_fractal(fractal), here, site)
+            }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
