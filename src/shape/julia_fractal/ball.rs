@@ -24,6 +24,12 @@ impl Multiply for [f64; 2] {
     }
 }
 
+/// a·b + b·a of quaternions, in which the products of i, j and k with one another cancel.
+pub fn symmetric([a, b, c, d]: &[f64; 4], [e, f, g, h]: &[f64; 4]) -> [f64; 4] {
+    let (a2, e2) = (2.0 * a, 2.0 * e);
+    [2.0 * (a * e - b * f - c * g - d * h), a2 * f + b * e2, a2 * g + c * e2, a2 * h + d * e2]
+}
+
 /// Quaternions: real, i, j, k.
 impl Multiply for [f64; 4] {
     fn times(&self, other: &Self) -> Self {
@@ -76,6 +82,21 @@ impl<const N: usize> Ball<N> {
         let off = off * (1.0 + 8.0 * U);
         let middle = dot(&self.middle, &other.middle);
         Interval { low: middle - off, high: middle + off }
+    }
+
+    /// a·b + b·a, where `times` is the product of the middles so added.
+    ///
+    /// The middles of both are known, so that neither is measured twice.
+    pub fn both_ways(
+        (a, a_size): (&Self, f64),
+        (b, b_size): (&Self, f64),
+        times: impl Fn(&[f64; N], &[f64; N]) -> [f64; N],
+    ) -> Self {
+        let radius = a_size * b.radius
+            + b_size * a.radius
+            + a.radius * b.radius
+            + 16.0 * U * a_size * b_size;
+        Self { middle: times(&a.middle, &b.middle), radius: 2.0 * radius * (1.0 + 8.0 * U) }
     }
 
     pub fn times_number(self, by: f64) -> Self {

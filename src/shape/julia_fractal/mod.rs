@@ -127,18 +127,32 @@ impl JuliaFractal {
     }
 
     /// Over a piece of a line, and all lines that may be meant.
-    fn bounds(&self, ray: &LocalRay, s: Interval) -> Bounds {
+    fn bounds(&self, ray: &LocalRay, s: Interval, with_slope: bool) -> Bounds {
         let (middle, half) = (0.5 * (s.low + s.high), 0.5 * (s.high - s.low));
         let blur = ray.blur_at(s.low.abs().max(s.high.abs()));
         // The middle is rounded, and so is the place there.
         let within = half * (1.0 + 4.0 * U) + blur + 4.0 * U * (middle.abs() + self.radius());
-        let (value, [slope]) =
-            self.escape(self.lift(ray.at(middle), within), [self.way(ray.direction, ray.turn)]);
+        let start = self.lift(ray.at(middle), within);
+        if !with_slope {
+            return Bounds { value: self.escape(start, []).0, slope: Interval::EVERYTHING };
+        }
+        let (value, [slope]) = self.escape(start, [self.way(ray.direction, ray.turn)]);
         Bounds { value, slope }
     }
 
+    /// What a search asks: the slope only where the values tell no sign.
+    fn looked_at(&self, ray: &LocalRay, s: Interval) -> Bounds {
+        let bounds = self.bounds(ray, s, false);
+        let is_certain = bounds.value.low > 0.0 || bounds.value.high < 0.0;
+        match is_certain || s.single().is_some() {
+            true => bounds,
+            false => self.bounds(ray, s, true),
+        }
+    }
+
     fn sample(&self, ray: &LocalRay, s: f64) -> Sample {
-        let Bounds { value: Interval { low, high }, slope } = self.bounds(ray, Interval::point(s));
+        let Bounds { value: Interval { low, high }, slope } =
+            self.bounds(ray, Interval::point(s), true);
         Sample {
             value: 0.5 * (low + high),
             slope: 0.5 * (slope.low + slope.high),
@@ -166,7 +180,7 @@ impl JuliaFractal {
         }
         let least = 8.0 * (blur + U * radius);
         let fineness = Fineness { resolution: FINEST * radius, least };
-        let mut search = Search::new(|s| self.bounds(ray, s), fineness);
+        let mut search = Search::new(|s| self.looked_at(ray, s), fineness);
         // With what lies around the place from which on it is searched.
         let begin = (from - 64.0 * least).max(-reach);
         let parts = if all { 1 } else { PARTS };

@@ -3,7 +3,7 @@
 //!
 //! **Invariant:** every step holds what it is for each number of the ball that it began with.
 
-use super::ball::Ball;
+use super::ball::{Ball, symmetric};
 use super::function::Function;
 use crate::math::interval::Interval;
 use crate::shape::U;
@@ -35,13 +35,18 @@ impl<const K: usize> Orbit<K> for Quaternion<K> {
 
     fn next(&self) -> Self {
         let Self { h, slopes, parameter, is_cube } = *self;
-        let square = h * h;
         match is_cube {
             false => {
-                let slopes = slopes.map(|slope| h * slope + slope * h);
+                let size = h.size();
+                let slopes = slopes
+                    .map(|slope| Ball::both_ways((&h, size), (&slope, slope.size()), symmetric));
+                // Twice the square: halving is exact.
+                let twice = Ball::both_ways((&h, size), (&h, size), symmetric);
+                let square = Ball::new(twice.middle.map(|part| 0.5 * part), 0.5 * twice.radius);
                 Self { h: square + parameter, slopes, ..*self }
             }
             true => {
+                let square = h * h;
                 let slopes = slopes.map(|slope| square * slope + h * slope * h + slope * square);
                 Self { h: square * h + parameter, slopes, ..*self }
             }
