@@ -247,8 +247,7 @@ impl Evaluator<'_> {
             return self.skip_arguments(word);
         }
         let has_block = self.is_before_block();
-        let name = word.name();
-        let dialect = self.options.dialect;
+        let (name, dialect) = (word.name(), self.options.dialect);
         let near =
             suggest::foreign(name).find(|near| place.words(dialect).any(|word| word == *near));
         if word.family() == Family::Directive {
