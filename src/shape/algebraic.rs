@@ -49,39 +49,13 @@ impl Algebraic {
 
     /// Its value at `start + s · step` as a polynomial in s, for the polynomial of these terms.
     fn along(&self, terms: &[f64], start: Vector, step: Vector) -> Coefficients {
-        // Room for as many coefficients as there are: most have few.
+        // Most have few terms: their loops end where the compiler knows.
         match self.degree {
-            0..=2 => self.along_in::<3>(terms, start, step),
-            3..=4 => self.along_in::<5>(terms, start, step),
-            _ => self.along_in::<{ MOST + 1 }>(terms, start, step),
+            2 => along_all::<3>(terms, start, step),
+            3 => along_all::<4>(terms, start, step),
+            4 => along_all::<5>(terms, start, step),
+            degree => along_in::<{ MOST + 1 }>(degree, terms, start, step),
         }
-    }
-
-    fn along_in<const ROOM: usize>(
-        &self,
-        terms: &[f64],
-        start: Vector,
-        step: Vector,
-    ) -> Coefficients {
-        let mut terms = terms.iter();
-        let mut all = [0.0; ROOM];
-        for i in 0..=self.degree {
-            let mut plane = [0.0; ROOM];
-            for j in 0..=i {
-                let mut row = [0.0; ROOM];
-                for (k, term) in terms.by_ref().take(j + 1).enumerate() {
-                    multiply(&mut row, k, start.z, step.z);
-                    row[0] += term;
-                }
-                multiply(&mut plane, j, start.y, step.y);
-                add(&mut plane, &row, j);
-            }
-            multiply(&mut all, i, start.x, step.x);
-            add(&mut all, &plane, i);
-        }
-        let mut coefficients = [0.0; MOST + 1];
-        coefficients[..ROOM].copy_from_slice(&all);
-        coefficients
     }
 
     /// The value at a point and its gradient, for the polynomial of these terms.
@@ -131,7 +105,42 @@ impl Algebraic {
     }
 }
 
+/// As [`along_in`], of a degree of one less than there is room for.
+#[inline(never)]
+fn along_all<const ROOM: usize>(terms: &[f64], start: Vector, step: Vector) -> Coefficients {
+    along_in::<ROOM>(ROOM - 1, terms, start, step)
+}
+
+#[inline(always)]
+fn along_in<const ROOM: usize>(
+    degree: usize,
+    terms: &[f64],
+    start: Vector,
+    step: Vector,
+) -> Coefficients {
+    let mut terms = terms.iter();
+    let mut all = [0.0; ROOM];
+    for i in 0..=degree {
+        let mut plane = [0.0; ROOM];
+        for j in 0..=i {
+            let mut row = [0.0; ROOM];
+            for k in 0..=j {
+                multiply(&mut row, k, start.z, step.z);
+                row[0] += terms.next().copied().unwrap_or(0.0);
+            }
+            multiply(&mut plane, j, start.y, step.y);
+            add(&mut plane, &row, j);
+        }
+        multiply(&mut all, i, start.x, step.x);
+        add(&mut all, &plane, i);
+    }
+    let mut coefficients = [0.0; MOST + 1];
+    coefficients[..ROOM].copy_from_slice(&all);
+    coefficients
+}
+
 /// A polynomial of degree `before` − 1 times (start + s · step).
+#[inline(always)]
 fn multiply(values: &mut [f64], before: usize, start: f64, step: f64) {
     for k in (1..=before).rev() {
         values[k] = values[k] * start + values[k - 1] * step;
@@ -139,6 +148,7 @@ fn multiply(values: &mut [f64], before: usize, start: f64, step: f64) {
     values[0] *= start;
 }
 
+#[inline(always)]
 fn add(values: &mut [f64], more: &[f64], degree: usize) {
     for (value, more) in values.iter_mut().zip(&more[..=degree]) {
         *value += more;
