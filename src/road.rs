@@ -99,8 +99,13 @@ impl<'a> Road<'a> {
     }
 
     pub fn parse(&mut self, file: FileId) -> Ast {
-        let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
-        let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
+        let EvaluateOptions { dialect, limits, ref declares, .. } = self.options.evaluate;
+        let options = ParseOptions {
+            dialect,
+            nesting_limit: limits.nesting as usize,
+            alone: declares.is_empty(),
+            ..ParseOptions::default()
+        };
         let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
         self.drop_encoding_of_comments(&ast);
         if self.options.legacy {

@@ -37,6 +37,8 @@ pub(super) struct Frame {
     /// The next block is the body of a function.
     pub function_ahead: bool,
     pub after_contextual: bool,
+    /// Its expression is the value of `rgb` and its like, which may be a full one.
+    pub of_color: bool,
     /// That its expression needs parentheses has been told.
     pub level_told: bool,
 }
@@ -216,6 +218,7 @@ impl<'a> Nest<'a> {
             block,
             function_ahead: false,
             after_contextual: false,
+            of_color: false,
             level_told: false,
         });
     }
@@ -312,7 +315,7 @@ impl<'a> Nest<'a> {
         }
         let top = self.top();
         let told = std::mem::take(&mut top.level_told);
-        top.state = State::Idle;
+        (top.state, top.of_color) = (State::Idle, false);
         let Some(mut id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
         if told {
             id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);

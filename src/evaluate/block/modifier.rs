@@ -1,12 +1,14 @@
 //! What follows an object's parts: its transforms, textures, interior and flags, in written order.
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
-use crate::source::Site;
+use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::place::is_before_modifiers;
 
 impl Evaluator<'_> {
     /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
@@ -25,8 +27,21 @@ impl Evaluator<'_> {
             _ => Place::shape(word),
         };
         let (mut failed, mut painted): (bool, Option<Site>) = (false, None);
+        let mut first: Option<Site> = None;
         while let Some(token) = self.next() {
             let before = self.poison;
+            if let TokenKind::Word(item) = token.kind
+                && let Some(first) = first
+                && used.is_none()
+                && is_before_modifiers(word, item)
+            {
+                self.too_late(&token, word, first);
+                failed = true;
+                continue;
+            }
+            if !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon) {
+                first.get_or_insert(token.here.site(token.span));
+            }
             match token.kind {
                 TokenKind::Word(Word::Pigment) => {
                     let site = token.here.site(token.span);
@@ -75,6 +90,29 @@ impl Evaluator<'_> {
             }
         }
         if failed { Err(Reported) } else { Ok(()) }
+    }
+
+    /// `cylinder { 0, y, 1 pigment { … } open }`: a part of the shape behind the first of its modifiers.
+    fn too_late(&mut self, token: &Token, shape: Word, first: Site) {
+        let TokenKind::Word(item) = token.kind else { return };
+        self.skip_arguments(item);
+        let whole = self.whole(token);
+        let text = self.sources.text(whole.span).to_owned();
+        let (name, shape) = (item.name(), shape.name());
+        let modifier = self.sources.text(first.span).to_owned();
+        let diagnostic =
+            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` stands too late in `{shape}`"))
+                .at(token.span, format!("a part of `{shape}`: parts stand before what modifies it"))
+                .also(first.span, "its modifiers begin here")
+                .help(format!("move it before `{modifier}`"));
+        let near = whole.expansion == first.expansion && whole.span.file == first.span.file;
+        let diagnostic = match near {
+            true => diagnostic
+                .fix(Span { end: first.span.start, ..first.span }, format!("{text} "))
+                .fix(whole.span, ""),
+            false => diagnostic,
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// The finish that another one after these modifiers starts from, as in POV-Ray (measured).

@@ -1,5 +1,7 @@
 //! `pigment`.
 
+mod second;
+
 use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
@@ -16,12 +18,15 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::finish::list_once;
 use super::pieces::{WrittenColor, WrittenMap};
 use super::{Given, Place};
+use second::First;
+pub(super) use second::colors_of;
 
 /// What was written in one block: its last pattern, with what gave the pigment one before, and its last map.
 #[derive(Default)]
 struct Written {
     pattern: Option<(Site, Vec<Site>)>,
     map: Option<(Arc<WrittenMap>, Token, Site)>,
+    first: Option<First>,
 }
 
 /// What gave a pigment its pattern, if that has more than one colour.
@@ -176,7 +181,9 @@ impl Evaluator<'_> {
         }
         match &token.kind {
             TokenKind::Word(Word::Checker) => {
-                let Pair { colors: [first, second], clear, pattern } = self.color_pair(token)?;
+                let pair = self.color_pair(token);
+                self.alone_in_pigment(token, Some(Word::Checker), written)?;
+                let Pair { colors: [first, second], clear, pattern } = pair?;
                 let pattern = pattern.filter(|_| first != second);
                 self.pattern_of(pigment, written, token, pattern);
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
@@ -184,7 +191,9 @@ impl Evaluator<'_> {
                 pigment.clear = clear;
             }
             TokenKind::Word(Word::Gradient) => {
-                let direction = self.direction_after(token, "the gradient's direction")?.value;
+                let direction = self.direction_after(token, "the gradient's direction");
+                self.alone_in_pigment(token, Some(Word::Gradient), written)?;
+                let direction = direction?.value;
                 self.pattern_of(pigment, written, token, None);
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
                 pigment.kind =
@@ -196,8 +205,9 @@ impl Evaluator<'_> {
                 written.map = Some((given, token.clone(), self.whole(token)));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
-                let color = self.color_from(token)?;
-                self.color_of(pigment, &color, token);
+                let color = self.color_from(token);
+                self.alone_in_pigment(token, None, written)?;
+                self.color_of(pigment, &color?, token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -215,6 +225,7 @@ impl Evaluator<'_> {
                 };
                 match value {
                     Value::Pigment(id) => {
+                        self.first_in_pigment(token, written)?;
                         let site = pigment.site;
                         *pigment = self.scene.pigments[id.index()].clone();
                         pigment.site = site;
@@ -228,6 +239,7 @@ impl Evaluator<'_> {
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
                         let color = self.color_components(color, given.site())?;
+                        self.alone_in_pigment(token, None, written)?;
                         self.color_of(pigment, &color, token);
                     }
                     // Not an error: what it lacks is told where it is needed.
@@ -248,6 +260,12 @@ impl Evaluator<'_> {
                 }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::PIGMENT);
+                if let TokenKind::Word(word) = token.kind
+                    && word.family() == Family::Pattern
+                    && self.poison.is_some()
+                {
+                    self.alone_in_pigment(token, Some(word), written)?;
+                }
                 if !poisoned
                     && self.poison.is_none()
                     && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon)

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** it is poison, whatever is found in it.
 
+mod items;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
@@ -57,6 +59,9 @@ impl Evaluator<'_> {
             self.inside_block(&here, contents, span, Self::map_not_built);
             return;
         }
+        if word.family() == Family::Pattern {
+            return self.pattern_not_built(token, word);
+        }
         if let Word::Normal = word
             && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.peek().cloned()
@@ -67,7 +72,65 @@ impl Evaluator<'_> {
             self.openers.pop();
             return;
         }
+        if Self::knows_items(word)
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.openers.push(token.span);
+            self.inside_block(&here, contents, span, |evaluator| {
+                evaluator.items_not_built(token, word);
+            });
+            self.openers.pop();
+            return;
+        }
+        self.block_is_missing(token, word);
         self.skip_arguments(word);
+    }
+
+    /// `looks_like sphere { … }`, `radiosity` alone: a word that is not built and has a block, without it.
+    fn block_is_missing(&mut self, token: &Token, word: Word) {
+        let has_block = matches!(
+            word,
+            Word::LooksLike
+                | Word::ProjectedThrough
+                | Word::Radiosity
+                | Word::Photons
+                | Word::InteriorTexture
+                | Word::Warp
+        );
+        if !has_block || self.is_before_block() {
+            return;
+        }
+        let name = word.name();
+        let message = format!("expected `{{` after `{name}`");
+        let diagnostic =
+            Diagnostic::new(Code::MissingPart, message).at(token.span, "its block is missing");
+        let wrapped = self.peek_on().cloned().filter(|next| {
+            matches!(next.kind, TokenKind::Word(of) if matches!(of.family(), Family::Shape | Family::Csg)
+                || of == Word::Object)
+        });
+        let diagnostic = match wrapped {
+            Some(object) => {
+                let before = self.told();
+                self.next();
+                if let TokenKind::Word(of) = object.kind {
+                    self.skip_arguments(of);
+                }
+                self.take_back(before);
+                let whole = self.whole(&object);
+                let text = self.sources.text(whole.span).lines().next().unwrap_or("").to_owned();
+                let (start, end) = (Span { end: whole.span.start, ..whole.span }, whole.span.after());
+                diagnostic
+                    .help(format!("write `{name} {{ {text} }}`"))
+                    .fix(start, "{ ")
+                    .fix(end, " }")
+            }
+            None if word == Word::Radiosity => diagnostic
+                .help("`radiosity { … }` belongs in `global_settings`; `no_radiosity` leaves an object out of it"),
+            None => diagnostic.help(format!("write `{name} {{ … }}`")),
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// Whether a pattern stands before a map in its block, and none is `average`, whose entries need no number.

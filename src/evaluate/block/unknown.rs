@@ -96,7 +96,8 @@ impl Evaluator<'_> {
             .find(|word| *word == "transmit" || words().any(|other| other == *word))
             .or_else(|| suggest::closest(&name, words()))
             .or_else(|| suggest::reworded(&name, words()))
-            .or_else(|| suggest::abridged(&name, words()));
+            .or_else(|| suggest::abridged(&name, words()))
+            .or_else(|| suggest::begun(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)

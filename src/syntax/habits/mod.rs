@@ -14,10 +14,12 @@ mod counting;
 mod head;
 mod letter;
 mod map;
+mod number;
 mod part;
 mod sample;
 mod sign;
 mod template;
+mod vector;
 mod web;
 
 use self::letter::Foreign;
@@ -162,15 +164,19 @@ impl Reader<'_> {
         }
         match kind {
             TokenKind::Word(word) => {
-                self.parted_word(meant)
+                self.times(meant)
+                    || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
                     || self.head_without_hash(word, meant)
                     || self.empty_parentheses(word, meant)
+                    || self.assigned_block(word, meant)
                     || self.part(meant)
             }
             TokenKind::Name => {
                 self.suffix(meant)
+                    || self.letter_in_number(meant)
+                    || self.times(meant)
                     || self.space_of_names()
                     || self.parted_word(meant)
                     || self.declarer(meant)
@@ -198,7 +204,9 @@ impl Reader<'_> {
                 self.template(meant) || self.vector(meant)
             }
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
-            TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Round)) => {
+                self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
+            }
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
