@@ -3,6 +3,7 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
+mod dark;
 mod echo;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
@@ -155,6 +156,7 @@ impl<'a> Road<'a> {
         let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
         let before = self.diagnostics.len();
         let lowered = lower(scene, &options, &mut self.diagnostics);
+        self.tell_dark();
         self.silence(before);
         lowered
     }

@@ -109,8 +109,8 @@ codes! {
     DuplicateCamera "duplicate-camera" lint "the scene has two cameras; the last one is used";
     MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
     DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";
-    NoLight "no-light" lint "nothing gives light, so the picture is dark";
-    EmptyScene "empty-scene" lint "the scene shows nothing";
+    NoLight "no-light" warning "nothing gives light, so the picture is dark";
+    EmptyScene "empty-scene" warning "the scene shows nothing";
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
     NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
@@ -161,7 +161,7 @@ codes! {
     SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
     Comma "comma" warning "a comma stands where it parts no values";
     Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
-    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
+    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`, or of a version to come";
 }
 
 impl Code {

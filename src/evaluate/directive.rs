@@ -149,7 +149,17 @@ impl Evaluator<'_> {
     fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
         /// The newest version of POV-Ray that there is.
         const NEWEST: f64 = 3.8;
+        /// The one whose language this is.
+        const BUILT: f64 = 3.7;
         if self.version <= NEWEST {
+            if self.version > BUILT {
+                let message = format!("version {} is newer than the language here", self.version);
+                let diagnostic = Diagnostic::new(Code::OldVersion, message)
+                    .at(span, format!("it is that of {BUILT}, with few words of what comes"))
+                    .help(format!("write `#version {BUILT};`"))
+                    .fix(span, BUILT.to_string());
+                self.report(here, diagnostic);
+            }
             return Ok(());
         }
         let message = format!("there is no version {} of POV-Ray", self.version);

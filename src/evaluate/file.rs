@@ -99,7 +99,7 @@ impl Evaluator<'_> {
         let symbol = here.symbol(name);
         let handle = match self.scopes.read(symbol) {
             // No word of the language is a file.
-            None => return Err(self.undeclared_among(here, symbol, span, |_| false)),
+            None => return Err(self.unknown_file(here, symbol, span)),
             Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
             Some(Value::File(handle)) => *handle,
             Some(other) => {
@@ -125,6 +125,27 @@ impl Evaluator<'_> {
             }
         };
         Err(self.report(here, diagnostic))
+    }
+
+    /// A name that nothing has opened; where one file is open, that is meant.
+    fn unknown_file(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
+        let opened = self.scopes.declarations();
+        let opened = opened.filter(|(.., value)| matches!(value, Some(Value::File(_))));
+        let files: Vec<String> = opened.map(|(name, ..)| name.to_owned()).collect();
+        let [file] = files.as_slice() else {
+            return self.undeclared_among(here, symbol, span, |_| false);
+        };
+        let text = self.sources.text(span).to_owned();
+        let message = format!("`{text}` is not declared: no `#fopen` has opened it");
+        let mut diagnostic = Diagnostic::new(Code::UndeclaredName, message)
+            .at(span, "expected the name of an open file")
+            .help(format!("did you mean `{file}`?"))
+            .fix(span, file.as_str());
+        let declared = self.scopes.symbol(file).and_then(|symbol| self.scopes.declared(symbol));
+        if let Some(declared) = declared {
+            diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));
+        }
+        self.report(here, diagnostic)
     }
 
     fn no_file(&mut self, here: &Here, symbol: Symbol, span: Span, value: &Value) -> Reported {

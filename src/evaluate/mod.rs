@@ -143,6 +143,8 @@ struct Evaluator<'a> {
     options: &'a EvaluateOptions,
     diagnostics: &'a mut Diagnostics,
     scene: Scene,
+    /// The number that says how many values follow, and how many were found up to here.
+    announced: Option<(Span, usize)>,
     /// One for each object of the scene.
     made: Vec<block::Made>,
     scopes: Scopes,
@@ -287,6 +289,7 @@ impl<'a> Evaluator<'a> {
             options,
             diagnostics,
             scene,
+            announced: None,
             made: Vec::new(),
             scopes,
             macros: Vec::new(),

@@ -129,6 +129,12 @@ impl Evaluator<'_> {
             diagnostic =
                 diagnostic.at(span, "not declared, and not a word of the language").help(call.help);
             diagnostic = call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by));
+            if let Some(close) =
+                close.filter(|close| suggest::closest(name, [close.as_str()]).is_some())
+            {
+                diagnostic =
+                    diagnostic.help(format!("or did you mean `{close}`, which is declared?"));
+            }
         } else if let Some(close) = close {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")

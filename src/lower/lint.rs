@@ -54,6 +54,20 @@ impl Lowering<'_, '_> {
             }
             let message = "the scene shows nothing: no object, no background, no sky";
             self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
+        } else if world.objects.is_empty()
+            && self.scene.roots.is_empty()
+            && let Some(declared) = self.scene.objects.last()
+        {
+            if self.tells_why_empty() {
+                return;
+            }
+            let site = declared.site;
+            let message = "the scene shows no object: what is declared is never placed in it";
+            let diagnostic = Diagnostic::new(Code::EmptyScene, message)
+                .at(site.span, "declared, and not placed")
+                .help("place it: `object { Name }`")
+                .traced(site, self.reporter.expansions);
+            self.reporter.diagnostics.push(diagnostic);
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
             let message = "nothing gives light, so the picture is dark";
             let mut diagnostic = Diagnostic::new(Code::NoLight, message)

@@ -8,6 +8,7 @@ use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Reported};
 use super::{Place, opens_value};
 
@@ -51,6 +52,33 @@ impl Evaluator<'_> {
         };
         let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// `rotate z, A`: an axis and an angle, as other tools have it.
+    pub(super) fn angle_behind_axis(&self, token: &Token, value: &Value) -> Option<Diagnostic> {
+        value.as_number()?;
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize)?.trim_end().strip_suffix(',')?;
+        let statement = before.rfind("rotate")?;
+        let axis = before[statement + "rotate".len()..].trim();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_<>., -".contains(c);
+        let is_word =
+            before[..statement].ends_with(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        if axis.is_empty() || !is_word || !axis.chars().all(plain) || axis.contains("  ") {
+            return None;
+        }
+        let angle = self.sources.text(token.span);
+        let right = format!("rotate {angle}*{axis}");
+        let (start, file) = (statement as u32, token.span.file);
+        let whole = Span { file, start, end: token.span.end };
+        let message = "`rotate` takes one vector: degrees about x, y and z";
+        Some(
+            Diagnostic::new(Code::ExtraPart, message)
+                .at(Span { end: start + 6, ..whole }, "an axis and an angle stand behind it")
+                .also(token.span, "expected no number after the vector")
+                .help(format!("write `{right}`"))
+                .fix(whole, right),
+        )
     }
 
     /// `0 -2`, where a sign without a blank behind it rather begins a number of its own: where a comma is

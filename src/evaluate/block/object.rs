@@ -220,7 +220,9 @@ impl Evaluator<'_> {
 
     fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {
         self.shape(token, word, |evaluator, _| {
-            Ok(ObjectKind::Csg { operation, children: evaluator.children() })
+            let children = evaluator.children();
+            evaluator.lint_light_of_csg(word, operation, &children);
+            Ok(ObjectKind::Csg { operation, children })
         })
     }
 

@@ -254,6 +254,8 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            // Of a colour too many, which is told.
+            TokenKind::Comma if written.first.is_some() && self.at_color() => {}
             _ => {
                 if let Some(outcome) = self.inert(token, Place::PIGMENT) {
                     return outcome;

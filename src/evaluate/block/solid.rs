@@ -136,8 +136,9 @@ impl Evaluator<'_> {
         let base = self.point(token, "a vector for the middle of the base");
         let cap = self.point(token, "a vector for the middle of the cap");
         let radius = self.number_after(token, "a number for the radius");
-        let (base, cap, radius) = (base?, cap?, radius?);
+        let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cylinder", &base, &cap)?;
+        let radius = radius?;
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
@@ -171,8 +172,9 @@ impl Evaluator<'_> {
         let base_radius = self.number_after(token, "a number for the radius at the base");
         let cap = self.vector_after(token, "a vector for the middle of the cap");
         let cap_radius = self.number_after(token, "a number for the radius at the cap");
-        let (base, base_radius, cap, cap_radius) = (base?, base_radius?, cap?, cap_radius?);
+        let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cone", &base, &cap)?;
+        let (base_radius, cap_radius) = (base_radius?, cap_radius?);
         let radii = [base_radius.value, cap_radius.value];
         if radii == [0.0; 2] {
             let diagnostic =
@@ -288,6 +290,7 @@ impl Evaluator<'_> {
             Some(&[both]) if !is_bare => [both; 2],
             Some(&[east, north]) => [east, north],
             Some(numbers) => {
+                let second = self.peek().filter(|_| is_bare).map(|next| next.span);
                 let (found, what) = match numbers.len() {
                     1 => (Code::WrongType, "bare numbers".to_owned()),
                     count => (Code::WrongArity, format!("a vector of {count}")),
@@ -295,6 +298,16 @@ impl Evaluator<'_> {
                 let diagnostic = Diagnostic::new(found, format!("expected {WANTED}, found {what}"))
                     .at(given.span, "expected `<e, n>`")
                     .help("east-west first, then north-south: `<1, 0.2>` is a round tin");
+                let diagnostic = match second.filter(|second| second.file == given.span.file) {
+                    Some(second) => {
+                        let [a, b] = [given.span, second].map(|span| self.sources.text(span));
+                        let right = format!("<{a}, {b}>");
+                        diagnostic
+                            .help(format!("write `{right}`"))
+                            .fix(given.span.to(second), right)
+                    }
+                    None => diagnostic,
+                };
                 return Err(self.report(&given.here, diagnostic));
             }
             None => return Err(self.wrong_type(&given.here, given.span, WANTED, &given.value)),

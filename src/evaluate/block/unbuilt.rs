@@ -56,7 +56,7 @@ impl Evaluator<'_> {
                 self.peek().cloned()
         {
             self.next();
-            self.inside_block(&here, contents, span, Self::map_not_built);
+            self.inside_block(&here, contents, span, |evaluator| evaluator.map_not_built(word));
             return;
         }
         if word.family() == Family::Pattern {
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
     }
 
     /// The entries of a map that is not built: each begins with a number.
-    fn map_not_built(&mut self) {
+    fn map_not_built(&mut self, map: Word) {
         while let Some(token) = self.peek().cloned() {
             let TokenKind::Entry(items) = token.kind else {
                 self.next();
@@ -189,6 +189,9 @@ impl Evaluator<'_> {
                         .at(span, "an entry of a map begins with a number")
                         .help(format!("write `[0.5 {} …]`", word.name()));
                     evaluator.report(&here, diagnostic);
+                }
+                if map == Word::TextureMap {
+                    evaluator.entry_of_textures();
                 }
                 evaluator.run_items();
             });

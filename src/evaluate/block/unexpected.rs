@@ -196,6 +196,8 @@ impl Evaluator<'_> {
                 return;
             }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+        } else if let Some(told) = self.angle_behind_axis(token, value) {
+            diagnostic = told;
         } else if let Some((span, number)) = self.comma_before(token.span) {
             diagnostic.labels.iter_mut().for_each(|label| label.span = span);
             diagnostic = diagnostic

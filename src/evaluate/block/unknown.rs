@@ -126,6 +126,18 @@ impl Evaluator<'_> {
             return Unknown::Word { told, near: None };
         }
         if near.is_none()
+            && let Some((word, value)) = name.rsplit_once('_')
+            && matches!(value, "on" | "off" | "yes" | "no" | "true" | "false")
+            && words().any(|other| other == word)
+        {
+            let right = format!("{word} {value}");
+            let told = Diagnostic::new(Code::UnknownWord, format!("`{name}` is two words"))
+                .at(span, format!("did you mean `{right}`?"))
+                .help(format!("replace it with `{right}`"))
+                .fix(span, right);
+            return Unknown::Word { told, near: None };
+        }
+        if near.is_none()
             && let Some(diagnostic) = told_directive(&name, span, place)
         {
             return Unknown::Directive(diagnostic);

@@ -62,6 +62,11 @@ impl Evaluator<'_> {
                 let _: Outcome<_> =
                     self.as_indices(of_faces, faces, lists.announced, "vertex_vectors");
             }
+            if let (Some((_, vertices)), Some((of_faces, faces))) = (&lists.vertices, &lists.faces)
+            {
+                let _: Outcome<_> =
+                    self.as_indices(of_faces, faces, vertices.len(), "vertex_vectors");
+            }
             return Err(Reported);
         }
         let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, inside, .. } =
@@ -167,7 +172,10 @@ impl Evaluator<'_> {
                 if entries.len() == wanted {
                     break;
                 }
-                let given = evaluator.given(list, &format!("{wanted} vectors"))?;
+                evaluator.announced = Some((count.span, entries.len()));
+                let given = evaluator.given(list, &format!("{wanted} vectors"));
+                evaluator.announced = None;
+                let given = given?;
                 entries.push(match given.value.numbers() {
                     Some(numbers) if matches!(given.value, Value::Vector(_)) => {
                         let mut entry = [0.0; 3];

@@ -4,14 +4,20 @@
 //! program refuses.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::Span;
+use crate::source::{FileError, Span};
 use crate::syntax::ast::ExpressionId;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
+use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
+use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome};
 use super::super::pigment::colors_of;
 use super::super::place::home;
+
+/// The endings that may be left out of a picture's name.
+const ENDINGS: &[&str] =
+    &[".png", ".jpg", ".jpeg", ".gif", ".tga", ".ppm", ".pgm", ".tiff", ".hdr"];
 
 /// How many numbers stand behind an item of `block`: at least, and at most.
 fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
@@ -148,6 +154,72 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
+    /// `[0.5 color Red]` in a `texture_map`: a colour by itself is no texture.
+    pub(super) fn entry_of_textures(&mut self) {
+        if self.is_before_value() {
+            let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() else {
+                return;
+            };
+            self.run_expression(&here, id);
+        }
+        self.skip_commas();
+        let Some(first) = self.peek().cloned() else { return };
+        let is_color = match first.kind {
+            TokenKind::Word(word) => word.family() == Family::Color,
+            TokenKind::Expression(id) => {
+                matches!(self.named(&first.here, id), Some(Value::Color(_)))
+            }
+            _ => false,
+        };
+        if !is_color {
+            return;
+        }
+        let outer = self.poison.take();
+        let read: Outcome<()> = self.color_after(&first, "a colour").map(drop);
+        self.poison = outer;
+        if read.is_err() {
+            return;
+        }
+        let whole = self.whole(&first);
+        let text = self.sources.text(whole.span).to_owned();
+        let right = format!("pigment {{ {text} }}");
+        let message = "an entry of a `texture_map` is a texture, and no colour";
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(whole.span, "expected a texture, or what is in one")
+            .help(format!("write `{right}`"))
+            .fix(whole.span, right);
+        self.report(&first.here, diagnostic);
+    }
+
+    /// `image_map { png "file" … }`: whether there is such a file.
+    fn picture_not_built(&mut self) {
+        while let Some(token) = self.next() {
+            match token.kind {
+                TokenKind::Word(word) if word.family() == Family::FileKind => {
+                    self.picture_of(&token);
+                }
+                TokenKind::Expression(id) => self.run_expression(&token.here, id),
+                TokenKind::Word(word) => self.skip_arguments(word),
+                TokenKind::Block(contents) => {
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
+                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+            }
+        }
+    }
+
+    fn picture_of(&mut self, token: &Token) {
+        if !matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Expression(_))) {
+            return;
+        }
+        let Ok(file) = self.named_file(token, "the name of a picture's file") else { return };
+        if let Err(error @ FileError::NotFound { .. }) = self.read_named(&file, ENDINGS) {
+            let diagnostic = missing_file(&file.name, file.span, error);
+            self.report(&file.here, diagnostic);
+        }
+    }
+
     /// Whether a value comes next, behind a comma or not; a name that is not declared is none.
     fn is_before_value(&mut self) -> bool {
         self.skip_commas();
@@ -164,7 +236,7 @@ impl Evaluator<'_> {
     fn scattering(&mut self, opener: &Token) {
         let lacks_kind = match self.peek().cloned() {
             Some(Token { kind: TokenKind::Word(word), here, span })
-                if word.family() == crate::vocabulary::Family::Color =>
+                if word.family() == Family::Color =>
             {
                 Some((here, span))
             }
@@ -234,6 +306,12 @@ impl Evaluator<'_> {
                 };
                 self.out_of_range(&given, pattern, &wanted);
             }
+        } else if let Word::ImageMap | Word::ImagePattern | Word::BumpMap = pattern
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.inside_block(&here, contents, span, Self::picture_not_built);
         } else if let Some(most) = colors_of(pattern).filter(|_| pattern != Word::Object) {
             self.colors_not_built(token, pattern, most);
         } else {

@@ -1,0 +1,55 @@
+//! What is certain of a whole scene though it has mistakes: that nothing in it is written to give light.
+//!
+//! **Invariant:** a scene whose text, or an include of it, has any word of light is said nothing of, and so is
+//! one that is not whole.
+
+use super::Road;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::vocabulary::is_standard_include;
+
+/// Parts of the words by which a scene, or its author's macros, give light.
+const OF_LIGHT: &[&str] = &[
+    "light",
+    "lamp",
+    "sun",
+    "emission",
+    "ambient",
+    "glow",
+    "sky_sphere",
+    "background",
+    "radiosity",
+];
+
+impl Road<'_> {
+    pub(super) fn tell_dark(&mut self) {
+        let lacking = |one: &Diagnostic| {
+            matches!(
+                one.code,
+                Code::MissingInclude
+                    | Code::ForbiddenFile
+                    | Code::NoLight
+                    | Code::UnclosedBlock
+                    | Code::UnclosedComment
+                    | Code::UnclosedString
+            )
+        };
+        if !self.diagnostics.has_errors() || self.diagnostics.iter().any(lacking) {
+            return;
+        }
+        let own = self.sources.iter().enumerate().filter(|(at, (_, source))| {
+            let name = source.name.rsplit(['/', '\\']).next().unwrap_or(&source.name);
+            *at == 0 || !is_standard_include(name)
+        });
+        let texts: Vec<String> =
+            own.map(|(_, (_, source))| source.text.to_ascii_lowercase()).collect();
+        // Without a camera it is rather a part of a scene.
+        let whole = texts.first().is_some_and(|main| main.contains("camera"));
+        let has_light = |text: &String| OF_LIGHT.iter().any(|word| text.contains(word));
+        if !whole || texts.iter().any(has_light) {
+            return;
+        }
+        let message = "nothing gives light, so the picture is dark";
+        let help = "a light such as `light_source { <10, 20, 10> rgb 1 }`";
+        self.diagnostics.push(Diagnostic::new(Code::NoLight, message).help(help));
+    }
+}
