@@ -13,9 +13,11 @@ mod open;
 mod read;
 mod write;
 
+use std::collections::BTreeSet;
+
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Site, Span};
-use crate::syntax::ast::NameId;
+use crate::syntax::ast::{Directive, DirectiveKind, NameId};
 
 use super::scope::Symbol;
 use super::value::Value;
@@ -129,10 +131,13 @@ impl Evaluator<'_> {
 
     /// A name that nothing has opened; where one file is open, that is meant.
     fn unknown_file(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
-        let opened = self.scopes.declarations();
-        let opened = opened.filter(|(.., value)| matches!(value, Some(Value::File(_))));
-        let files: Vec<String> = opened.map(|(name, ..)| name.to_owned()).collect();
-        let [file] = files.as_slice() else {
+        let ast = &here.unit.ast;
+        let opens = |directive: &Directive| match directive.kind {
+            DirectiveKind::Fopen { name, .. } => Some(ast.name(name).to_owned()),
+            _ => None,
+        };
+        let files: BTreeSet<String> = ast.directives.iter().filter_map(opens).collect();
+        let (Some(file), 1) = (files.first(), files.len()) else {
             return self.undeclared_among(here, symbol, span, |_| false);
         };
         let text = self.sources.text(span).to_owned();

@@ -382,12 +382,14 @@ impl<'a> Nest<'a> {
     fn curly_string(&mut self, open: Span, close: usize, quote: char) {
         let close = Span::new(self.file, close, close + quote.len_utf8());
         let opening = self.slice(open);
+        let inside = self.slice(Span { start: open.end, end: close.start, ..open });
         let label = format!("expected a straight quote instead of `{opening}`");
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
                 .at(open, label)
                 .also(close, format!("and instead of `{quote}`"))
                 .help("strings stand between straight quotes: `\"…\"`")
+                .help(format!("write `\"{inside}\"`"))
                 .fix(open, "\"")
                 .fix(close, "\""),
         );

@@ -39,7 +39,7 @@ impl Evaluator<'_> {
                 failed = true;
                 continue;
             }
-            if !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon) {
+            if matches!(token.kind, TokenKind::Word(item) if place().holds(item)) {
                 first.get_or_insert(token.here.site(token.span));
             }
             match token.kind {

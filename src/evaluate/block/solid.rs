@@ -161,10 +161,15 @@ impl Evaluator<'_> {
         }
         let message =
             format!("a {name} whose ends are the same point has no length, and is nothing");
-        let diagnostic = Diagnostic::new(self.sizeless(), message)
+        // POV-Ray refuses it, too.
+        let diagnostic = Diagnostic::new(Code::ZeroSize, message)
             .at(cap.span, "expected another place")
-            .also(base.span, "the base");
-        self.nothing(shape, &cap.here, diagnostic)
+            .also(base.span, "the base")
+            .also(shape.span, "of this");
+        if let TokenKind::Word(word) = shape.kind {
+            self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
+        }
+        Err(self.report(&cap.here, diagnostic))
     }
 
     fn cone(&mut self, token: &Token) -> Outcome<Solid> {

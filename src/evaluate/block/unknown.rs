@@ -91,6 +91,17 @@ impl Evaluator<'_> {
         }
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
+        if let Some((word, value)) = name.rsplit_once('_')
+            && matches!(value, "on" | "off" | "yes" | "no" | "true" | "false")
+            && words().any(|other| other == word)
+        {
+            let right = format!("{word} {value}");
+            let told = Diagnostic::new(Code::UnknownWord, format!("`{name}` is two words"))
+                .at(span, format!("did you mean `{right}`?"))
+                .help(format!("replace it with `{right}`"))
+                .fix(span, right);
+            return Unknown::Word { told, near: None };
+        }
         // A word that another tool has is meant as there, whatever it resembles.
         let here = suggest::foreign(&name)
             .find(|word| *word == "transmit" || words().any(|other| other == *word))
@@ -123,18 +134,6 @@ impl Evaluator<'_> {
                 .at(span, format!("did you mean `{name}`?"))
                 .help(format!("replace it with `{name}`"))
                 .fix(span, name);
-            return Unknown::Word { told, near: None };
-        }
-        if near.is_none()
-            && let Some((word, value)) = name.rsplit_once('_')
-            && matches!(value, "on" | "off" | "yes" | "no" | "true" | "false")
-            && words().any(|other| other == word)
-        {
-            let right = format!("{word} {value}");
-            let told = Diagnostic::new(Code::UnknownWord, format!("`{name}` is two words"))
-                .at(span, format!("did you mean `{right}`?"))
-                .help(format!("replace it with `{right}`"))
-                .fix(span, right);
             return Unknown::Word { told, near: None };
         }
         if near.is_none()

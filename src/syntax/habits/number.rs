@@ -31,7 +31,7 @@ impl Reader<'_> {
             format!("the letter `{letter}` stands in it: did you mean the digit `{digit}`?");
         self.diagnostics.push(
             Diagnostic::new(Code::MalformedNumber, message)
-                .at(span, label)
+                .at(self.span(0, 0), label)
                 .help(format!("write `{digits}`"))
                 .fix(span, digits),
         );

@@ -148,6 +148,8 @@ impl Reader<'_> {
             match self.kind(close) {
                 Some(TokenKind::Number) if !number => number = true,
                 Some(TokenKind::Name) if !number && !plain => number = true,
+                // `A.x`
+                Some(TokenKind::Mark(Mark::Dot)) if number && !plain => close += 1,
                 Some(TokenKind::Word(word)) if !number && !plain && word.role() == Role::Value => {
                     number = true;
                 }

@@ -198,7 +198,11 @@ impl Evaluator<'_> {
                 TokenKind::Word(word) if word.family() == Family::FileKind => {
                     self.picture_of(&token);
                 }
-                TokenKind::Expression(id) => self.run_expression(&token.here, id),
+                TokenKind::Expression(id) => {
+                    if !self.misspelt_kind(&token, id) {
+                        self.run_expression(&token.here, id);
+                    }
+                }
                 TokenKind::Word(word) => self.skip_arguments(word),
                 TokenKind::Block(contents) => {
                     self.inside_block(&token.here, contents, token.span, Self::run_items);
@@ -207,6 +211,25 @@ impl Evaluator<'_> {
                 TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
             }
         }
+    }
+
+    /// `jpg "file"`: the kind of a picture as others call it.
+    fn misspelt_kind(&mut self, token: &Token, id: ExpressionId) -> bool {
+        if self.unknown_name(&token.here, id).is_none() {
+            return false;
+        }
+        let name = self.sources.text(token.span).to_owned();
+        let kinds = Word::ALL.iter().filter(|word| word.family() == Family::FileKind);
+        let near = suggest::closest(&name, kinds.map(|word| word.name()));
+        let Some(near) = near else { return false };
+        let message = format!("`{name}` is not a kind of picture");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `{near}`?"))
+            .help(format!("replace it with `{near}`"))
+            .fix(token.span, near);
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+        true
     }
 
     fn picture_of(&mut self, token: &Token) {
@@ -335,6 +358,7 @@ impl Evaluator<'_> {
                     self.next();
                     self.skip_arguments(word);
                 }
+                Some(TokenKind::Word(word)) if word.family() != Family::Color => return,
                 _ if self.is_before_value() || self.at_color() => {
                     if self.color_after(token, "a colour").is_err() {
                         self.skip_values();
@@ -344,9 +368,10 @@ impl Evaluator<'_> {
                 _ => return,
             }
         }
-        self.skip_commas();
+        let is_color = |token: &Token| matches!(token.kind, TokenKind::Word(word) if word.family() == Family::Color);
+        let is_value = self.is_before_value();
         let extra = self.peek().cloned();
-        let Some(extra) = extra.filter(|_| self.at_color()) else { return };
+        let Some(extra) = extra.filter(|extra| is_value || is_color(extra)) else { return };
         let name = pattern.name();
         let message = format!("`{name}` takes {most} colours, and here is one more");
         let diagnostic = Diagnostic::new(Code::ExtraPart, message)
