@@ -137,10 +137,13 @@ impl Evaluator<'_> {
             _ => None,
         };
         let files: BTreeSet<String> = ast.directives.iter().filter_map(opens).collect();
-        let (Some(file), 1) = (files.first(), files.len()) else {
+        let text = self.sources.text(span).to_owned();
+        let one = files
+            .first()
+            .filter(|file| files.len() == 1 && suggest::closest(&text, [file.as_str()]).is_none());
+        let Some(file) = one else {
             return self.undeclared_among(here, symbol, span, |_| false);
         };
-        let text = self.sources.text(span).to_owned();
         let message = format!("`{text}` is not declared: no `#fopen` has opened it");
         let mut diagnostic = Diagnostic::new(Code::UndeclaredName, message)
             .at(span, "expected the name of an open file")
@@ -150,6 +153,8 @@ impl Evaluator<'_> {
         if let Some(declared) = declared {
             diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));
         }
+        // Known from now on, so that it is said once.
+        self.scopes.assign(symbol, Value::Broken);
         self.report(here, diagnostic)
     }
 

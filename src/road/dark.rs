@@ -4,6 +4,7 @@
 //! one that is not whole.
 
 use super::Road;
+use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::is_standard_include;
 
@@ -42,9 +43,16 @@ impl Road<'_> {
         });
         let texts: Vec<String> =
             own.map(|(_, (_, source))| source.text.to_ascii_lowercase()).collect();
-        // Without a camera it is rather a part of a scene.
-        let whole = texts.first().is_some_and(|main| main.contains("camera"));
-        let has_light = |text: &String| OF_LIGHT.iter().any(|word| text.contains(word));
+        // Without these it is rather a part of a scene.
+        let whole = texts
+            .first()
+            .is_some_and(|main| main.contains("camera") && main.contains("global_settings"));
+        let misspelt = |text: &str| {
+            let mut words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+            words.any(|word| closest(word, ["light_source", "background", "emission"]).is_some())
+        };
+        let has_light =
+            |text: &String| OF_LIGHT.iter().any(|word| text.contains(word)) || misspelt(text);
         if !whole || texts.iter().any(has_light) {
             return;
         }

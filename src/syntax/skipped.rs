@@ -24,6 +24,11 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     let branches = Reader { tokens: &tokens, text: &quiet.text, options }.branches();
     let unreadable = |branch: &Range<usize>| {
         let text = quiet.text.get(branch.clone()).unwrap_or("");
+        // `#elif` is rather a branch of its own.
+        let unknown = |token: &Token| token.kind == TokenKind::Directive(Head::Unknown);
+        if super::token::tokens(text).iter().any(unknown) {
+            return false;
+        }
         let mut told = Diagnostics::new(true);
         // What is skipped in it would be with it.
         parse(&Source::new("", text.to_owned()), file, &options.inside(), &mut told);

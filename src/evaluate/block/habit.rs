@@ -81,6 +81,40 @@ impl Evaluator<'_> {
         )
     }
 
+    /// `rotate 45 degrees`.
+    pub(super) fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
+        let name = word.name();
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize)?.trim_end();
+        if !before.ends_with(|c: char| c.is_ascii_alphanumeric() || ")>*".contains(c)) {
+            return None;
+        }
+        let message = format!("`{name}` has no meaning behind a number");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "angles of the language are in degrees");
+        Some(match word {
+            Word::Degrees => diagnostic
+                .help("leave it out: `rotate 45*y`")
+                .fix(Span { start: before.len() as u32, ..token.span }, ""),
+            _ => {
+                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
+            }
+        })
+    }
+
+    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
+    pub(super) fn color_meant(&mut self, near: &str) -> Option<String> {
+        let has_value = matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        if has_value || !matches!(near, "red" | "green" | "blue") {
+            return None;
+        }
+        let mut visible = self.scopes.visible();
+        visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
+    }
+
     /// `0 -2`, where a sign without a blank behind it rather begins a number of its own: where a comma is
     /// missing, and the two.
     pub(super) fn commas_lost(&self, span: Span) -> Vec<(Span, String)> {

@@ -63,6 +63,7 @@ impl Evaluator<'_> {
             while let Some(token) = evaluator.next() {
                 if evaluator.pigment_item(&token, &mut pigment, &mut written) == Err(Reported) {
                     failed = true;
+                    written.mistaken(&token);
                     evaluator.skip_values();
                 }
             }
@@ -181,9 +182,8 @@ impl Evaluator<'_> {
         }
         match &token.kind {
             TokenKind::Word(Word::Checker) => {
-                let pair = self.color_pair(token);
+                let Pair { colors: [first, second], clear, pattern } = self.color_pair(token)?;
                 self.alone_in_pigment(token, Some(Word::Checker), written)?;
-                let Pair { colors: [first, second], clear, pattern } = pair?;
                 let pattern = pattern.filter(|_| first != second);
                 self.pattern_of(pigment, written, token, pattern);
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
@@ -191,9 +191,8 @@ impl Evaluator<'_> {
                 pigment.clear = clear;
             }
             TokenKind::Word(Word::Gradient) => {
-                let direction = self.direction_after(token, "the gradient's direction");
+                let direction = self.direction_after(token, "the gradient's direction")?.value;
                 self.alone_in_pigment(token, Some(Word::Gradient), written)?;
-                let direction = direction?.value;
                 self.pattern_of(pigment, written, token, None);
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
                 pigment.kind =
@@ -205,9 +204,9 @@ impl Evaluator<'_> {
                 written.map = Some((given, token.clone(), self.whole(token)));
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
-                let color = self.color_from(token);
+                let color = self.color_from(token)?;
                 self.alone_in_pigment(token, None, written)?;
-                self.color_of(pigment, &color?, token);
+                self.color_of(pigment, &color, token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;

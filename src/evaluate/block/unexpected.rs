@@ -377,27 +377,6 @@ impl Evaluator<'_> {
         self.take_back(before);
     }
 
-    /// `rotate 45 degrees`.
-    fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
-        let name = word.name();
-        let text = &self.sources.get(token.span.file).text;
-        let before = text.get(..token.span.start as usize)?.trim_end();
-        if !before.ends_with(|c: char| c.is_ascii_alphanumeric() || ")>*".contains(c)) {
-            return None;
-        }
-        let message = format!("`{name}` has no meaning behind a number");
-        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-            .at(token.span, "angles of the language are in degrees");
-        Some(match word {
-            Word::Degrees => diagnostic
-                .help("leave it out: `rotate 45*y`")
-                .fix(Span { start: before.len() as u32, ..token.span }, ""),
-            _ => {
-                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
-            }
-        })
-    }
-
     /// `composite { … }`, `alpha 0.5`: the word of today is meant.
     pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
         let (name, meant) = (word.name(), today.name());

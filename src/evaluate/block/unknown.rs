@@ -176,19 +176,6 @@ impl Evaluator<'_> {
         Unknown::Word { told: diagnostic, near }
     }
 
-    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
-    fn color_meant(&mut self, near: &str) -> Option<String> {
-        let has_value = matches!(
-            self.peek().map(|next| &next.kind),
-            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
-        );
-        if has_value || !matches!(near, "red" | "green" | "blue") {
-            return None;
-        }
-        let mut visible = self.scopes.visible();
-        visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
-    }
-
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
     /// when that word has no block, and nothing was read.
     pub(super) fn judge_block(&mut self, token: &Token, word: Word) -> bool {

@@ -21,6 +21,14 @@ pub(super) struct First {
     told: bool,
 }
 
+impl Written {
+    /// What `token` began was told to be wrong: what it was meant as is not known, nor what it stands beside.
+    pub(super) fn mistaken(&mut self, token: &Token) {
+        let site = token.here.site(token.span);
+        self.first = Some(First { pattern: None, site, told: true });
+    }
+}
+
 /// How many colours stand behind a pattern, where it takes them without a map.
 pub(in crate::evaluate::block) fn colors_of(pattern: Word) -> Option<usize> {
     Some(match pattern {

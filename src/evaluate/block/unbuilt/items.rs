@@ -45,15 +45,8 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
     })
 }
 
-/// What stands behind a pattern that is not built, where it is a fixed number of numbers.
-fn of_pattern(pattern: Word) -> Option<(usize, f64, f64)> {
-    Some(match pattern {
-        // The manual has 24 of them.
-        Word::Tiling => (1, 1.0, 27.0),
-        Word::Spiral1 | Word::Spiral2 => (1, 1.0, f64::MAX),
-        _ => return None,
-    })
-}
+/// How many ways of tiling there are; the manual has 24 of them.
+const TILINGS: f64 = 27.0;
 
 /// Whether a colour stands behind an item of `block`.
 fn takes_color(item: Word, block: Word) -> bool {
@@ -319,14 +312,11 @@ impl Evaluator<'_> {
     /// What stands behind a pattern that is not built: its numbers, or its colours.
     pub(super) fn pattern_not_built(&mut self, token: &Token, pattern: Word) {
         let outer = self.poison.take();
-        if let Some((_, least, most)) = of_pattern(pattern) {
+        if pattern == Word::Tiling {
             if let Ok(given) = self.number_after(token, "a number")
-                && !(least..=most).contains(&given.value)
+                && !(1.0..=TILINGS).contains(&given.value)
             {
-                let wanted = match most == f64::MAX {
-                    true => format!("{least} or more"),
-                    false => format!("a number from {least} to {most}"),
-                };
+                let wanted = format!("a number from 1 to {TILINGS}");
                 self.out_of_range(&given, pattern, &wanted);
             }
         } else if let Word::ImageMap | Word::ImagePattern | Word::BumpMap = pattern
