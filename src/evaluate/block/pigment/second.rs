@@ -50,6 +50,12 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let item = self.whole(token);
         match &mut written.first {
+            // `magnet 1 mandel 50` is one pattern.
+            Some(First { pattern: Some(Word::Magnet), .. })
+                if matches!(pattern, Some(Word::Mandel | Word::Julia)) =>
+            {
+                Ok(())
+            }
             None => {
                 written.first = Some(First { pattern, site: item, told: false });
                 Ok(())

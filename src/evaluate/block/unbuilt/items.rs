@@ -129,6 +129,15 @@ impl Evaluator<'_> {
             return;
         }
         let Some(extra) = self.next() else { return };
+        // `fog { distance 200 White }`: a colour is an item of its own.
+        let value = match &extra.kind {
+            TokenKind::Expression(id) => self.expression(&extra.here, *id).ok(),
+            TokenKind::Literal(value) => Some(value.as_ref().clone()),
+            _ => None,
+        };
+        if value.is_none_or(|value| value.as_number().is_none()) {
+            return;
+        }
         let name = item.name();
         let takes = match most {
             1 => "one number".to_owned(),
