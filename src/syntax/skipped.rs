@@ -89,7 +89,7 @@ impl Reader<'_> {
 
     /// The branches that are never run, without those inside others, and without the blanks around them.
     fn branches(&self) -> Vec<Range<usize>> {
-        let unknown = self.options.alone.then(|| self.unknown_names()).unwrap_or_default();
+        let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
         let (mut found, mut at) = (Vec::new(), 0);
         while at < self.tokens.len() {
             let condition = match self.tokens[at].kind {
