@@ -79,6 +79,9 @@ impl<'a> Road<'a> {
             error.valid_up_to() + before.iter().filter(|byte| !byte.is_ascii()).count()
         });
         let (text, _) = decode(bytes);
+        if dark::is_whole(&text) {
+            self.diagnostics.of_whole_scene();
+        }
         let file = self.sources.add(Source::new(name, text));
         if let Some(at) = wrong {
             let end =

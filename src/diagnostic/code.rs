@@ -109,8 +109,8 @@ codes! {
     DuplicateCamera "duplicate-camera" lint "the scene has two cameras; the last one is used";
     MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
     DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";
-    NoLight "no-light" warning "nothing gives light, so the picture is dark";
-    EmptyScene "empty-scene" warning "the scene shows nothing";
+    NoLight "no-light" lint "nothing gives light, so the picture is dark";
+    EmptyScene "empty-scene" lint "the scene shows nothing";
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
     NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";

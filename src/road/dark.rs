@@ -21,6 +21,11 @@ const OF_LIGHT: &[&str] = &[
     "radiosity",
 ];
 
+/// Whether a text is a scene: without these it is rather a part of one.
+pub(super) fn is_whole(main: &str) -> bool {
+    main.contains("camera") && main.contains("global_settings")
+}
+
 impl Road<'_> {
     pub(super) fn tell_dark(&mut self) {
         let lacking = |one: &Diagnostic| {
@@ -43,10 +48,7 @@ impl Road<'_> {
         });
         let texts: Vec<String> =
             own.map(|(_, (_, source))| source.text.to_ascii_lowercase()).collect();
-        // Without these it is rather a part of a scene.
-        let whole = texts
-            .first()
-            .is_some_and(|main| main.contains("camera") && main.contains("global_settings"));
+        let whole = texts.first().is_some_and(|main| is_whole(main));
         let misspelt = |text: &str| {
             let mut words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
             words.any(|word| closest(word, ["light_source", "background", "emission"]).is_some())
