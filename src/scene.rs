@@ -6,6 +6,7 @@
 
 pub mod blob;
 pub mod height_field;
+pub mod julia_fractal;
 pub mod light;
 pub mod mesh;
 pub mod outline;
@@ -25,6 +26,7 @@ use crate::pattern::Pattern;
 use crate::source::{Expansions, Site};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
+pub use julia_fractal::JuliaFractal;
 pub use light::{Beam, Fade, LightKind, LightSource};
 pub use solid::{Container, Solid};
 

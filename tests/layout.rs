@@ -154,6 +154,16 @@ fn every_scene_of_ours_means_the_same_after_it() {
     assert!(laid_out > 100 && laid_out + 2 >= paths.len(), "{laid_out} of {}", paths.len());
 }
 
+#[test]
+fn the_scenes_here_are_laid_out_already() {
+    let mut paths = Vec::new();
+    files(Path::new("scenes"), &["scene", "inc"], &mut paths);
+    for path in paths {
+        let (name, text) = (path.display().to_string(), std::fs::read_to_string(&path).unwrap());
+        assert_eq!(formatted(&name, &text), Some(text), "lucarne fmt {name}");
+    }
+}
+
 /// The broken scenes of `diagnostics/`, as far as they can be read.
 #[test]
 fn every_readable_case_of_the_diagnostics_means_the_same_after_it() {

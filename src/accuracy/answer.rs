@@ -34,25 +34,24 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
         }
         Some(Verdict::Unproven { over, times }) => {
             let (row, times) = perhaps(report, order).unwrap_or((over, times));
-            (
-                0,
-                Some(row),
-                format!(
-                    "keep the scene's own settings, or perhaps {}: {}, and not proven to be worse ({})",
-                    flag(row),
-                    faster(times),
-                    instead(report, row, 0)
+            match is_outdone(report, order, row) {
+                true => (0, None, nothing_else()),
+                false => (
+                    0,
+                    Some(row),
+                    format!(
+                        "keep the scene's own settings, or perhaps {}: {}, and not proven to be worse ({})",
+                        flag(row),
+                        faster(times),
+                        instead(report, row, 0)
+                    ),
                 ),
-            )
+            }
         }
         Some(Verdict::Front) => {
             (0, None, "keep the scene's own settings: whatever is faster is worse".to_owned())
         }
-        Some(Verdict::Tied { .. }) => (
-            0,
-            None,
-            "keep the scene's own settings: nothing is clearly faster and as good".to_owned(),
-        ),
+        Some(Verdict::Tied { .. }) => (0, None, nothing_else()),
     };
     let rows: Vec<usize> = (0..report.rows.len()).collect();
     let sorted = order.from_cheap_to_dear(&rows);
@@ -72,6 +71,17 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
         lines.push(format!("in less time {}: {}, for {instead}", flag(row), faster(times)));
     }
     lines
+}
+
+fn nothing_else() -> String {
+    "keep the scene's own settings: nothing is clearly faster and as good".to_owned()
+}
+
+/// Whether another is faster and, as the table shows them, has no more error: who reads that one is `perhaps`
+/// as good wonders why it is not the other.
+fn is_outdone(report: &Report, order: &Order, row: usize) -> bool {
+    let error = |row: usize| report.error(row).value;
+    (1..report.rows.len()).any(|other| order.is_cheaper(other, row) && error(other) <= error(row))
 }
 
 /// Of what is faster than the scene's own settings and not proven to be worse, what has the least error.
@@ -127,6 +137,11 @@ mod tests {
         assert_eq!(
             lines(&[(4.0, 0.02, 0.019), (2.0, 0.021, 0.0)])[0],
             "keep the scene's own settings, or perhaps --knob 1: 2.0× faster, and not proven to be worse (an error of 0.0210 instead of 0.0200)"
+        );
+        // The second is not proven to be worse, and the third is; but that is faster, and has less error.
+        assert_eq!(
+            lines(&[(4.0, 0.02, 0.019), (2.0, 0.022, 0.011), (1.0, 0.0215, 0.02)])[0],
+            "keep the scene's own settings: nothing is clearly faster and as good"
         );
         assert_eq!(
             lines(&[own]),

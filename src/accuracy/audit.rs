@@ -15,7 +15,7 @@ pub const WANTED: u32 = 4096;
 /// **Source:** jittered (stratified) sampling; a square that hangs over the border keeps its empty
 /// part in the draw, which is what makes all pixels equally likely.
 pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u32, u32)>> {
-    let pixels = f64::from(region.width) * f64::from(region.height);
+    let pixels = region.pixels();
     let least = (count as f64).sqrt().ceil() as u32;
     let side = ((pixels / f64::from(wanted.max(1))).sqrt().floor() as u32).max(least).max(1);
     let mut random = Random::of(seed, 0);

@@ -94,7 +94,8 @@ impl<'a> Tuning<'a> {
         }
         let options = self.options(places);
         let (colors, counters) = self.colors(&options)?;
-        let error = self.metric.estimate(&self.reference.deviations(&colors));
+        let all = self.own.frame.region.pixels();
+        let error = self.metric.estimate(&self.reference.deviations(&colors), all);
         let factors = self.knobs.iter().map(|knob| (knob.factor)((knob.get)(&options)));
         let cost = factors.product::<f64>() * cost(&counters) / self.list.len() as f64;
         let choice = Choice { options, cost, error };

@@ -44,7 +44,7 @@ pub fn at_once(
     (clock, until): (&dyn Clock, f64),
 ) -> f64 {
     let region = candidate.plan.frame.region;
-    let pixels = f64::from(region.width) * f64::from(region.height);
+    let pixels = region.pixels();
     // The tree of boxes is no part of it.
     studio.geometry(&candidate.plan);
     let half = (until - clock.wall()).max(0.0) / 2.0;

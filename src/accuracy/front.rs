@@ -54,6 +54,14 @@ impl Point {
 }
 
 impl Point {
+    /// The error that is printed: where it cannot be told from nothing, the most that it can be.
+    fn shown(&self) -> f64 {
+        match self.error.value < self.resolution {
+            true => self.error.high.max(self.resolution),
+            false => self.error.value,
+        }
+    }
+
     /// By the clock, so many times: what is surely longer than the other takes less than this.
     fn is_quicker(&self, than: &Self, times: f64) -> bool {
         // A clock too coarse to see a run says nothing of it.
@@ -182,8 +190,8 @@ impl Order {
         }
         let best = sorted.iter().filter(|&&other| self.dominates(other, i)).find(undominated);
         if let Some(&by) = best {
-            let shown = |of: usize| self.points[of].error.value.max(self.points[of].resolution);
-            let error = if shown(i) > 0.0 { shown(by) / shown(i) } else { 1.0 };
+            let shown = |of: usize| self.points[of].shown();
+            let error = if shown(i) > 0.0 { (shown(by) / shown(i)).min(1.0) } else { 1.0 };
             return Verdict::Dominated { by, times: self.times(by, i), error };
         }
         let mut rivals = sorted.iter().filter(|&&other| other != i && !self.gains(i, other));

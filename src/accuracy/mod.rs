@@ -239,7 +239,7 @@ pub fn accuracy(
             times,
             counters,
             factor: candidates[candidate].factor,
-            errors: Metric::ALL.map(|metric| metric.estimate(&off)),
+            errors: Metric::ALL.map(|metric| metric.estimate(&off, options.frame.region.pixels())),
             verdict: Verdict::Front,
             resamples: options.metric.resampled(&off),
             colors,

@@ -91,8 +91,11 @@ pub fn keep(
     clock: &dyn Clock,
     (watch, tell): (&dyn Watch, &dyn Fn(Step)),
 ) -> Result<Option<Kept>, TooSmall> {
-    let sets = audit::sets(options.frame.region, WANTED, 3, options.seed);
-    if sets.iter().any(|set| set.len() < LEAST) {
+    let mut sets = audit::sets(options.frame.region, WANTED, 4, options.seed);
+    if sets[3].len() >= WANTED as usize {
+        sets[3].clear();
+    }
+    if sets[..3].iter().any(|set| set.len() < LEAST) {
         return Err(TooSmall);
     }
     tell(Step::Choosing);
@@ -126,7 +129,8 @@ struct Search<'a> {
     depth: u32,
     /// That depth, where it is not as deep as can be.
     cut: Option<u32>,
-    /// To choose by, to audit by, and to audit a second picture by.
+    /// To choose by, to audit by, and to audit a second picture by; the fourth, of a small picture, is what is
+    /// left for that, too.
     sets: Vec<Vec<(u32, u32)>>,
     effort: Cell<Effort>,
     clock: &'a dyn Clock,
@@ -159,10 +163,8 @@ impl<'a> Search<'a> {
         let a_sample = rough.counters.rays() as f64 / samples;
         let plain = PlanOptions { antialias: Antialias::Off, ..easel.own };
         let plain = studio.pixels(&plan(studio.world, origins, &plain), few, Sampling::Planned);
-        let region = options.frame.region;
-        let picture = PICTURE * cost(&plain.counters) / few.len() as f64
-            * f64::from(region.width)
-            * f64::from(region.height);
+        let picture =
+            PICTURE * cost(&plain.counters) / few.len() as f64 * options.frame.region.pixels();
         let coarsest = f64::from(Reference::samples_at(Reference::COARSEST));
         let worth = picture / (coarsest * cost(&rough.counters) / samples);
         let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))).min(worth.max(ENOUGH));
@@ -305,7 +307,8 @@ impl<'a> Search<'a> {
     }
 
     fn kept(&self) -> Option<Kept> {
-        let [tuned, audited, again] = &self.sets[..] else { return None };
+        let [tuned, audited, again, rest] = &self.sets[..] else { return None };
+        let again: Vec<_> = again.iter().chain(rest).copied().collect();
         let promise = self.promise;
         let (reference, unreachable) = self.learned()?;
         let choice = match unreachable {
@@ -325,8 +328,11 @@ impl<'a> Search<'a> {
             let (error, pixels) = (choice.error, tuned.len());
             (self.tell)(Step::Unreachable { error, resolution, pixels });
         }
-        let fresh = self.resolved(None, audited, goal)?;
-        let (first, fresh) = self.rendered(&choice, audited, (fresh, goal), is_dearest);
+        // No better picture follows the dearest: the pixels for its audit tell of this one, too.
+        let spare: &[_] = if is_dearest { &again } else { &[] };
+        let list: Vec<_> = audited.iter().chain(spare).copied().collect();
+        let fresh = self.resolved(None, &list, goal)?;
+        let (first, fresh) = self.rendered(&choice, &list, (fresh, goal), is_dearest);
         // A better picture proves no more where the reference does not look all the way, nor does the
         // same one.
         let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
@@ -354,8 +360,8 @@ impl<'a> Search<'a> {
             return Some(first);
         }
         let is_dearest = self.tuning(&both, &reference).is_dearest(&better.options);
-        let fresh = self.resolved(None, again, promise)?;
-        let (second, _) = self.rendered(&better, again, (fresh, promise), is_dearest);
+        let fresh = self.resolved(None, &again, promise)?;
+        let (second, _) = self.rendered(&better, &again, (fresh, promise), is_dearest);
         Some(Kept { refined: true, ..second })
     }
 
@@ -368,8 +374,7 @@ impl<'a> Search<'a> {
         is_dearest: bool,
     ) -> (Kept, Option<Reference>) {
         let flags = self.easel.flags(&choice.options);
-        let region = self.options.frame.region;
-        let pixels = f64::from(region.width) * f64::from(region.height);
+        let pixels = self.options.frame.region.pixels();
         let Effort { seconds, cost, .. } = self.effort.get();
         // What no reference can tell is not asked of one.
         let least = if goal > self.promise { goal } else { 0.0 };

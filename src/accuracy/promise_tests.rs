@@ -73,9 +73,7 @@ fn a_promised_error_of_one_pixel_in_a_hundred_is_kept_too() {
 #[test]
 fn a_promised_share_of_bad_pixels_is_kept_too() {
     let pairs = if long() > 1 { 100 } else { 5 };
-    // In pictures of 1728 pixels 432 are audited, which prove no share much below 0.05, and three of these
-    // shares no settings reach: those are told.
-    assert!(10 * broken(Metric::Bad, pairs, [0.2, 0.1, 0.07, 0.05, 0.03]) <= pairs);
+    assert!(20 * broken(Metric::Bad, pairs, [0.2, 0.1, 0.07, 0.05, 0.03]) <= pairs);
     // Where the first choice misses, the second leaves room for how wide its interval will be.
     let (world, origins) = compiled(SCENES[0].1, 0.0);
     let options = Options { metric: Metric::Bad, ..asked(64, 48) };

@@ -46,7 +46,10 @@ pub fn audited(
     let colors = colors_of(&traced.film, list);
     Audit {
         metric,
-        error: metric.estimate(&audit::by_place(list, reference.deviations(&colors))),
+        error: metric.estimate(
+            &audit::by_place(list, reference.deviations(&colors)),
+            traced.film.frame.region.pixels(),
+        ),
         resolution: 4.0 * reference.floor(metric),
         pixels: list.len(),
         depth: None,

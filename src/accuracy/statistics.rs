@@ -135,12 +135,14 @@ impl Metric {
 
     /// The number with its interval: by bootstrap for RMSE, by Wilson's for shares, and for the
     /// 99th percentile by the ranks that it has 95 times of 100. The pixels are as `audit::by_place` has them:
-    /// neighbours close together.
+    /// neighbours close together, and drawn from `all` there are: what was looked at adds nothing to the error of
+    /// a share.
     ///
     /// **Source:** R. Woodruff, "Confidence intervals for medians and other position measures", JASA 47,
     /// 1952, for the percentile; its ranks are those of the binomial distribution (H. David, H. Nagaraja,
-    /// Order Statistics, 3rd ed. 2003, 7.1).
-    pub fn estimate(self, pixels: &[Deviation]) -> Estimate {
+    /// Order Statistics, 3rd ed. 2003, 7.1); for the share, W. Cochran, Sampling Techniques, 3rd ed. 1977, 2.6
+    /// (the finite population correction).
+    pub fn estimate(self, pixels: &[Deviation], all: f64) -> Estimate {
         let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
         let value = self.whole(&mut parts);
         let (low, high) = match self {
@@ -158,7 +160,8 @@ impl Metric {
                 let noise: Vec<f64> = parts.iter().zip(&hits).map(|(all, hit)| all - hit).collect();
                 let count = hits.len().max(1) as f64;
                 let share = hits.iter().sum::<f64>() / count;
-                let draws = worth(&hits);
+                let unseen = (1.0 - count / all).max(1.0 / count);
+                let draws = worth(&hits) / unseen;
                 let off = wilson(share * draws, draws);
                 // Noise shows where pixels are nearly bad: it adds more to their spread than its own.
                 let added = (successive(&parts) - successive(&hits)).max(successive(&noise));
@@ -224,7 +227,7 @@ pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estim
     };
     let noise = |pixel: &Deviation| Deviation { off: pixel.noise, noise: [0.0; 3] };
     match metric {
-        Metric::Rmse => (metric.estimate(&scaled), metric.floor(&scaled)),
+        Metric::Rmse => (metric.estimate(&scaled, f64::INFINITY), metric.floor(&scaled)),
         Metric::Bad => {
             let hits = parts(&|pixel| bad(pixel.off));
             let of_noise = parts(&|pixel| metric.part(pixel) - bad(pixel.off));

@@ -243,8 +243,9 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting, width: Width) -> St
         }
         (Verdict::Dominated { by, times, error }, Width::Narrow) => {
             let times = times.map_or_else(|| "same work".to_owned(), faster);
+            let below = if report.is_resolved(report.metric, by) { "" } else { "< " };
             let error = match 100.0 * error {
-                percent if percent < 99.0 => format!(", {percent:.0} %"),
+                percent if percent < 99.0 => format!(", {below}{percent:.0} %"),
                 _ => String::new(),
             };
             format!("no: {} {times}{error}", name(by))

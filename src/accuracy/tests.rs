@@ -140,7 +140,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
                 .collect();
             let off = reference.deviations(&colors);
             for (holds, metric) in holds.iter_mut().zip(Metric::ALL) {
-                let Estimate { low, high, .. } = metric.estimate(&off);
+                let Estimate { low, high, .. } = metric.estimate(&off, frame.region.pixels());
                 *holds += u32::from((low..=high).contains(&metric.of(&exact)));
             }
         }

@@ -327,7 +327,7 @@ fn statistics_take(clock: &dyn Clock, metric: Metric) -> f64 {
         .map(|i| Deviation { off: [f64::from(i * 37 % SOME); 3], noise: [0.0; 3] })
         .collect();
     let began = clock.wall();
-    let bounds = Metric::ALL.map(|metric| metric.estimate(&some));
+    let bounds = Metric::ALL.map(|metric| metric.estimate(&some, f64::INFINITY));
     let resamples = metric.resampled(&some);
     std::hint::black_box((bounds, resamples));
     (clock.wall() - began) / f64::from(SOME)

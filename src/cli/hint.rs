@@ -11,8 +11,8 @@ use super::exit::Failure;
 
 /// POV-Ray's switches, without their sign and value, and what does the same here.
 const POVRAY: &[(&str, &str)] = &[
-    ("w", "`--size 320x240` sets width and height"),
-    ("h", "`--size 320x240` sets width and height"),
+    ("w", "`--size 640x480` is what `+W640 +H480` says there: width and height at once"),
+    ("h", "`--size 640x480` is what `+W640 +H480` says there: width and height at once"),
     ("i", "the scene is the word without a sign: `lucarne FILE`"),
     ("o", "`-o FILE` chooses where to write, and its extension the format"),
     ("f", "the extension of `-o FILE` chooses the format"),

@@ -139,6 +139,14 @@ impl Evaluator<'_> {
                     .at(span, "expected in the braces of a `polynomial`, after its order");
                 return Err(self.report(here, diagnostic));
             }
+            Word::Pwr | Word::Sqr => {
+                let name = word.name();
+                let message = format!("`{name}` is what a `julia_fractal` repeats, and no number");
+                let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+                    .at(span, "expected in the braces of a `julia_fractal`")
+                    .help("a power is `pow(a, b)`");
+                return Err(self.report(here, diagnostic));
+            }
             _ => {}
         }
         let Some(arity) = builtin::arity(word) else {

@@ -13,14 +13,16 @@ use crate::math::double::{Double, DoubleVector, power_of_two};
 use crate::math::placement::Placement;
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
-use crate::scene::Container;
 use crate::scene::mesh::Triangles;
+use crate::scene::{self, Container};
 use crate::shape::isosurface;
+use crate::shape::julia_fractal::{Algebra, Function};
 use crate::shape::mesh::{Face, Skin};
 use crate::shape::{
-    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, Mesh, Ovus, Parametric, Placed,
-    Superellipsoid, Torus,
+    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, JuliaFractal, Mesh, Ovus, Parametric,
+    Placed, Superellipsoid, Torus,
 };
+use crate::vocabulary::Word;
 
 /// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
@@ -102,6 +104,43 @@ pub fn ovus(bottom: f64, top: f64) -> (Body, Affine) {
 /// As it is written.
 pub fn superellipsoid([east, north]: [f64; 2]) -> (Body, Affine) {
     (Body::Superellipsoid(Superellipsoid { east, north }), Affine::IDENTITY)
+}
+
+/// As it is written.
+pub fn julia_fractal(written: &scene::JuliaFractal) -> (Body, Affine) {
+    let scene::JuliaFractal { parameter, iterations, distance, .. } = *written;
+    let algebra = match (written.hypercomplex, written.function) {
+        (false, function) => Algebra::Quaternion { is_cube: function == Word::Cube },
+        (true, function) => Algebra::Hypercomplex(function_of(function, written.power)),
+    };
+    let squares = written.normal.map(|each| Double::from(each) * Double::from(each));
+    let length = squares.into_iter().fold(Double::from(0.0), |sum, square| sum + square).sqrt();
+    let normal = written.normal.map(|each| (Double::from(each) / length).round());
+    let fractal = JuliaFractal { parameter, algebra, iterations, normal, distance };
+    (Body::JuliaFractal(fractal), Affine::IDENTITY)
+}
+
+fn function_of(word: Word, power: [f64; 2]) -> Function {
+    match word {
+        Word::Cube => Function::Cube,
+        Word::Exp => Function::Exp,
+        Word::Reciprocal => Function::Reciprocal,
+        Word::Sin => Function::Sin,
+        Word::Asin => Function::Asin,
+        Word::Sinh => Function::Sinh,
+        Word::Asinh => Function::Asinh,
+        Word::Cos => Function::Cos,
+        Word::Acos => Function::Acos,
+        Word::Cosh => Function::Cosh,
+        Word::Acosh => Function::Acosh,
+        Word::Tan => Function::Tan,
+        Word::Atan => Function::Atan,
+        Word::Tanh => Function::Tanh,
+        Word::Atanh => Function::Atanh,
+        Word::Ln => Function::Ln,
+        Word::Pwr => Function::Pwr(power),
+        _ => Function::Sqr,
+    }
 }
 
 /// The torus about the z axis that reaches 1 from it.

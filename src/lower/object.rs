@@ -227,6 +227,18 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
+    /// A solid of which there is nothing, and why.
+    fn place_nowhere(
+        &mut self,
+        here: &Inherited,
+        site: Site,
+        (word, why): (&'static str, &'static str),
+    ) -> Result<(), Fault> {
+        self.drop_part(site, word, why);
+        self.nothing(here.flags.inverse);
+        Ok(())
+    }
+
     /// A body that is made once, however often it is used; of none, nothing is placed.
     fn place_stored(
         &mut self,
@@ -301,11 +313,11 @@ impl<'s> Lowering<'s, '_> {
                     self.shared(id, |lowering| blob::blob(written, &mut lowering.transforms))?;
                 match made {
                     Some((body, frame)) => self.place_body(body, &frame, here, site),
-                    None => {
-                        self.drop_part(site, "blob", "nowhere is it as strong as its threshold");
-                        self.nothing(here.flags.inverse);
-                        Ok(())
-                    }
+                    None => self.place_nowhere(
+                        here,
+                        site,
+                        ("blob", "nowhere is it as strong as its threshold"),
+                    ),
                 }
             }
             Solid::Text { ref text } => self.place_stored(id, || points::text(text), here, site),
@@ -337,6 +349,9 @@ impl<'s> Lowering<'s, '_> {
                     None => Err(no_size("this sphere_sweep has no thickness")),
                 }
             }
+            Solid::JuliaFractal(ref fractal) => {
+                self.place_made(body::julia_fractal(fractal), here, site)
+            }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
@@ -347,11 +362,11 @@ impl<'s> Lowering<'s, '_> {
                 })?;
                 match made {
                     Some((body, frame)) => self.place_body(body, &frame, here, site),
-                    None => {
-                        self.drop_part(site, "isosurface", "nowhere is it below its threshold");
-                        self.nothing(here.flags.inverse);
-                        Ok(())
-                    }
+                    None => self.place_nowhere(
+                        here,
+                        site,
+                        ("isosurface", "nowhere is it below its threshold"),
+                    ),
                 }
             }
             Solid::Parametric { ref functions, corners, container } => {

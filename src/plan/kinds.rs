@@ -50,6 +50,9 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
                 Body::Isosurface(_) => {
                     "a map and bounds of its function, until each root stands alone, a ray"
                 }
+                Body::JuliaFractal(_) => {
+                    "a map and bounds of its orbit, until each root stands alone, a ray"
+                }
                 Body::Parametric(_) => {
                     "a map and bounds of its three functions a part a ray may meet"
                 }

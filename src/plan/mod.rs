@@ -44,6 +44,13 @@ pub struct Region {
     pub height: u32,
 }
 
+impl Region {
+    /// How many there are.
+    pub fn pixels(&self) -> f64 {
+        f64::from(self.width) * f64::from(self.height)
+    }
+}
+
 /// How edges are smoothed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Antialias {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::blob::Blob;
 use super::height_field::HeightField;
+use super::julia_fractal::JuliaFractal;
 use super::mesh::Triangles;
 use super::outline::{Point, Spline};
 use super::polygon::Polygon;
@@ -93,6 +94,8 @@ pub enum Solid {
         /// Where the container cuts it, nothing is seen.
         open: bool,
     },
+    /// A fractal of four dimensions.
+    JuliaFractal(Box<JuliaFractal>),
     /// About the y axis.
     Torus {
         /// From the axis to the middle of the tube.
@@ -194,6 +197,7 @@ impl Solid {
             Self::SphereSweep(_) => Word::SphereSweep,
             Self::Superellipsoid { .. } => Word::Superellipsoid,
             Self::Isosurface { .. } => Word::Isosurface,
+            Self::JuliaFractal(_) => Word::JuliaFractal,
             Self::Parametric { .. } => Word::Parametric,
             Self::Text { .. } => Word::Text,
             Self::Torus { .. } => Word::Torus,
@@ -217,7 +221,7 @@ impl Solid {
             Self::HeightField { field } => field.is_nothing(),
             Self::Polygon { polygon } => polygon.plane().is_none(),
             Self::Sphere { radius, .. } => *radius == 0.0,
-            Self::Plane { .. } | Self::Superellipsoid { .. } => false,
+            Self::Plane { .. } | Self::Superellipsoid { .. } | Self::JuliaFractal(_) => false,
             Self::Box { corners: [first, second] } => {
                 (*second - *first).to_array().iter().filter(|side| **side == 0.0).count() >= 2
             }
@@ -279,6 +283,7 @@ impl fmt::Display for Solid {
                 write!(f, " of {operations} operations, {container}, threshold {threshold}")?;
                 write!(f, ", accuracy {accuracy}{}", open(*is_open))
             }
+            Self::JuliaFractal(fractal) => write!(f, "{fractal}"),
             Self::Parametric { functions, corners: [a, b], container } => {
                 let operations: usize =
                     functions.iter().map(|each| each.function().operations()).sum();

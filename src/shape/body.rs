@@ -14,6 +14,7 @@ use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::height_field::HeightField;
 use super::isosurface::Isosurface;
+use super::julia_fractal::JuliaFractal;
 use super::lathe::Lathe;
 use super::mesh::Mesh;
 use super::ovus::Ovus;
@@ -301,6 +302,7 @@ bodies! {
     Disc "disc"
     HeightField "height_field"
     Isosurface "isosurface"
+    JuliaFractal "julia_fractal"
     Lathe "lathe"
     Mesh "mesh"
     Ovus "ovus"

@@ -11,6 +11,7 @@ mod algebraic;
 mod blob;
 mod height_field;
 mod isosurface;
+mod julia_fractal;
 mod leave;
 mod mesh;
 mod outline;

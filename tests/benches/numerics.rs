@@ -36,7 +36,9 @@ use lucarne::shape::{Crossing, Ray};
 
 use bodies::{Bar, Globe, Quadric, Ring, Stands, Stump, Triangle, Washer};
 use dice::Dice;
-use fields::{Bone, Heart, Marched, Metaballs, Oval, Pillow, Spindle, Straight, Tube, Vase};
+use fields::{
+    Bone, Heart, Marched, Metaballs, Oval, Pillow, Rabbit, Spindle, Straight, Tube, Vase,
+};
 use points::{Hill, Landscape, Letter, Star};
 use subjects::{Answer, Ball, Block, Carved, Egg, Floor, Planet, Rounded, Single, Subject};
 use wide::Wide;
@@ -196,6 +198,7 @@ fn main() {
                 rows::SPHERE_SWEEP => shape::<Stands<Marched<Bone>>>(name, far),
                 rows::SUPERELLIPSOID => shape::<Stands<Marched<Pillow>>>(name, far),
                 rows::ISOSURFACE => shape::<Stands<Marched<Tube>>>(name, far),
+                rows::JULIA_FRACTAL => shape::<Stands<Marched<Rabbit>>>(name, far),
                 rows::PARAMETRIC => shape::<Stands<Globe>>(name, far),
                 rows::WHOLE => shape::<Carved>(name, far),
                 rows::SPHERE_SINGLE => shape::<Single<Ball>>(name, far),

@@ -205,6 +205,7 @@ fn row_54_a_number_that_cannot_be_never_loses_an_object_in_silence() {
         "triangle { 0, x, #*y }",
         "quadric { <1, 1, 1>, <0, #, 0>, <0, 0, 0>, -1 }",
         "superellipsoid { <1, #> }",
+        "julia_fractal { <0, #, 0, 0> max_iteration 3 slice <0, 0, #, 1>, # }",
         "blob { threshold 0.5 sphere { 0, #, 1 } }",
         "lathe { linear_spline 3, <0, 0>, <1, #>, <0, 2> }",
         "prism { 0, #, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0> }",

@@ -17,6 +17,7 @@ const SAME: [&[&str]; 5] = [
         "isosurface { function { x*x + y*y + z*z - 1 } contained_by { sphere { 0, 1.2 } } max_gradient 3",
         "isosurface { function { -1 } contained_by { sphere { 0, 1 } }",
         "torus { 0, 1",
+        "julia_fractal { 0 quaternion sqr max_iteration 6",
     ],
     &[
         "box { <-0.8, -0.6, -1>, <0.3, 0.6, 0.1+0.2>",

@@ -66,6 +66,7 @@ pub const SHAPES: &str = "
     sphere_sweep { b_spline 5, <-2, 0, 0>*K, 0.1*K, <-1, 1, 0>*K, 0.15*K, <0, 0, 0.5>*K, 0.1*K, <1, 1, 0>*K, 0.2*K, <2, 0, 0>*K, 0.1*K scale 0.6 translate <1.4, 1.8, 0.5>*K pigment { rgb <0.3, 0.6, 0.4> } }
     sphere_sweep { linear_spline 3, <-0.5, 0, 0>*K, 0.1*K, <0, 0.5, 0>*K, 0.2*K, <0.5, 0, 0.2>*K, 0.05*K translate <3.1, -0.1, 0.6>*K pigment { rgb <0.8, 0.4, 0.5> } }
     superellipsoid { <0.4, 0.7> scale 0.4*K rotate 20*y translate <0, -0.5, 2.8>*K pigment { rgb <0.5, 0.5, 0.9> } }
+    julia_fractal { <-0.1, 0.2, -0.7, -0.1> quaternion max_iteration 4 scale 0.25*K translate <-1.7, 1.7, 1.2>*K pigment { rgb <0.9, 0.7, 0.3> } }
     isosurface { function { x*x + y*y + z*z - 1 + 0.2*sin(6*x) } contained_by { box { -1.3, 1.3 } } max_gradient 4 scale 0.35*K translate <-1, -0.45, 2.6>*K pigment { rgb <0.9, 0.5, 0.5> } }
     parametric { function { cos(u)*cos(v) }, function { sin(v) }, function { sin(u)*cos(v) } <-pi, -1.5>, <pi, 1.5> contained_by { box { -1.1, 1.1 } } max_gradient 2 scale 0.35*K translate <2.2, -0.2, 2.5>*K pigment { rgb <0.5, 0.9, 0.9> } }
     polygon { 5, <-0.4, -0.3>*K, <0.4, -0.3>*K, <0.1, 0>*K, <0, 0.4>*K, <-0.4, -0.3>*K rotate 20*y translate <3.6, 2.2, 0>*K pigment { rgb <0.9, 0.7, 0.8> } }

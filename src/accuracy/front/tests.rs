@@ -121,6 +121,13 @@ fn a_verdict_claims_nothing_that_the_numbers_do_not_show() {
                     assert!(times.is_none_or(|times| times > 1.0));
                     assert_eq!(times.is_none(), order.is_same_work(by, i));
                     assert!(error <= 1.0 && shown(by) <= shown(i));
+                    // Of what is not resolved, no less is claimed than can be.
+                    let by_most =
+                        shown(by).max(match point(by).error.value < point(by).resolution {
+                            true => point(by).error.high,
+                            false => 0.0,
+                        });
+                    assert!(error == 1.0 || error >= by_most / point(i).shown());
                     assert!(point(by).error.low <= point(i).error.high.max(shown(i)));
                     // Two that are not resolved are not compared.
                     let resolved = point(i).error.value >= point(i).resolution;

@@ -45,7 +45,7 @@ fn the_bootstrap_of_a_mean_has_the_standard_error_that_theory_says() {
     // Squares are uniform on 0 … 1: their mean is 1/2 ± 1.96·√(1/12n).
     let mut random = Random(8);
     let pixels: Vec<_> = (0..2000).map(|_| gray(random.number(0.0, 1.0).sqrt())).collect();
-    let Estimate { value, low, high } = Metric::Rmse.estimate(&pixels);
+    let Estimate { value, low, high } = Metric::Rmse.estimate(&pixels, f64::INFINITY);
     let half = Z * (1.0f64 / 12.0 / 2000.0).sqrt();
     assert!(((high * high - low * low) / 2.0 / half - 1.0).abs() < 0.1);
     assert!(low < value && value < high);
@@ -82,15 +82,48 @@ fn a_share_near_nothing_is_told_as_closely_as_its_pixels_allow_whatever_the_nois
             .collect();
         assert!(Metric::Bad.floor(&pixels) > 0.02);
         let weighted = weighted(Metric::Bad, &pixels, &[1.0; 3000]).0;
-        for Estimate { low, high, .. } in [Metric::Bad.estimate(&pixels), weighted] {
+        for Estimate { low, high, .. } in [Metric::Bad.estimate(&pixels, f64::INFINITY), weighted] {
             assert!(high - low < 0.03, "{low} {high}");
             holds += u32::from(low <= truth && truth <= high);
         }
     }
     assert!(holds >= 360, "{holds}");
     // Without noise it is Wilson's.
-    let none = Metric::Bad.estimate(&[gray(0.0); 432]);
+    let none = Metric::Bad.estimate(&[gray(0.0); 432], f64::INFINITY);
     assert!(none.low == 0.0 && none.high < 0.0089, "{none:?}");
+}
+
+#[test]
+fn a_share_is_known_the_more_closely_the_more_of_all_pixels_were_looked_at() {
+    let mut random = Random(11);
+    let (all, bad, times) = (1728, 40, 1000_u32);
+    for (count, most) in [(432, 0.036), (864, 0.025), (1296, 0.015)] {
+        let (mut holds, mut widths) = (0, 0.0);
+        for _ in 0..times {
+            // Which of all are drawn; the first are bad.
+            let mut left = count;
+            let drawn = |i: usize| {
+                let is_drawn = random.below(all - i) < left;
+                left -= usize::from(is_drawn);
+                is_drawn.then_some(if i < bad { 0.5 } else { 0.0 })
+            };
+            let off: Vec<f64> = (0..all).filter_map(drawn).collect();
+            // Bad ones are anywhere.
+            let mut pixels: Vec<_> = off.into_iter().map(gray).collect();
+            for last in (1..pixels.len()).rev() {
+                pixels.swap(last, random.below(last + 1));
+            }
+            let Estimate { low, high, .. } = Metric::Bad.estimate(&pixels, all as f64);
+            let truth = bad as f64 / all as f64;
+            holds += u32::from((low..=high).contains(&truth));
+            widths += (high - low) / f64::from(times);
+        }
+        assert!((900..=990).contains(&holds) && widths < most, "{count}: {holds} {widths}");
+    }
+    // Of a picture all of which was looked at, nothing is left in doubt.
+    let pixels: Vec<_> = (0..900).map(|i| gray(f64::from(i % 9) / 9.0)).collect();
+    let Estimate { value, low, high } = Metric::Bad.estimate(&pixels, 900.0);
+    assert!(low <= value && value <= high && high - low < 2e-3, "{low} {high}");
 }
 
 #[test]
@@ -102,7 +135,7 @@ fn the_interval_of_a_percentile_holds_it_95_times_of_100() {
             let off: Vec<f64> = (0..count).map(|_| random.number(0.0, 1.0)).collect();
             let pixels: Vec<_> = off.iter().map(|&off| gray(off)).collect();
             let held = |Estimate { low, high, .. }| u32::from(low <= 0.99 && 0.99 <= high);
-            let estimate = Metric::P99.estimate(&pixels);
+            let estimate = Metric::P99.estimate(&pixels, f64::INFINITY);
             holds += held(estimate);
             known += u32::from(estimate.high < 1.0);
             // Twice as likely to be drawn from above the middle, and half the weight there.

@@ -13,6 +13,7 @@ mod height_field;
 mod inert;
 mod interior;
 mod isosurface;
+mod julia_fractal;
 mod light;
 mod mesh;
 mod missing;

@@ -159,7 +159,7 @@ impl Evaluator<'_> {
     }
 
     /// Numbers with commas between them.
-    fn numbers_of(&mut self, here: &Here, list: Arguments) -> Outcome<Vec<f64>> {
+    pub(super) fn numbers_of(&mut self, here: &Here, list: Arguments) -> Outcome<Vec<f64>> {
         let mut numbers = Ok(Vec::new());
         for argument in here.unit.ast.arguments(list) {
             let number = match *argument {

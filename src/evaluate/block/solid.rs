@@ -25,6 +25,7 @@ impl Evaluator<'_> {
             Word::Torus => Self::torus,
             Word::Blob => Self::blob,
             Word::Isosurface => Self::isosurface,
+            Word::JuliaFractal => Self::julia_fractal,
             Word::Parametric => Self::parametric,
             Word::Lathe => Self::lathe,
             Word::Prism => Self::prism,

@@ -249,8 +249,7 @@ impl Evaluator<'_> {
             return self.skip_arguments(word);
         }
         let has_block = self.is_before_block();
-        let name = word.name();
-        let dialect = self.options.dialect;
+        let (name, dialect) = (word.name(), self.options.dialect);
         let near =
             suggest::foreign(name).find(|near| place.words(dialect).any(|word| word == *near));
         if word.family() == Family::Directive {
@@ -279,7 +278,8 @@ impl Evaluator<'_> {
                 .help(sentence.to_owned());
             // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
             if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
-        } else if let (Some(near), false) = (near, word.is_built()) {
+        // Of a `julia_fractal` it is a function, and everywhere else what others call a box.
+        } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))

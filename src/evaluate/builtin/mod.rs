@@ -357,7 +357,7 @@ mod tests {
     }
 
     /// What needs names, files, objects or formulas belongs to the evaluator.
-    const OF_THE_EVALUATOR: [Word; 12] = [
+    const OF_THE_EVALUATOR: [Word; 14] = [
         Word::Defined,
         Word::DimensionSize,
         Word::Dimensions,
@@ -367,6 +367,8 @@ mod tests {
         Word::MaxExtent,
         Word::MinExtent,
         Word::Prod,
+        Word::Pwr,
+        Word::Sqr,
         Word::Sum,
         Word::Trace,
         Word::Xyz,

@@ -83,9 +83,12 @@ impl BicubicPatch {
         let net = Net(points);
         let mut pieces = Vec::new();
         let mut bent = vec![Piece { net, start: [0.0; 2], size: [1.0; 2] }];
-        while let Some(piece) = bent.pop() {
+        while let Some(mut piece) = bent.pop() {
             match piece.size[0] * piece.size[1] > SMALLEST && piece.is_bent() {
-                true => bent.extend(piece.halves(Vector::length)),
+                true => {
+                    let second = piece.halve(Vector::length);
+                    bent.extend([piece, second]);
+                }
                 false => pieces.push(piece),
             }
         }
@@ -190,18 +193,16 @@ impl Piece {
         if bend <= NEARLY_LINEAR { Seen::Linear(inverse, bend) } else { Seen::Bent }
     }
 
-    /// Two halves, across the way along which it is longer.
-    fn halves(&self, length: impl Fn(Vector) -> f64) -> [Self; 2] {
+    /// Keeps one half, across the way along which it is longer, and gives the other.
+    fn halve(&mut self, length: impl Fn(Vector) -> f64) -> Self {
         let length = |steps: [Vector; 12]| steps.into_iter().map(&length).sum::<f64>();
         let is_along_u = length(self.net.steps_along_u()) >= length(self.net.steps_along_v());
-        let (first, second) =
-            if is_along_u { self.net.halves_along_u() } else { self.net.halves_along_v() };
+        let net = if is_along_u { self.net.halve_along_u() } else { self.net.halve_along_v() };
         let axis = usize::from(!is_along_u);
-        let mut size = self.size;
-        size[axis] *= 0.5;
+        self.size[axis] *= 0.5;
         let mut start = self.start;
-        start[axis] += size[axis];
-        [Self { net: first, size, ..*self }, Self { net: second, start, size }]
+        start[axis] += self.size[axis];
+        Self { net, start, size: self.size }
     }
 
     /// Where a nearly linear piece is met, if within its bounds as far as rounding tells: Newton's steps,
@@ -297,7 +298,11 @@ impl Local for BicubicPatch {
             let piece = &self.pieces[number];
             Piece { net: piece.net.map(seen), ..*piece }
         };
-        while let Some(piece) = pieces.pop().or_else(|| near.pop().map(&placed)) {
+        loop {
+            if pieces.is_empty() {
+                pieces.extend(near.pop().map(&placed));
+            }
+            let Some(piece) = pieces.last_mut() else { break };
             count += 1;
             if count > MOST_PIECES {
                 break;
@@ -309,18 +314,22 @@ impl Local for BicubicPatch {
                     let new = root.filter(|root| !roots.iter().any(|other| other.is(root)));
                     roots.extend(new);
                 }
+                // The halves are looked at where they lie: they are large.
                 Seen::Bent => {
-                    pieces.extend(piece.halves(|step| step.x.abs().max(step.y.abs())));
+                    let second = piece.halve(|step| step.x.abs().max(step.y.abs()));
+                    pieces.push(second);
+                    continue;
                 }
                 // It is grazed, or met at a tip.
                 Seen::Point => {
-                    if let Some(edge) = self.tip_of(&piece)
+                    if let Some(edge) = self.tip_of(piece)
                         && !std::mem::replace(&mut tips[edge], true)
                     {
-                        roots.push(self.at_tip(ray, &piece, off));
+                        roots.push(self.at_tip(ray, piece, off));
                     }
                 }
             }
+            pieces.pop();
         }
         found.extend(roots.into_iter().map(|root| root.met));
         found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));

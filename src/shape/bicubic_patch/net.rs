@@ -55,30 +55,32 @@ impl Net {
     }
 
     pub fn map(&self, f: impl Fn(Vector) -> Vector) -> Self {
-        Self(self.0.map(f))
+        let mut mapped = *self;
+        mapped.0.iter_mut().for_each(|point| *point = f(*point));
+        mapped
     }
 
-    /// The same with u and v exchanged.
-    pub fn turned(&self) -> Self {
-        Self(std::array::from_fn(|i| self.0[4 * (i % 4) + i / 4]))
+    /// Keeps the part for the lower half of u, and gives that for the upper.
+    pub fn halve_along_u(&mut self) -> Self {
+        self.halve(|line, i| 4 * line + i)
     }
 
-    /// The part for the lower half of u, and that for the upper.
-    pub fn halves_along_u(&self) -> (Self, Self) {
-        let (mut low, mut high) = (*self, *self);
-        for row in 0..4 {
-            let points = std::array::from_fn(|i| self.0[4 * row + i]);
-            let (first, second) = halves(points);
-            low.0[4 * row..4 * row + 4].copy_from_slice(&first);
-            high.0[4 * row..4 * row + 4].copy_from_slice(&second);
+    /// As [`Self::halve_along_u`].
+    pub fn halve_along_v(&mut self) -> Self {
+        self.halve(|line, i| 4 * i + line)
+    }
+
+    /// Each of four lines in halves, the i-th point of which is `at(line, i)`.
+    fn halve(&mut self, at: impl Fn(usize, usize) -> usize) -> Self {
+        let mut high = *self;
+        for line in 0..4 {
+            let (first, second) = halves(std::array::from_fn(|i| self.0[at(line, i)]));
+            for i in 0..4 {
+                self.0[at(line, i)] = first[i];
+                high.0[at(line, i)] = second[i];
+            }
         }
-        (low, high)
-    }
-
-    /// As [`Self::halves_along_u`].
-    pub fn halves_along_v(&self) -> (Self, Self) {
-        let (low, high) = self.turned().halves_along_u();
-        (low.turned(), high.turned())
+        high
     }
 
     /// What spans the derivative along u.
@@ -124,14 +126,14 @@ impl Net {
         let (hull, mut found) = value(self);
         let (mut pieces, mut greatest) = (vec![(*self, hull, 0)], f64::NEG_INFINITY);
         let mut count = 0;
-        while let Some((net, hull, depth)) = pieces.pop() {
+        while let Some((mut net, hull, depth)) = pieces.pop() {
             count += 1;
             if hull <= found + enough || count > MOST {
                 greatest = greatest.max(hull);
                 continue;
             }
-            let (a, b) = if depth % 2 == 0 { net.halves_along_u() } else { net.halves_along_v() };
-            for half in [a, b] {
+            let high = if depth % 2 == 0 { net.halve_along_u() } else { net.halve_along_v() };
+            for half in [net, high] {
                 let (hull, corner) = value(&half);
                 found = found.max(corner);
                 pieces.push((half, hull, depth + 1));

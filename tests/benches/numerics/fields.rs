@@ -13,9 +13,10 @@ use lucarne::math::terms::exponents;
 use lucarne::math::{Matrix, Vector};
 use lucarne::shape::curve::{Outline, Piece, Point};
 use lucarne::shape::isosurface::{Cells, Container};
+use lucarne::shape::julia_fractal::Algebra;
 use lucarne::shape::{
-    Algebraic, Blob, Body, Isosurface, Lathe, Ovus, Prism, Sor, SphereSweep, Superellipsoid, blob,
-    sor, sweep,
+    Algebraic, Blob, Body, Isosurface, JuliaFractal, Lathe, Ovus, Prism, Sor, SphereSweep,
+    Superellipsoid, blob, sor, sweep,
 };
 
 use crate::bodies::Form;
@@ -495,6 +496,49 @@ impl Field for Bone {
             }
         };
         bar(&JOINTS[..2]).min(bar(&JOINTS[1..]))
+    }
+}
+
+/// Three steps of h² + p among quaternions.
+pub struct Rabbit;
+
+impl Rabbit {
+    const PARAMETER: [f64; 4] = [-0.2, 0.4, 0.1, 0.0];
+    const STEPS: u32 = 3;
+}
+
+impl Field for Rabbit {
+    const REACH: f64 = 1.5;
+
+    fn body() -> Option<Body> {
+        Some(Body::JuliaFractal(JuliaFractal {
+            parameter: Self::PARAMETER,
+            algebra: Algebra::Quaternion { is_cube: false },
+            iterations: Self::STEPS,
+            normal: [0.0, 0.0, 0.0, 1.0],
+            distance: 0.0,
+        }))
+    }
+    fn value<N: Number>([x, y, z]: &[N; 3]) -> N {
+        let mut h = [x.clone(), y.clone(), z.clone(), N::of(0.0)];
+        let squared = |h: &[N; 4]| {
+            let [a, b, c, d] = h.clone().map(N::square);
+            a + b + c + d
+        };
+        let p = Self::PARAMETER;
+        let radius = N::of(1.0) + squared(&p.map(N::of)).sqrt();
+        let beyond = |h: &[N; 4]| squared(h) - radius.clone().square();
+        let mut farthest = beyond(&h);
+        for _ in 1..Self::STEPS {
+            let [a, b, c, d] = h.clone();
+            let real =
+                a.clone().square() - b.clone().square() - c.clone().square() - d.clone().square();
+            let twice = N::of(2.0) * a;
+            h = [real, twice.clone() * b, twice.clone() * c, twice * d];
+            h = std::array::from_fn(|i| h[i].clone() + N::of(p[i]));
+            farthest = farthest.max(beyond(&h));
+        }
+        farthest
     }
 }
 

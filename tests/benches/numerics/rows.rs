@@ -4,7 +4,7 @@
 pub const HEADER: &str = "| what | distance | f32: wrong | error | ns | f64: wrong | error | ns | ours: wrong | error | bound | share | ns | × |";
 
 /// Each kernel, and the distances from which it is tried.
-pub const ROWS: [(&str, &[f64]); 30] = [
+pub const ROWS: [(&str, &[f64]); 31] = [
     (SPHERE, FAR),
     (PLANET, &[1e4, 1e6, 1e8, 1e10, 1e12]),
     (PLANE, FAR),
@@ -29,6 +29,7 @@ pub const ROWS: [(&str, &[f64]); 30] = [
     (SPHERE_SWEEP, FAR),
     (SUPERELLIPSOID, FAR),
     (ISOSURFACE, FAR),
+    (JULIA_FRACTAL, FAR),
     (PARAMETRIC, FAR),
     (WHOLE, FAR),
     (SPHERE_SINGLE, NEAR),
@@ -60,6 +61,7 @@ pub const OVUS: &str = "ovus";
 pub const BLOB: &str = "blob";
 pub const SPHERE_SWEEP: &str = "sphere_sweep";
 pub const SUPERELLIPSOID: &str = "superellipsoid";
+pub const JULIA_FRACTAL: &str = "julia_fractal";
 pub const ISOSURFACE: &str = "isosurface";
 pub const PARAMETRIC: &str = "parametric";
 pub const WHOLE: &str = "difference";

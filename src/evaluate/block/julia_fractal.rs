@@ -1,0 +1,171 @@
+//! `julia_fractal`: its parameter, the algebra and the function that are repeated, and the slice.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{JuliaFractal, Solid};
+use crate::syntax::ast::{Callee, ExpressionKind};
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Outcome, Reported};
+use super::Given;
+
+impl Evaluator<'_> {
+    /// `<x, y, z, w>` first, then the other items, in any order.
+    pub(super) fn julia_fractal(&mut self, token: &Token) -> Outcome<Solid> {
+        // What follows is read for its own mistakes.
+        let parameter = self.four_after(token, "a vector of four for the parameter");
+        let mut fractal = JuliaFractal::default();
+        // The function as it was written: quaternions know two.
+        let mut function = None;
+        let mut failed = false;
+        loop {
+            self.skip_commas();
+            let Some(next) = self.peek().cloned() else { break };
+            let word = match &next.kind {
+                TokenKind::Word(word) => *word,
+                TokenKind::Expression(id) => match next.here.unit.expression(*id).kind {
+                    ExpressionKind::Call(Callee::Word(Word::Pwr, _), list) => {
+                        self.next();
+                        let powers = self.numbers_of(&next.here, list);
+                        failed |= powers.is_err();
+                        if let Ok(powers) = powers {
+                            failed |= self.power(&next, &powers, &mut fractal).is_err();
+                        }
+                        function = Some((Word::Pwr, next));
+                        continue;
+                    }
+                    _ => break,
+                },
+                _ => break,
+            };
+            let is_item = is_function(word)
+                || matches!(
+                    word,
+                    Word::Quaternion
+                        | Word::Hypercomplex
+                        | Word::MaxIteration
+                        | Word::Precision
+                        | Word::Slice
+                );
+            if !is_item {
+                break;
+            }
+            let Some(item) = self.next() else { break };
+            let outcome = match word {
+                Word::Quaternion | Word::Hypercomplex => {
+                    fractal.hypercomplex = word == Word::Hypercomplex;
+                    Ok(())
+                }
+                Word::MaxIteration => {
+                    self.iterations(&item).map(|iterations| fractal.iterations = iterations)
+                }
+                // Every crossing is found as exactly as rounding allows.
+                Word::Precision => self.more_than_zero(&item, Word::Precision).map(drop),
+                Word::Slice => self.slice(&item, &mut fractal),
+                _ => {
+                    fractal.function = word;
+                    function = Some((word, item));
+                    Ok(())
+                }
+            };
+            failed |= outcome.is_err();
+        }
+        if failed {
+            return Err(Reported);
+        }
+        if let Some((word, item)) = function
+            && !fractal.hypercomplex
+            && !matches!(word, Word::Sqr | Word::Cube)
+        {
+            let message = format!("quaternions have no `{}` here", word.name());
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(item.span, "expected `sqr` or `cube`")
+                .help("write `hypercomplex` beside it: those numbers have this function");
+            return Err(self.report(&item.here, diagnostic));
+        }
+        fractal.parameter = parameter?.value;
+        Ok(Solid::JuliaFractal(Box::new(fractal)))
+    }
+
+    /// `pwr(x, y)`: to the power of x + y·i.
+    fn power(&mut self, token: &Token, powers: &[f64], fractal: &mut JuliaFractal) -> Outcome<()> {
+        let &[x, y] = powers else {
+            let message = format!("`pwr` takes 2 numbers, not {}", powers.len());
+            let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                .at(token.span, "expected `pwr(x, y)`")
+                .help("the power is x + y·i");
+            return Err(self.report(&token.here, diagnostic));
+        };
+        (fractal.function, fractal.power) = (Word::Pwr, [x, y]);
+        Ok(())
+    }
+
+    fn iterations(&mut self, item: &Token) -> Outcome<u32> {
+        const MOST: f64 = u32::MAX as f64;
+        let given = self.number_after(item, "a whole number")?;
+        match given.value.trunc() {
+            count if (1.0..=MOST).contains(&count) => Ok(count as u32),
+            _ => Err(self.out_of_range(&given, Word::MaxIteration, "1 or more")),
+        }
+    }
+
+    /// The normal of the three dimensions that are seen, and how far they are from the origin along it.
+    fn slice(&mut self, item: &Token, fractal: &mut JuliaFractal) -> Outcome<()> {
+        let normal = self.four_after(item, "a vector of four for the normal")?;
+        let distance = self.number_after(item, "a number for the distance")?;
+        if normal.value[3] == 0.0 {
+            let message = "the normal of this slice has no fourth component";
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(normal.span, "expected a last component other than 0")
+                .help("x, y and z of the scene are the first three; the slice gives the fourth");
+            return Err(self.report(&normal.here, diagnostic));
+        }
+        (fractal.normal, fractal.distance) = (normal.value, distance.value);
+        Ok(())
+    }
+
+    /// Four numbers; of a shorter vector the others are 0, and a number is all four.
+    fn four_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<[f64; 4]>> {
+        let given = self.given(after, wanted)?;
+        let numbers = given.value.numbers().map(|numbers| numbers.as_slice().to_vec());
+        match numbers.as_deref() {
+            Some([number]) => Ok(given.with([*number; 4])),
+            Some(some) if some.len() <= 4 => {
+                let four = std::array::from_fn(|i| some.get(i).copied().unwrap_or(0.0));
+                Ok(given.with(four))
+            }
+            Some(some) => {
+                let message = format!("expected {wanted}, found one of {}", some.len());
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(given.span, "expected `<x, y, z, w>`");
+                Err(self.report(&given.here, diagnostic))
+            }
+            None => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
+        }
+    }
+}
+
+/// What may be repeated.
+fn is_function(word: Word) -> bool {
+    use Word as W;
+    matches!(
+        word,
+        W::Sqr
+            | W::Cube
+            | W::Exp
+            | W::Reciprocal
+            | W::Sin
+            | W::Asin
+            | W::Sinh
+            | W::Asinh
+            | W::Cos
+            | W::Acos
+            | W::Cosh
+            | W::Acosh
+            | W::Tan
+            | W::Atan
+            | W::Tanh
+            | W::Atanh
+            | W::Ln
+    )
+}

@@ -1,0 +1,117 @@
+//! Orbits: what becomes of a number of four components when one map is done again and again, and how that
+//! changes along ways from where it began.
+//!
+//! **Invariant:** every step holds what it is for each number of the ball that it began with.
+
+use super::ball::{Ball, symmetric};
+use super::function::Function;
+use crate::math::interval::Interval;
+use crate::shape::U;
+
+/// How many ways from the start are followed: along a line one, for the gradient three.
+pub trait Orbit<const K: usize>: Copy {
+    /// The square of the norm, and its slopes along the ways; `None` where nothing is known.
+    fn squared(&self) -> Option<(Interval, [Interval; K])>;
+
+    /// After the map.
+    fn next(&self) -> Self;
+}
+
+/// h² + p or h³ + p of quaternions.
+#[derive(Debug, Clone, Copy)]
+pub struct Quaternion<const K: usize> {
+    pub h: Ball<4>,
+    pub slopes: [Ball<4>; K],
+    pub parameter: Ball<4>,
+    pub is_cube: bool,
+}
+
+impl<const K: usize> Orbit<K> for Quaternion<K> {
+    fn squared(&self) -> Option<(Interval, [Interval; K])> {
+        let squared = self.h.squared();
+        let is_known = self.h.radius.is_finite() && squared.is_finite();
+        is_known.then(|| (squared, self.slopes.map(|slope| twice(self.h.dot(&slope)))))
+    }
+
+    fn next(&self) -> Self {
+        let Self { h, slopes, parameter, is_cube } = *self;
+        match is_cube {
+            false => {
+                let size = h.size();
+                let slopes = slopes
+                    .map(|slope| Ball::both_ways((&h, size), (&slope, slope.size()), symmetric));
+                // Twice the square: halving is exact.
+                let twice = Ball::both_ways((&h, size), (&h, size), symmetric);
+                let square = Ball::new(twice.middle.map(|part| 0.5 * part), 0.5 * twice.radius);
+                Self { h: square + parameter, slopes, ..*self }
+            }
+            true => {
+                let square = h * h;
+                let slopes = slopes.map(|slope| square * slope + h * slope * h + slope * square);
+                Self { h: square * h + parameter, slopes, ..*self }
+            }
+        }
+    }
+}
+
+/// f(h) + p of hypercomplex numbers: two complex numbers each on its own.
+///
+/// **Source:** G. Price, *An Introduction to Multicomplex Spaces and Functions* (1991), chapter 1 (the
+/// idempotent representation).
+#[derive(Debug, Clone, Copy)]
+pub struct Hypercomplex<const K: usize> {
+    pub halves: [Half<K>; 2],
+    pub function: Function,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct Half<const K: usize> {
+    h: Ball<2>,
+    slopes: [Ball<2>; K],
+    parameter: Ball<2>,
+}
+
+impl<const K: usize> Hypercomplex<K> {
+    pub fn new(h: Ball<4>, slopes: [Ball<4>; K], parameter: Ball<4>, function: Function) -> Self {
+        let halves = [1.0, -1.0].map(|sign| Half {
+            h: half(h, sign),
+            slopes: slopes.map(|slope| half(slope, sign)),
+            parameter: half(parameter, sign),
+        });
+        Self { halves, function }
+    }
+}
+
+/// Of x + iy + jz + kw, where ij = k and i² = j² = −1 = −k²: (x ∓ w) + (y ± z)i.
+fn half(number: Ball<4>, sign: f64) -> Ball<2> {
+    let [x, y, z, w] = number.middle;
+    // Each component adds two: the farthest that both can go is √2 times the radius.
+    let moved = Ball::new([x, y], std::f64::consts::SQRT_2 * number.radius * (1.0 + 4.0 * U));
+    moved + Ball::point([-sign * w, sign * z])
+}
+
+impl<const K: usize> Orbit<K> for Hypercomplex<K> {
+    /// Half the sum of the halves' squares.
+    fn squared(&self) -> Option<(Interval, [Interval; K])> {
+        let [a, b] = &self.halves;
+        let sum = a.h.squared() + b.h.squared();
+        let is_known = a.h.radius.is_finite() && b.h.radius.is_finite() && sum.is_finite();
+        is_known.then(|| {
+            let slopes =
+                std::array::from_fn(|way| a.h.dot(&a.slopes[way]) + b.h.dot(&b.slopes[way]));
+            (Interval { low: 0.5 * sum.low, high: 0.5 * sum.high }, slopes)
+        })
+    }
+
+    fn next(&self) -> Self {
+        let halves = self.halves.map(|Half { h, slopes, parameter }| {
+            let (value, derivative) = self.function.of(h);
+            Half { h: value + parameter, slopes: slopes.map(|slope| derivative * slope), parameter }
+        });
+        Self { halves, ..*self }
+    }
+}
+
+fn twice(Interval { low, high }: Interval) -> Interval {
+    Interval { low: 2.0 * low, high: 2.0 * high }
+}
