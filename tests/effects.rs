@@ -300,7 +300,7 @@ sphere { 0, 1 no_shadow }";
             BARE,
             "plane { y, 0 pigment { checker rgb 1 rgb 0 } finish { diffuse 0 } }",
             Effect::Patterns,
-            "checker",
+            "checker rgb 1",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),

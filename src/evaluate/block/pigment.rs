@@ -39,7 +39,7 @@ fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
     }
 }
 
-/// The colours of `checker`, what makes them clear, and what makes them two, if that is not all of it.
+/// The colours of `checker`, what makes them clear, and without what one is left, if not without all of it.
 struct Pair {
     colors: [Color; 2],
     clear: Vec<Site>,
@@ -82,6 +82,13 @@ impl Evaluator<'_> {
     /// Puts the colours of a map over the values of the pigment's pattern.
     fn paint(&mut self, pigment: &mut Pigment, given: ColorMap, token: &Token) -> Outcome<()> {
         match &mut pigment.kind {
+            PigmentKind::Patterned { pattern: Pattern::Checker, .. } => {
+                let message = "`checker` takes two colours, and no `color_map`";
+                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                    .at(token.span, "its values are two, with nothing between them")
+                    .help("write the colours behind it: `checker rgb 0, rgb 1`");
+                Err(self.report(&token.here, diagnostic))
+            }
             PigmentKind::Patterned { map, .. } => {
                 *map = given;
                 Ok(())
@@ -296,9 +303,13 @@ impl Evaluator<'_> {
         let mut clear = Vec::new();
         let mut said: Vec<WrittenColor> = Vec::new();
         let mut given = 0;
+        // All before the last colour.
+        let mut lead = self.whole(token);
         for color in &mut colors {
+            let before = self.whole(token);
             self.skip_commas();
             if self.at_color() {
+                lead = before;
                 let first = self.peek().cloned();
                 let written = self.written_color_after(token, "a colour")?.value;
                 *color = written.color();
@@ -338,17 +349,16 @@ impl Evaluator<'_> {
         if given == 1 && self.poison.is_none() {
             self.lint_missing_color(token);
         }
-        let pattern = match said.as_slice() {
-            // They are pigments by themselves.
-            [_, ..] if said.len() == given && !said.iter().any(|color| color.bare) => {
-                Some(vec![token.here.site(token.span)])
-            }
+        let alike = match said.as_slice() {
             [first, second] => {
                 let like = |color: Color| move |other: Color| other == color;
                 second.without(like(colors[0])).or_else(|| first.without(like(colors[1])))
             }
             _ => None,
         };
+        // A colour is a pigment by itself.
+        let last = said.last().filter(|last| said.len() == given && !last.bare);
+        let pattern = alike.or(last.map(|_| vec![lead]));
         Ok(Pair { colors, clear, pattern })
     }
 }
