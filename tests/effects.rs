@@ -28,6 +28,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     adc_bailout: None,
     precision: lucarne::plan::Precision::Double,
     root_tolerance: 0.0,
+    julia_iterations: None,
 };
 
 /// Files as they lie on disk, or are built in, but for those that were changed here.

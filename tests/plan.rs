@@ -53,6 +53,9 @@ fn written(plan: &Value) -> String {
     if tolerance > 0.0 {
         out += &format!("root_tolerance {tolerance}\n");
     }
+    if let Some(most) = plan["julia_iterations"].as_u64() {
+        out += &format!("julia_iterations {most}\n");
+    }
     assert_eq!(list(&plan["kernels_compiled"]).len(), 4);
     let rays = match text(&plan["kernel"]) {
         "bare" => "the camera's alone",
@@ -243,6 +246,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         "scenes/seed/mirror.scene --precision single".to_owned(),
         "tests/cases/glass.scene".to_owned(),
         "scenes/shapes/torus.scene --root-tolerance 1e-4".to_owned(),
+        "scenes/shapes/julia_fractal.scene --julia-iterations 2 --size 16x12".to_owned(),
         format!("{hard} --precision single --size 640x480"),
     ] {
         let said = plan(&words);

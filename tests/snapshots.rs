@@ -19,6 +19,7 @@ const PLAN: PlanOptions = PlanOptions {
     adc_bailout: None,
     precision: lucarne::plan::Precision::Double,
     root_tolerance: 0.0,
+    julia_iterations: None,
 };
 
 fn stages(name: &str, text: &str) -> String {

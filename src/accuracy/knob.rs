@@ -20,8 +20,7 @@ pub struct Knob {
     /// From coarse to fine, rising or falling; that is from cheap to dear, but for `precision`, whose
     /// coarse setting costs more. A report has them in the order of what they cost there.
     pub settings: &'static [f64],
-    /// Whether the scene's own value may stand between them; else it is one of them.
-    pub between: bool,
+    pub own: Own,
     pub set: fn(&mut PlanOptions, f64),
     pub get: fn(&PlanOptions) -> f64,
     /// The least a setting can cost, in camera rays a pixel.
@@ -31,6 +30,17 @@ pub struct Knob {
     pub label: fn(f64) -> String,
     /// The flag of `render` that sets it.
     pub flag: fn(f64) -> String,
+}
+
+/// Where the scene's own value stands among the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Own {
+    /// It is one of them.
+    Among,
+    /// It may stand between them.
+    Between,
+    /// It is the finest, whatever they are: none beyond it changes anything.
+    Last,
 }
 
 /// What a scene must call for.
@@ -44,6 +54,8 @@ pub enum Need {
     SinglePrecision,
     /// A solid whose crossings are found by steps that come nearer and nearer.
     IteratedRoots,
+    /// A fractal of some iterations.
+    Fractals,
 }
 
 impl Need {
@@ -53,6 +65,7 @@ impl Need {
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
             Self::SinglePrecision => world.objects.iter().any(Object::has_single_kernel),
             Self::IteratedRoots => world.has_iterated_roots(),
+            Self::Fractals => world.julia_iterations().is_some(),
         }
     }
 }
@@ -64,7 +77,7 @@ pub const KNOBS: &[Knob] = &[
         needs: Need::Edges,
         idle: "there is nothing to see",
         settings: &RUNGS,
-        between: false,
+        own: Own::Among,
         set: |options, place| options.antialias = rung(place),
         get: |options| {
             LADDER.iter().position(|&rung| rung == options.antialias).unwrap_or(0) as f64
@@ -94,7 +107,7 @@ pub const KNOBS: &[Knob] = &[
         needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
         idle: "no surface reflects or is clear",
         settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
-        between: true,
+        own: Own::Between,
         set: |options, depth| options.depth = Some(depth as u32),
         get: |options| options.depth.map_or(0.0, f64::from),
         least: |_| 1.0,
@@ -107,7 +120,7 @@ pub const KNOBS: &[Knob] = &[
         needs: Need::Effect(&[Effect::Reflection, Effect::Transparency]),
         idle: "no surface reflects or is clear",
         settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
-        between: true,
+        own: Own::Between,
         set: |options, weight| options.adc_bailout = Some(weight),
         get: |options| options.adc_bailout.unwrap_or(0.0),
         least: |_| 1.0,
@@ -120,7 +133,7 @@ pub const KNOBS: &[Knob] = &[
         needs: Need::SinglePrecision,
         idle: "no object has a kernel for single precision",
         settings: &[0.0, 1.0],
-        between: false,
+        own: Own::Among,
         set: |options, double| options.precision = PRECISIONS[usize::from(double > 0.0)],
         get: |options| f64::from(u8::from(options.precision == Precision::Double)),
         least: |_| 1.0,
@@ -133,7 +146,7 @@ pub const KNOBS: &[Knob] = &[
         needs: Need::IteratedRoots,
         idle: "no solid's crossings are found by steps that come nearer and nearer",
         settings: &[1e-2, 1e-4, 1e-6, 0.0],
-        between: false,
+        own: Own::Among,
         set: |options, tolerance| options.root_tolerance = tolerance,
         get: |options| options.root_tolerance,
         least: |_| 1.0,
@@ -147,6 +160,20 @@ pub const KNOBS: &[Knob] = &[
             0.0 => "--root-tolerance 0".to_owned(),
             tolerance => format!("--root-tolerance {tolerance:e}"),
         },
+    },
+    Knob {
+        name: "julia-iterations",
+        needs: Need::Fractals,
+        idle: "there is no julia_fractal",
+        settings: &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0],
+        own: Own::Last,
+        set: |options, most| options.julia_iterations = Some(most as u32),
+        get: |options| options.julia_iterations.map_or(0.0, f64::from),
+        least: |_| 1.0,
+        // Their price is counted with the equations.
+        factor: |_| 1.0,
+        label: |most| format!("{most}"),
+        flag: |most| format!("--julia-iterations {most}"),
     },
 ];
 
@@ -221,11 +248,14 @@ impl Knob {
     /// The settings, with the scene's `own` among them: each once, from coarse to fine.
     pub fn with(&self, own: f64) -> Vec<f64> {
         let mut all = self.settings.to_vec();
-        if self.between && !all.contains(&own) {
-            let rising = all.first() < all.last();
-            let dearer = |&setting: &f64| if rising { setting > own } else { setting < own };
-            let place = all.iter().position(dearer).unwrap_or(all.len());
+        let rising = all.first() < all.last();
+        let dearer = |&setting: &f64| if rising { setting > own } else { setting < own };
+        let place = all.iter().position(dearer).unwrap_or(all.len());
+        if self.own != Own::Among && !all.contains(&own) {
             all.insert(place, own);
+        }
+        if self.own == Own::Last {
+            all.retain(|setting| !dearer(setting));
         }
         all
     }
@@ -287,10 +317,10 @@ mod tests {
     #[test]
     fn the_cheapest_setting_costs_least_and_the_last_is_the_finest() {
         let cheapest: Vec<String> = KNOBS.iter().map(|k| (k.label)(k.cheapest())).collect();
-        assert_eq!(cheapest, ["off", "1", "1/10", "double", "1e-2"]);
+        assert_eq!(cheapest, ["off", "1", "1/10", "double", "1e-2", "1"]);
         let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
         let finest: Vec<String> = KNOBS.iter().map(finest).collect();
-        assert_eq!(finest, ["32×32", "250", "1e-6", "double", "all digits"]);
+        assert_eq!(finest, ["32×32", "250", "1e-6", "double", "all digits", "20"]);
     }
 
     #[test]
@@ -299,6 +329,11 @@ mod tests {
         assert_eq!(depth.with(7.0)[3..6], [5.0, 7.0, 10.0]);
         assert_eq!(depth.with(5.0), depth.settings);
         assert_eq!(depth.with(999.0).last(), Some(&999.0));
+        let fractal = KNOBS.iter().find(|knob| knob.name == "julia-iterations").expect("a knob");
+        assert_eq!(fractal.with(5.0), [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(fractal.with(2.0), [1.0, 2.0]);
+        assert_eq!(fractal.with(1.0), [1.0]);
+        assert_eq!(fractal.with(50.0).last(), Some(&50.0));
         let cut = KNOBS.iter().find(|knob| knob.name == "adc-bailout").expect("a knob");
         assert_eq!(cut.with(0.05)[..3], [0.1, 0.05, 1.0 / 64.0]);
         assert_eq!((cut.label)(1.0 / 255.0), "1/255");

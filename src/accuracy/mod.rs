@@ -90,6 +90,7 @@ fn own(world: &World, frame: Frame) -> PlanOptions {
     PlanOptions {
         depth: Some(world.settings.max_trace_level),
         adc_bailout: Some(world.settings.adc_bailout),
+        julia_iterations: world.julia_iterations(),
         ..PlanOptions::new(frame)
     }
 }

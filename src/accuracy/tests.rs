@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::knob::Own;
 use super::reference::clamped;
 use super::statistics::Deviation;
 use super::table::Width;
@@ -154,7 +155,7 @@ const PLANTED: Knob = Knob {
     needs: Need::Effect(&[Effect::Antialiasing]),
     idle: "nothing ever calls for it",
     settings: &[1.0, 2.0, 3.0],
-    between: false,
+    own: Own::Among,
     set: |_, _| (),
     get: |_| 2.0,
     least: |_| 1.0,
@@ -202,6 +203,8 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     assert_eq!(names(&cut), ["antialias", "root-tolerance"]);
     let ring = format!("{PLAIN} {torus}");
     assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);
+    let fractal = format!("{lit} julia_fractal {{ 0.1 max_iteration 5 pigment {{ rgb 1 }} }}");
+    assert_eq!(names(&fractal), ["antialias", "root-tolerance", "julia-iterations"]);
     // A sky, and nothing that a ray could meet.
     assert_eq!(names("camera { } background { rgb 0.5 }"), [""; 0]);
     let sky = "camera { } sky_sphere { pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
@@ -451,4 +454,22 @@ fn balanced(svg: &str) {
         }
     }
     assert!(open.is_empty(), "{open:?}");
+}
+
+#[test]
+fn a_fractal_of_fewer_iterations_is_what_it_is_with_fewer_written() {
+    let picture = |written: u32, most: Option<u32>| {
+        let scene = format!(
+            "camera {{ location 4*z look_at 0 }} light_source {{ 9, rgb 1 }}
+            julia_fractal {{ <-0.083, 0, -0.83, -0.025> max_iteration {written} pigment {{ rgb 1 }} }}"
+        );
+        let (world, origins) = compiled(&scene, 0.0);
+        let frame = Frame::whole(24, 18);
+        let antialias = Antialias::Off;
+        let options = PlanOptions { antialias, julia_iterations: most, ..PlanOptions::new(frame) };
+        trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched).film
+    };
+    assert_eq!(picture(5, Some(2)), picture(2, None));
+    assert_eq!(picture(5, Some(9)), picture(5, None));
+    assert_ne!(picture(5, Some(2)), picture(5, None));
 }

@@ -73,14 +73,14 @@ pub struct RenderArguments {
     /// had no part in the choice, and exit with 5 if it cannot be
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "time_budget"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations", "time_budget"])]
     pub max_error: Option<f64>,
     /// Make the best picture there is time for (500ms, 60s, 5m; a number alone is seconds), and say how
     /// far off it is; exit with 4 if not even one ray a pixel fits, and with 5 if there is no time to
     /// find out how far off it is
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations"])]
     pub time_budget: Option<f64>,
     /// What `--max-error` and `--time-budget` call an error
     #[arg(long, value_enum, default_value_t, value_name = "METRIC", requires = "promise")]
@@ -276,6 +276,9 @@ pub struct PictureArguments {
     #[arg(long, value_name = "T", value_parser = tolerance, default_value = "0")]
     #[arg(allow_negative_numbers = true)]
     root_tolerance: f64,
+    /// How many iterations of a julia_fractal are looked at, where it has more
+    #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
+    julia_iterations: Option<u32>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -326,12 +329,20 @@ impl PictureArguments {
 
     /// What is asked of the plan.
     pub fn options(&self, frame: Frame) -> PlanOptions {
-        let Self { antialias, depth, adc_bailout, precision, root_tolerance, .. } = *self;
-        let precision = match precision {
+        let Self { antialias, depth, adc_bailout, root_tolerance, julia_iterations, .. } = *self;
+        let precision = match self.precision {
             PrecisionArgument::Single => Precision::Single,
             PrecisionArgument::Double => Precision::Double,
         };
-        PlanOptions { frame, antialias, depth, adc_bailout, precision, root_tolerance }
+        PlanOptions {
+            frame,
+            antialias,
+            depth,
+            adc_bailout,
+            precision,
+            root_tolerance,
+            julia_iterations,
+        }
     }
 }
 

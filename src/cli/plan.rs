@@ -51,6 +51,7 @@ struct Report<'a> {
     adc_bailout: f64,
     precision: &'a str,
     root_tolerance: f64,
+    julia_iterations: Option<u32>,
     kernel: &'a str,
     kernels_compiled: Vec<&'a str>,
     effects: Vec<Row<'a>>,
@@ -215,6 +216,7 @@ impl<'a> Report<'a> {
                 Precision::Double => "double",
             },
             root_tolerance: plan.root_tolerance,
+            julia_iterations: plan.julia_iterations,
             kernel: plan.kernel.name(),
             kernels_compiled: Kernel::ALL
                 .into_iter()

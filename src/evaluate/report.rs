@@ -362,7 +362,6 @@ fn what_is_not_built(word: Word) -> String {
     match word {
         Word::Texture => "layered textures are".to_owned(),
         Word::Component => "textures of their own for parts of a blob are".to_owned(),
-        Word::TextureList => "textures of their own for faces of a mesh are".to_owned(),
         Word::Diffuse => "light that a surface scatters from behind is".to_owned(),
         Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Pigment => "patterns in a pattern are".to_owned(),

@@ -270,10 +270,15 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
 
 /// What the faces are painted with.
 fn skin(triangles: &Triangles) -> Skin {
-    let Triangles { faces, uvs, .. } = triangles;
+    let Triangles { faces, uvs, textures, .. } = triangles;
     let mut skin = Skin::default();
     if faces.iter().any(|face| face.paint.is_some()) {
-        skin.paint = faces.iter().map(|face| face.paint.unwrap_or(Skin::BARE)).collect();
+        // Behind the mesh's own textures comes what it is painted with itself.
+        let bare = match textures.len() {
+            0 => Skin::BARE,
+            count => [count as u32; 3],
+        };
+        skin.paint = faces.iter().map(|face| face.paint.unwrap_or(bare)).collect();
     }
     if faces.iter().any(|face| face.uvs.is_some()) {
         skin.places = faces.iter().map(|face| face.uvs.unwrap_or(Skin::BARE)).collect();

@@ -10,6 +10,7 @@ mod body;
 mod camera;
 mod coinciding;
 mod csg;
+mod faces;
 mod finish;
 mod interior;
 mod light;

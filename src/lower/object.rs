@@ -306,6 +306,7 @@ impl<'s> Lowering<'s, '_> {
             Solid::Triangles { ref triangles, .. } => {
                 // Those of a file may be named in many places.
                 let id = *self.meshes.entry(Arc::as_ptr(triangles)).or_insert(id);
+                let here = &here.of_faces(self.scene, triangles);
                 self.place_stored(id, || body::mesh(triangles), here, site)
             }
             Solid::Blob(ref written) => {

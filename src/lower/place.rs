@@ -62,7 +62,7 @@ impl Lowering<'_, '_> {
         let surface = &here.surface;
         let material = match here.hidden_by {
             Some(_) => self.bare_material(),
-            None => self.seen_material(surface, site),
+            None => self.seen_material(surface, site)?,
         };
         let texture_from_world = self.texture_map(surface, material)?;
         let faces = match faces {
@@ -71,7 +71,9 @@ impl Lowering<'_, '_> {
         };
         self.note_near_singular(here, site);
         if object.casts_shadow {
-            self.note_filter(material, surface.pigment);
+            for (pigment, _) in surface.all(self.scene) {
+                self.note_filter(material, pigment);
+            }
         }
         let interior = self.interior(here.interior, surface.finish, site);
         let whole = self.leaf(inverse);
@@ -82,14 +84,17 @@ impl Lowering<'_, '_> {
     }
 
     /// The material of an object that something may see.
-    pub(super) fn seen_material(&mut self, surface: &Surface, site: Site) -> u32 {
-        let material = self.material(surface.pigment, surface.finish, site);
+    pub(super) fn seen_material(&mut self, surface: &Surface, site: Site) -> Result<u32, Fault> {
+        let material = match &surface.faces {
+            None => self.material(surface.pigment, surface.finish, site),
+            Some(_) => self.material_of_faces(surface)?,
+        };
         let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
         // What mirrors is seen by what it mirrors.
         if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
             self.unpainted.entry(site.span).or_insert(site);
         }
-        material
+        Ok(material)
     }
 
     /// A part is seen and casts shadows as the whole does, whatever it says itself.

@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::finish::{BARE, lower_finish};
 use super::shape::LocalFace;
@@ -17,6 +18,7 @@ use crate::math::UnitVector;
 use crate::math::double::Double;
 use crate::math::placement::Map;
 use crate::pattern::Pattern;
+use crate::scene::mesh::Triangles;
 use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
 use crate::source::{Site, Span};
 use crate::world::{
@@ -53,11 +55,13 @@ pub struct Surface {
     pub pigment: PigmentId,
     pub finish: FinishId,
     /// Shared by all that take the surface as it is.
-    places: Rc<Places>,
+    pub(super) places: Rc<Places>,
+    /// The mesh whose faces have textures themselves.
+    pub faces: Option<Arc<Triangles>>,
 }
 
 #[derive(Debug, Clone)]
-struct Places {
+pub(super) struct Places {
     /// Where the pattern stands, in the space of whoever holds the surface.
     place: Affine,
     /// Where it stood when the pigment was set, and the way there from the space of the solid:
@@ -82,7 +86,7 @@ impl Surface {
         };
         let place: Affine = { place }().map_err(|fault| (fault, pigment.site))?;
         let places = Rc::new(Places { place, set_place: place, set_from_solid });
-        Ok(Self { pigment: texture.pigment, finish: texture.finish, places })
+        Ok(Self { pigment: texture.pigment, finish: texture.finish, places, faces: None })
     }
 
     /// Another pigment instead.
@@ -109,13 +113,13 @@ impl Surface {
     /// The same surface held by a child whose own transforms come to `child`.
     pub fn under(&self, child: &Affine) -> Self {
         let set_from_solid = self.places.set_from_solid.after(child);
-        Self { places: Rc::new(Places { set_from_solid, ..*self.places }), ..*self }
+        Self { places: Rc::new(Places { set_from_solid, ..*self.places }), ..self.clone() }
     }
 
     /// The same surface seen from outside of `outer`.
     pub fn within(&self, outer: &Affine) -> Self {
         let place = outer.after(&self.places.place);
-        Self { places: Rc::new(Places { place, ..*self.places }), ..*self }
+        Self { places: Rc::new(Places { place, ..*self.places }), ..self.clone() }
     }
 }
 
@@ -132,20 +136,19 @@ impl Lowering<'_, '_> {
         self.note_folded(written);
         let lowered = lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light);
         let finish_lowered = self.reporter.made(lowered, site);
-        let mut material = Material {
-            pigment: paint.unwrap_or(Pigment::Color(Color::BLACK)),
-            finish: finish_lowered.unwrap_or(BARE),
-        };
-        if !material.pigment.is_clear() || material.finish.reflection.is_none() {
-            material.finish.conserve_energy = false;
-        }
-        let origin = scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
-        let origin =
-            MaterialOrigin { pigment: written.written(), finish: origin, ..Default::default() };
-        let index = self.index(material, origin);
+        let paint = paint.unwrap_or(Pigment::Color(Color::BLACK));
+        let material = material(paint, finish_lowered.unwrap_or(BARE));
+        let index = self.index(material, self.origin(pigment, finish));
         self.materials.of_ids.insert((pigment, finish), index);
         self.note_material(index, written, finish);
         index
+    }
+
+    /// Of a material that is called for by these.
+    pub(super) fn origin(&self, pigment: PigmentId, finish: FinishId) -> MaterialOrigin {
+        let pigment = self.scene.pigments[pigment.index()].written();
+        let finish = self.scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
+        MaterialOrigin { pigment, finish, ..Default::default() }
     }
 
     /// Of what no ray meets.
@@ -155,7 +158,7 @@ impl Lowering<'_, '_> {
     }
 
     /// The World's index of a material; a new one comes from `origin`.
-    fn index(&mut self, material: Material, origin: MaterialOrigin) -> u32 {
+    pub(super) fn index(&mut self, material: Material, origin: MaterialOrigin) -> u32 {
         let materials = &mut self.world.materials;
         let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
         let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
@@ -170,7 +173,7 @@ impl Lowering<'_, '_> {
 
     /// Another pigment and finish that come to the material `index`: each place is listed once,
     /// however many loops and macros went through it.
-    fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
+    pub(super) fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
         let origin = &mut self.origins.materials[index as usize];
         let noted = &mut self.materials.noted;
         let mut note = |part: Part, list: &mut Vec<Site>, sites: &[Site]| {
@@ -274,6 +277,14 @@ impl Lowering<'_, '_> {
     }
 }
 
+/// What is not called for is absent.
+pub(super) fn material(pigment: Pigment, mut finish: Finish) -> Material {
+    if !pigment.is_clear() || finish.reflection.is_none() {
+        finish.conserve_energy = false;
+    }
+    Material { pigment, finish }
+}
+
 /// Whether more than one colour is written.
 fn is_pattern(kind: &PigmentKind) -> bool {
     matches!(kind, PigmentKind::Patterned { map, .. } if map.lone_color().is_none())
@@ -322,7 +333,9 @@ pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fau
         PigmentKind::Color(color) => Pigment::Color(*color),
         PigmentKind::Faces(colors) => match &colors[..] {
             [] => Pigment::Color(Color::BLACK),
-            [color] => Pigment::Color(*color),
+            [color, others @ ..] if others.iter().all(|other| other == color) => {
+                Pigment::Color(*color)
+            }
             _ => Pigment::Faces(colors.clone()),
         },
         PigmentKind::Patterned { pattern, map: colors } => match colors.lone_color() {

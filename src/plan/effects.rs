@@ -25,6 +25,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
         precision: options.precision,
         root_tolerance: options.root_tolerance,
+        julia_iterations: options.julia_iterations,
         kernel: Kernel { shadows: false, secondary: false },
         effects: Vec::new(),
         left_out: Vec::new(),

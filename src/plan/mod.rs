@@ -86,6 +86,8 @@ pub struct Arithmetic {
     /// How near a crossing must be found, of the size of its solid, where steps come nearer and nearer
     /// to it; 0 asks for all that the arithmetic can tell.
     pub root_tolerance: f64,
+    /// So many iterations of a fractal are looked at, where it has more.
+    pub julia_iterations: Option<u32>,
 }
 
 /// What the caller asks of the plan.
@@ -100,13 +102,23 @@ pub struct PlanOptions {
     pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
+    /// Likewise.
+    pub julia_iterations: Option<u32>,
 }
 
 impl PlanOptions {
     /// What `render` does unless it is told otherwise.
     pub fn new(frame: Frame) -> Self {
         let (antialias, precision) = (Antialias::default(), Precision::Double);
-        Self { frame, antialias, depth: None, adc_bailout: None, precision, root_tolerance: 0.0 }
+        Self {
+            frame,
+            antialias,
+            depth: None,
+            adc_bailout: None,
+            precision,
+            root_tolerance: 0.0,
+            julia_iterations: None,
+        }
     }
 }
 
@@ -182,6 +194,8 @@ pub struct Plan {
     pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
+    /// Likewise.
+    pub julia_iterations: Option<u32>,
     pub kernel: Kernel,
     /// What will be simulated.
     pub effects: Vec<Called>,
@@ -245,7 +259,8 @@ impl Plan {
     }
 
     pub fn arithmetic(&self) -> Arithmetic {
-        Arithmetic { precision: self.precision, root_tolerance: self.root_tolerance }
+        let Self { precision, root_tolerance, julia_iterations, .. } = *self;
+        Arithmetic { precision, root_tolerance, julia_iterations }
     }
 
     /// Rays of the camera, of the whole region.

@@ -92,6 +92,9 @@ impl Printer<'_> {
         if plan.root_tolerance > 0.0 {
             writeln!(out, "root_tolerance {}", plan.root_tolerance)?;
         }
+        if let Some(most) = plan.julia_iterations {
+            writeln!(out, "julia_iterations {most}")?;
+        }
         let kernel = match plan.kernel {
             Kernel { shadows: false, secondary: false } => "the camera's alone",
             Kernel { shadows: true, secondary: false } => "the camera's, and to lights",

@@ -1,5 +1,6 @@
 //! Triangles as they were written.
 
+use super::TextureId;
 use crate::math::Vector;
 
 /// The parts of a `mesh`, a `mesh2` or a lone triangle.
@@ -12,6 +13,8 @@ pub struct Triangles {
     pub uvs: Vec<[f64; 2]>,
     /// Their indices are those of entries.
     pub faces: Vec<Face>,
+    /// Those that faces have themselves.
+    pub textures: Vec<TextureId>,
     /// `inside_vector`: it has an inside. Any length but zero.
     pub inside: Option<Vector>,
 }
@@ -22,8 +25,8 @@ pub struct Face {
     pub vertices: [u32; 3],
     /// `None` where it is flat.
     pub normals: Option<[u32; 3]>,
-    /// What each corner is painted with, of a list that the mesh's pigment is; `None` where that is not
-    /// said.
+    /// What each corner is painted with: of the mesh's textures, or where it has none, of a list that its
+    /// pigment is; `None` where that is not said.
     pub paint: Option<[u32; 3]>,
     pub uvs: Option<[u32; 3]>,
 }
@@ -31,8 +34,9 @@ pub struct Face {
 impl Triangles {
     /// How many bytes it holds.
     pub fn bytes(&self) -> u64 {
-        let Self { vertices, normals, uvs, faces, .. } = self;
+        let Self { vertices, normals, uvs, faces, textures, .. } = self;
         let points = size_of_val(&vertices[..]) + size_of_val(&normals[..]);
-        (points + size_of_val(&uvs[..]) + size_of_val(&faces[..])) as u64
+        let lists = size_of_val(&uvs[..]) + size_of_val(&textures[..]);
+        (points + lists + size_of_val(&faces[..])) as u64
     }
 }

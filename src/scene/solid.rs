@@ -330,8 +330,12 @@ impl fmt::Display for Solid {
                 terms.iter().try_for_each(|term| write!(f, " {term}"))
             }
             Self::Triangles { triangles, .. } => {
-                let Triangles { vertices, faces, inside, .. } = &**triangles;
+                let Triangles { vertices, faces, textures, inside, .. } = &**triangles;
                 write!(f, " of {} faces, {} vertices", faces.len(), vertices.len())?;
+                if !textures.is_empty() {
+                    let count = textures.len();
+                    write!(f, ", {count} texture{}", plural(count))?;
+                }
                 match inside {
                     Some(way) => write!(f, ", inside_vector {}", written(*way)),
                     None => Ok(()),

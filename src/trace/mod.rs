@@ -122,6 +122,7 @@ pub fn trace_in(
     options: &TraceOptions,
     watch: &dyn Watch,
 ) -> Traced {
+    let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options, watch);
@@ -139,7 +140,7 @@ pub fn trace_in(
 
 /// The World's geometry in the Plan's arithmetic.
 pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry {
-    let geometry = Geometry::build(world);
+    let geometry = Geometry::build(&world.within_julia_iterations(plan.julia_iterations));
     let geometry = if options.count_work { geometry.counting() } else { geometry };
     let geometry = match plan.root_tolerance {
         0.0 => geometry,

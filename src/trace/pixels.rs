@@ -49,6 +49,7 @@ pub fn pixels(
     options: &TraceOptions,
     watch: &dyn Watch,
 ) -> Pixels {
+    let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
     let pixel = Pixel::new(&tracer, plan, geometry);
     let crew = Crew::new(options, watch);
@@ -94,6 +95,7 @@ pub fn seen(
     options: &TraceOptions,
     watch: &dyn Watch,
 ) -> (Vec<Option<Seen>>, Counters) {
+    let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
     let pixel = Pixel::new(&tracer, plan, geometry);
     Crew::new(options, watch).each(list, |walk, aim| pixel.aimed(walk, aim))

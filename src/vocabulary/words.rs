@@ -105,7 +105,7 @@ vocabulary! {
         Spline "spline" statement built "a curve through points at given times";
         Strength "strength" statement built "how strongly a part of a blob pulls";
         Sturm "sturm" statement inert "a slower, more accurate way to find roots; every root has its error bound";
-        TextureList "texture_list" statement later "the textures of a mesh2";
+        TextureList "texture_list" statement built "textures for the faces of a mesh2, or for the corners of a triangle of a mesh";
         Threshold "threshold" statement built "the value at which a blob or isosurface ends";
         Tolerance "tolerance" statement inert "how exactly a sphere_sweep is found; every crossing has its error bound";
         Ttf "ttf" statement built "`ttf \"file\"`: a TrueType or OpenType font";

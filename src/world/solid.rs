@@ -1,10 +1,13 @@
 //! What the World's solids answer: what is inside of which, and which are one.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use super::{Object, World};
 use crate::math::Vector;
-use crate::shape::Shape;
 use crate::shape::body::Local;
-use crate::shape::csg;
+use crate::shape::{Body, JuliaFractal, Placed, Shape, csg};
 
 impl World {
     /// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
@@ -59,6 +62,32 @@ impl World {
         self.placed.iter().any(|placed| placed.body.is_iterated())
     }
 
+    /// The most iterations that a fractal has; `None` where there is no fractal.
+    pub fn julia_iterations(&self) -> Option<u32> {
+        let fractals = self.placed.iter().filter_map(fractal);
+        fractals.map(|fractal| fractal.iterations).max()
+    }
+
+    /// The same World, where no fractal has more iterations than that.
+    pub fn within_julia_iterations(&self, most: Option<u32>) -> Cow<'_, Self> {
+        let most = match (most, self.julia_iterations()) {
+            (Some(most), Some(own)) if own > most => most,
+            _ => return Cow::Borrowed(self),
+        };
+        let mut world = self.clone();
+        let mut made: HashMap<*const Body, Arc<Body>> = HashMap::new();
+        for placed in &mut world.placed {
+            let Some(whole) = fractal(placed).filter(|whole| whole.iterations > most) else {
+                continue;
+            };
+            let less = || JuliaFractal { iterations: most, ..whole.clone() };
+            let known = made.entry(Arc::as_ptr(&placed.body));
+            let body = known.or_insert_with(|| Arc::new(Body::JuliaFractal(less()))).clone();
+            placed.body = body;
+        }
+        Cow::Owned(world)
+    }
+
     /// Whether an object has no inside.
     pub fn is_sheet(&self, object: u32) -> bool {
         match self.objects[object as usize].shape {
@@ -79,5 +108,12 @@ impl World {
     pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
         let whole = |object: u32| self.objects[object as usize].whole;
         a == b || whole(a).is_some() && whole(a) == whole(b)
+    }
+}
+
+fn fractal(placed: &Placed) -> Option<&JuliaFractal> {
+    match &*placed.body {
+        Body::JuliaFractal(fractal) => Some(fractal),
+        _ => None,
     }
 }

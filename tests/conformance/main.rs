@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 mod examples;
 mod pictures;
+mod silhouettes;
 mod syntax;
 
 const SCENES: &str = "/usr/share/doc/povray/examples";

@@ -37,8 +37,8 @@ fn picture(run: &mut Command, file: &Path) -> Result<RgbImage, String> {
     if told.status.success() { Ok(picture) } else { Err(last()) }
 }
 
-/// The pictures of both, ours first.
-fn both(scene: &Path) -> Result<[RgbImage; 2], String> {
+/// The pictures of both, ours first; what the scene names lies in that folder.
+fn both(scene: &Path, folder: &Path) -> Result<[RgbImage; 2], String> {
     let place = tempfile::tempdir().expect("a folder");
     let [ours, theirs] = ["ours.png", "theirs.png"].map(|name| place.path().join(name));
     let run = |program: &str| {
@@ -46,19 +46,22 @@ fn both(scene: &Path) -> Result<[RgbImage; 2], String> {
         run.current_dir(&place);
         run
     };
-    let mine =
-        picture(
-            run(env!("CARGO_BIN_EXE_lucarne")).arg("render").arg(scene).arg("-o").arg(&ours).args(
-                ["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"],
-            ),
-            &ours,
-        );
-    let folder = scene.parent().expect("below the examples").display();
+    let mine = picture(
+        run(env!("CARGO_BIN_EXE_lucarne"))
+            .arg("render")
+            .arg(scene)
+            .arg("-o")
+            .arg(&ours)
+            .arg("-I")
+            .arg(folder)
+            .args(["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"]),
+        &ours,
+    );
     let other = picture(
         run("povray").args(["-D", "-GA", "-A"]).args([
             format!("+I{}", scene.display()),
             format!("+O{}", theirs.display()),
-            format!("+L{folder}"),
+            format!("+L{}", folder.display()),
             format!("+W{WIDTH}"),
             format!("+H{HEIGHT}"),
         ]),
@@ -75,9 +78,15 @@ fn errors(pictures: &[RgbImage; 2]) -> FlipImageFloat {
     flip(theirs, ours, DEFAULT_PIXELS_PER_DEGREE)
 }
 
+/// Whether there is a POV-Ray to run.
+pub(crate) fn is_povray_there() -> bool {
+    let is_there = Command::new("povray").arg("--version").output().is_ok();
+    is_there || is_installed("povray", &[])
+}
+
 /// What becomes of a scene, as its line has it.
-fn outcome(scene: &Path, name: &str) -> String {
-    let pictures = match both(scene) {
+pub(crate) fn outcome(scene: &Path, folder: &Path, name: &str) -> String {
+    let pictures = match both(scene, folder) {
         Ok(pictures) => pictures,
         Err(told) => return format!("no picture: {told}"),
     };
@@ -112,8 +121,7 @@ fn every_example_that_is_whole_looks_as_the_list_says() {
     if !is_installed("povray-examples", &paths) {
         return;
     }
-    if Command::new("povray").arg("--version").output().is_err() {
-        is_installed("povray", &[]);
+    if !is_povray_there() {
         return;
     }
     let list = std::fs::read_to_string(LIST).unwrap_or_default();
@@ -123,7 +131,8 @@ fn every_example_that_is_whole_looks_as_the_list_says() {
     let step = if update || is_set("LUCARNE_LONG") { 1 } else { 6 };
     let (mut text, mut wrong) = (String::new(), String::new());
     for name in whole().iter().step_by(step) {
-        let found = outcome(&Path::new(SCENES).join(name), name);
+        let scene = Path::new(SCENES).join(name);
+        let found = outcome(&scene, scene.parent().expect("below the examples"), name);
         let (was, said) = listed.get(name.as_str()).copied().unwrap_or(("not listed", None));
         let said = said.map_or(String::new(), |said| format!(" — {said}"));
         let _ = writeln!(text, "{name}: {found}{said}");

@@ -2,6 +2,7 @@
 //!
 //! **Invariant:** a face that is a line or a point is told and left out; every index is that of an entry.
 
+mod dress;
 mod file;
 mod lists;
 
@@ -18,20 +19,21 @@ use crate::scene::mesh::{Face, Triangles};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::Poison;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
+use dress::{Dress, Textures};
 
 /// Triangles as they are written one by one: equal vertices become one.
 #[derive(Default)]
 struct Gathered {
     triangles: Triangles,
     known: HashMap<[u64; 3], u32>,
+    textures: Textures,
     degenerate: u32,
 }
 
 impl Gathered {
-    fn add(&mut self, corners: [Vector; 3], normals: Option<[Vector; 3]>) {
+    fn add(&mut self, corners: [Vector; 3], normals: Option<[Vector; 3]>, dress: Dress) {
         if is_degenerate(corners) {
             self.degenerate += 1;
             return;
@@ -50,7 +52,12 @@ impl Gathered {
             self.triangles.normals.extend(all);
             [first, first + 1, first + 2]
         });
-        self.triangles.faces.push(Face { vertices, normals, paint: None, uvs: None });
+        let uvs = dress.uvs.map(|all| {
+            let first = self.triangles.uvs.len() as u32;
+            self.triangles.uvs.extend(all);
+            [first, first + 1, first + 2]
+        });
+        self.triangles.faces.push(Face { vertices, normals, paint: dress.paint, uvs });
     }
 }
 
@@ -73,7 +80,7 @@ impl Evaluator<'_> {
         normals: Option<[Vector; 3]>,
     ) -> Outcome<Solid> {
         let mut gathered = Gathered::default();
-        gathered.add(corners.each_ref().map(|corner| corner.value), normals);
+        gathered.add(corners.each_ref().map(|corner| corner.value), normals, Dress::default());
         if gathered.degenerate > 0 {
             let [first, .., last] = &corners;
             let diagnostic = Diagnostic::new(
@@ -137,7 +144,8 @@ impl Evaluator<'_> {
         if failed {
             return Err(Reported);
         }
-        let Gathered { triangles, degenerate, .. } = gathered;
+        let Gathered { mut triangles, degenerate, textures, .. } = gathered;
+        triangles.textures = textures.into_list();
         match from_file {
             Some((file, read)) => self.mesh_of_file(token, &file, &read, triangles),
             None => self.whole_mesh(token, Word::Mesh, triangles, degenerate),
@@ -154,17 +162,14 @@ impl Evaluator<'_> {
                 }
                 _ => (evaluator.corners(token)?, None),
             };
-            all.add(corners.map(|corner| corner.value), normals);
+            let mut dress = Dress::default();
             while let Some(next) = evaluator.next() {
                 match next.kind {
                     TokenKind::Comma => {}
-                    TokenKind::Word(Word::UvVectors) => {
-                        for name in ["first", "second", "third"] {
-                            evaluator.uv_after(&next, name)?;
-                        }
-                    }
-                    TokenKind::Word(word @ (Word::Texture | Word::TextureList)) => {
-                        evaluator.not_per_face(&next, word);
+                    TokenKind::Word(
+                        word @ (Word::UvVectors | Word::Texture | Word::TextureList),
+                    ) => {
+                        evaluator.dress(&next, word, &mut dress, &mut all.textures)?;
                     }
                     _ => {
                         evaluator.unexpected(&next, Place::shape(word));
@@ -172,6 +177,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            all.add(corners.map(|corner| corner.value), normals, dress);
             Ok(())
         })
     }
@@ -186,23 +192,6 @@ impl Evaluator<'_> {
                 Ok(())
             }
             _ => self.inert(token, Place::shape(Word::Mesh)).unwrap_or(Ok(())),
-        }
-    }
-
-    /// A texture for one face is not built: told where the mesh is needed.
-    fn not_per_face(&mut self, token: &Token, word: Word) {
-        let site = token.here.site(token.span);
-        self.skip_arguments(word);
-        self.set_poison(Poison::new(Word::TextureList, site));
-    }
-
-    /// A point of a texture, of two numbers.
-    pub(super) fn uv_after(&mut self, token: &Token, name: &str) -> Outcome<()> {
-        let wanted = format!("a vector of two numbers for the {name} corner");
-        let given = self.given(token, &wanted)?;
-        match given.value.numbers() {
-            Some(numbers) if numbers.len() <= 2 => Ok(()),
-            _ => Err(self.wrong_type(&given.here, given.span, &wanted, &given.value)),
         }
     }
 

@@ -11,14 +11,7 @@ use super::Place;
 impl Evaluator<'_> {
     /// `texture { [Name] … }`, starting from the default texture.
     pub(super) fn texture(&mut self, token: &Token) -> Outcome<TextureId> {
-        let mut texture = self.scene.textures[self.default_texture.index()].clone();
-        let texture = self.block(token, Word::Texture, |evaluator| {
-            let mut failed = false;
-            while let Some(token) = evaluator.next() {
-                failed |= evaluator.texture_item(&token, &mut texture) == Err(Reported);
-            }
-            if failed { Err(Reported) } else { Ok(texture) }
-        });
+        let texture = self.one_texture(token);
         // Several in a row are layers, which are not built yet.
         while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
             && let Some(next) = self.next()
@@ -28,6 +21,18 @@ impl Evaluator<'_> {
             self.set_poison(poison);
         }
         Ok(self.add_texture(texture?))
+    }
+
+    /// As [`Self::texture`], where others may follow that are no layers of it.
+    pub(super) fn one_texture(&mut self, token: &Token) -> Outcome<Texture> {
+        let mut texture = self.scene.textures[self.default_texture.index()].clone();
+        self.block(token, Word::Texture, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                failed |= evaluator.texture_item(&token, &mut texture) == Err(Reported);
+            }
+            if failed { Err(Reported) } else { Ok(texture) }
+        })
     }
 
     pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {

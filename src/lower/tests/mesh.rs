@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use crate::color::{Color, Rgb};
 use crate::math::random::{Random, tries};
 use crate::math::{UnitVector, Vector};
 use crate::road::{Options, Road};
 use crate::scene::Dialect;
-use crate::shape::Ray;
 use crate::shape::body::Local;
+use crate::shape::{Body, Ray};
 use crate::source::{FileError, Files, Found};
 use crate::world::{Material, Pigment, World};
 
@@ -35,6 +36,9 @@ fn world(text: &str) -> (World, Vec<&'static str>) {
     let codes = road.diagnostics.iter().map(|one| one.code.name()).collect();
     (world, codes)
 }
+
+const PRIMARIES: [Rgb; 3] =
+    [Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.0), Rgb::new(0.0, 0.0, 1.0)];
 
 const TETRAHEDRON: &str = "mesh2 {
     vertex_vectors { 4, <1, 1, 1>, <1, -1, -1>, <-1, 1, -1>, <-1, -1, 1> }
@@ -167,11 +171,122 @@ fn what_does_not_fit_in_a_mesh2_is_told() {
     told("inside_vector", "normal_vectors { 1, y } inside_vector", "wrong-arity");
     told("inside_vector", "normal_indices { 1, 0 } inside_vector", "missing-part");
     told("<0, 3, 1>", "<0, 3, 1, 2>", "wrong-type");
+    told("inside_vector", "uv_vectors { 3, 0, 0, 0 } inside_vector", "wrong-arity");
+    told("inside_vector", "uv_indices { 1, 0 } inside_vector", "out-of-range");
+    let uvs = "uv_vectors { 1, 0 } uv_indices { 1, 0 } inside_vector";
+    told("inside_vector", uvs, "wrong-arity");
+    let normals = "normal_vectors { 1, y } normal_indices { 5, 0, 0, 0, 0, 0 } inside_vector";
+    told("inside_vector", normals, "wrong-arity");
+}
+
+/// The tetrahedron with textures, and with these numbers behind its four faces.
+fn textured(textures: &str, numbers: [&str; 4]) -> String {
+    let mut text = TETRAHEDRON.replace("face_indices", &format!("{textures} face_indices"));
+    for (face, numbers) in ["<0, 1, 2>", "<0, 2, 3>", "<0, 3, 1>", "<1, 3, 2>"].iter().zip(numbers)
+    {
+        text = text.replace(face, &format!("{face} {numbers}"));
+    }
+    text
+}
+
+const THREE: &str = "texture_list { 3, texture { pigment { rgb x } } texture { pigment { rgb y } },
+    texture { pigment { rgb z } } }";
+
+#[test]
+fn what_does_not_fit_in_the_textures_of_a_mesh2_is_told() {
+    let told = |text: &str, code: &str| {
+        let (world, codes) = world(text);
+        assert!(codes.contains(&code), "{text}: {codes:?}");
+        assert_eq!(world.objects.len(), 0, "{text}");
+    };
+    told(&textured(THREE, [", 3", "", "", ""]), "out-of-range");
+    told(&textured(THREE, [", -1", "", "", ""]), "out-of-range");
+    told(&textured(THREE, [", 0, 1", "", "", ""]), "wrong-arity");
+    told(&textured(THREE, [", 0, 1, 2, 0", "", "", ""]), "wrong-arity");
+    told(&textured(THREE, ["", "", "", ", 1, <0, 1, 2>"]), "extra-part");
+    told(&textured(THREE, ["", "", "", ", 1, y*2"]), "extra-part");
+    told(&textured(THREE, ["", "", "", ", 1 } uv_indices {"]), "missing-part");
+    told(&textured(&THREE.replace("3,", "4,"), [""; 4]), "wrong-arity");
+    told(&textured(&THREE.replace("3,", "2,"), [""; 4]), "wrong-arity");
+    told(&textured(&THREE.replace("rgb x", "checker"), [", 0"; 4]), "not-supported-yet");
     told(
-        "face_indices { 4,",
-        "texture_list { 1, texture { pigment { rgb 1 } } } face_indices { 4,",
+        &textured(&THREE.replace("{ rgb x }", "{ rgb x } finish { phong 1 }"), [", 0"; 4]),
         "not-supported-yet",
     );
+}
+
+/// What is seen of the first object: its pigment.
+fn pigment(world: &World) -> &Pigment {
+    &world.materials[world.objects[0].material as usize].pigment
+}
+
+#[test]
+fn the_textures_of_faces_are_the_colours_of_one_pigment_and_the_meshs_own_is_the_last() {
+    let primaries = PRIMARIES.map(Color::opaque);
+    let (bare, codes) = world(
+        &textured(THREE, [", 0, 1, 2", ", 1.9", "", ", 2"])
+            .replace("inside_vector y", "pigment { rgb 1 }"),
+    );
+    assert!(codes.is_empty(), "{codes:?}");
+    let Pigment::Faces(colors) = pigment(&bare) else { panic!("{:?}", pigment(&bare)) };
+    assert_eq!(colors[..3], primaries);
+    assert_eq!(colors[3], Color::opaque(Rgb::gray(1.0)));
+    let painted = bare.placed[0].body.numbers();
+    assert!(painted.contains("painted"), "{painted}");
+    // What is not seen is no part of it.
+    let dressed = textured(THREE, [", 0, 1, 2", ", 1", ", 1", ", 2"]);
+    let (dressed, codes) = world(&dressed.replace("inside_vector y", "pigment { checker }"));
+    assert!(codes.is_empty(), "{codes:?}");
+    let Pigment::Faces(colors) = pigment(&dressed) else { panic!("{:?}", pigment(&dressed)) };
+    assert_eq!(colors[..3], primaries);
+    let (one, _) =
+        world(&textured(THREE, [", 1"; 4]).replace("rgb x", "rgb y").replace("rgb z", "rgb y"));
+    assert_eq!(*pigment(&one), Pigment::Color(Color::opaque(PRIMARIES[1])));
+}
+
+#[test]
+fn a_mesh_and_a_mesh2_have_textures_and_places_in_one_alike() {
+    let listed = "mesh2 {
+        vertex_vectors { 4, 0, x, y, z } uv_vectors { 4, 0, <1, 0>, <0, 1>, 1 }
+        texture_list { 3, texture { pigment { rgb x } } texture { pigment { rgb y } },
+            texture { pigment { rgb z } } }
+        face_indices { 2, <0, 1, 2>, 0, 1, 2, <0, 2, 3>, 0 }
+        pigment { rgb 1 }
+    }";
+    let alone =
+        "#declare R = texture { pigment { rgb x } } #declare G = texture { pigment { rgb y } }
+        #declare B = texture { pigment { rgb z } }
+        mesh {
+            triangle { 0, x, y uv_vectors 0, <1, 0>, <0, 1> texture_list { R, G B } }
+            triangle { 0, y, z texture { R } uv_vectors 0, <0, 1>, 1 }
+            pigment { rgb 1 }
+        }";
+    let ((listed, codes), (alone, others)) = (world(listed), world(alone));
+    assert!(codes.is_empty() && others.is_empty(), "{codes:?} {others:?}");
+    assert_eq!(pigment(&listed), pigment(&alone));
+    let seen = |world: &World, from: Vector| {
+        let ray = Ray { origin: from, direction: -(Vector::ONE / 3f64.sqrt()) };
+        let placed = &world.placed[0];
+        let surface = {
+            let met = placed.crossings(&ray)[0];
+            placed.surface(&ray, met.t, met.leaving)
+        };
+        let Body::Mesh(mesh) = &*placed.body else { panic!("it is a mesh") };
+        let local = placed.placement.local_point(surface.point);
+        (placed.paint(&surface), mesh.uv(surface.face, local))
+    };
+    for from in [Vector::new(3.2, 3.3, 3.0), Vector::new(3.0, 3.1, 3.3)] {
+        assert_eq!(seen(&listed, from), seen(&alone, from));
+        assert!(seen(&listed, from).0.is_some() && seen(&listed, from).1.is_some());
+    }
+}
+
+#[test]
+fn faces_without_normals_are_the_last_and_flat() {
+    let normals = "normal_vectors { 1, y } normal_indices { 1, 0 } pigment { rgb 1 }";
+    let (world, codes) = world(&TETRAHEDRON.replace("inside_vector y", normals));
+    assert!(codes.is_empty(), "{codes:?}");
+    assert_eq!(world.placed.len(), 1);
 }
 
 #[test]

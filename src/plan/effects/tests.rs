@@ -72,6 +72,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     adc_bailout: None,
     precision: Precision::Double,
     root_tolerance: 0.0,
+    julia_iterations: None,
 };
 
 /// Changes the lit mirror and asks why the effect is left out.

@@ -2,14 +2,14 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
+use crate::scene::{Solid, TextureId};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
-use super::super::super::{Evaluator, Outcome, Reported};
+use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::Given;
 use super::is_degenerate;
 
@@ -21,7 +21,10 @@ struct Lists {
     announced: usize,
     normals: Option<(Token, Vec<Vector>)>,
     uv_vectors: Option<(Token, Vec<Vector>)>,
+    textures: Vec<TextureId>,
     faces: Option<(Token, Vec<[f64; 3]>)>,
+    /// Of each face, where there are textures.
+    paint: Vec<Option<[u32; 3]>>,
     face_normals: Option<(Token, Vec<[f64; 3]>)>,
     face_uv: Option<(Token, Vec<[f64; 3]>)>,
     inside: Option<Vector>,
@@ -69,8 +72,8 @@ impl Evaluator<'_> {
             }
             return Err(Reported);
         }
-        let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, inside, .. } =
-            lists;
+        let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, .. } = lists;
+        let Lists { textures, paint, inside, .. } = lists;
         let missing = [
             vertices.is_none().then_some("vertex_vectors"),
             faces.is_none().then_some("face_indices"),
@@ -82,21 +85,22 @@ impl Evaluator<'_> {
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
             return Err(self.report(&token.here, diagnostic));
         };
-        if let Some((of_uv, indices)) = face_uv {
-            let count = uv_vectors.map_or(0, |(_, list)| list.len());
-            self.as_indices(&of_uv, &indices, count, "uv_vectors")?;
-        }
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
             (None, None) => None,
             (Some((_, normals)), Some((of_indices, indices))) => {
                 let indices =
                     self.as_indices(&of_indices, &indices, normals.len(), "normal_vectors")?;
-                self.one_for_each(&of_indices, indices.len(), "face", corners.len())?;
+                // Those that have none are flat, and the last.
+                if indices.len() > corners.len() {
+                    let found = (indices.len(), "normals");
+                    self.one_for_each(&of_indices, found, ("face", corners.len()))?;
+                }
                 Some((normals, indices))
             }
             (Some((of_normals, normals)), None) => {
-                self.one_for_each(&of_normals, normals.len(), "vertex", vertices.len())?;
+                let found = (normals.len(), "normals");
+                self.one_for_each(&of_normals, found, ("vertex", vertices.len()))?;
                 Some((normals, corners.clone()))
             }
             (None, Some((of_indices, _))) => {
@@ -107,16 +111,34 @@ impl Evaluator<'_> {
                 return Err(self.report(&of_indices.here, diagnostic));
             }
         };
-        let (normals, indices) = smooth.map_or((Vec::new(), None), |(n, i)| (n, Some(i)));
+        let places = match (uv_vectors, face_uv) {
+            (None, None) => None,
+            (uv_vectors, Some((of_indices, indices))) => {
+                let uvs = uv_vectors.map_or(Vec::new(), |(_, uvs)| uvs);
+                let indices = self.as_indices(&of_indices, &indices, uvs.len(), "uv_vectors")?;
+                let found = (indices.len(), "places in a texture");
+                self.one_for_each(&of_indices, found, ("face", corners.len()))?;
+                Some((uvs, indices))
+            }
+            (Some((of_uvs, uvs)), None) => {
+                let found = (uvs.len(), "places in a texture");
+                self.one_for_each(&of_uvs, found, ("vertex", vertices.len()))?;
+                Some((uvs, corners.clone()))
+            }
+        };
+        let (normals, indices) = smooth.unwrap_or_default();
+        let (uvs, places) = places.unwrap_or_default();
         let mut degenerate = 0;
         let faces = corners.into_iter().enumerate().filter_map(|(i, all)| {
             let flat = is_degenerate(all.map(|i| vertices[i as usize]));
             degenerate += u32::from(flat);
-            let normals = indices.as_ref().map(|indices| indices[i]);
-            (!flat).then_some(Face { vertices: all, normals, paint: None, uvs: None })
+            let (normals, uvs) = (indices.get(i).copied(), places.get(i).copied());
+            let paint = paint.get(i).copied().flatten();
+            (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
         let faces = faces.collect();
-        let triangles = Triangles { vertices, normals, faces, inside, ..Triangles::default() };
+        let uvs = uvs.into_iter().map(|uv| [uv.x, uv.y]).collect();
+        let triangles = Triangles { vertices, normals, uvs, faces, textures, inside };
         self.whole_mesh(token, Word::Mesh2, triangles, degenerate)
     }
 
@@ -134,6 +156,11 @@ impl Evaluator<'_> {
                 lists.uv_vectors = Some((list.clone(), vectors(self.entries(list, word, &mut 0)?)));
             }
             Word::FaceIndices if self.poison.is_some() => self.skip_arguments(word),
+            Word::FaceIndices if !lists.textures.is_empty() => {
+                let painted = self.painted_faces(list, lists.textures.len())?;
+                let (faces, paint) = painted.into_iter().unzip();
+                (lists.faces, lists.paint) = (Some((list.clone(), faces)), paint);
+            }
             Word::FaceIndices => {
                 lists.faces = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
@@ -143,7 +170,7 @@ impl Evaluator<'_> {
             Word::UvIndices => {
                 lists.face_uv = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
-            Word::TextureList => self.not_per_face(list, word),
+            Word::TextureList => lists.textures = self.texture_list(list)?,
             _ => return self.mesh_word(list, word, &mut lists.inside),
         }
         Ok(())
@@ -198,14 +225,25 @@ impl Evaluator<'_> {
             evaluator.skip_commas();
             if let Some(next) = evaluator.next() {
                 *announced = 0;
-                let message = format!("`{}` has more than {wanted} entries", word.name());
-                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-                    .at(next.span, "one too many")
-                    .also(count.span, "so many were announced");
-                return Err(evaluator.report(&next.here, diagnostic));
+                return Err(evaluator.too_many(word, wanted, (&next.here, next.span), count.span));
             }
             Ok(entries)
         })
+    }
+
+    /// A list goes on behind its last entry.
+    pub(super) fn too_many(
+        &mut self,
+        list: Word,
+        wanted: usize,
+        (here, extra): (&Here, Span),
+        count: Span,
+    ) -> Reported {
+        let message = format!("`{}` has more than {wanted} entries", list.name());
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(extra, "one too many")
+            .also(count, "so many were announced");
+        self.report(here, diagnostic)
     }
 
     /// Indices of a list of `count` entries; what follows the point of each is dropped, as in POV-Ray.
@@ -249,11 +287,16 @@ impl Evaluator<'_> {
         Some(Span::new(list.span.file, start, start + number.trim().len()))
     }
 
-    fn one_for_each(&mut self, list: &Token, found: usize, what: &str, of: usize) -> Outcome<()> {
+    fn one_for_each(
+        &mut self,
+        list: &Token,
+        (found, of_what): (usize, &str),
+        (what, of): (&str, usize),
+    ) -> Outcome<()> {
         if found == of {
             return Ok(());
         }
-        let message = format!("{found} normals for {of} of what has one each: every {what}");
+        let message = format!("{found} {of_what} for {of} of what has one each: every {what}");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
             .at(list.span, format!("expected one for each {what}: {of}"));
         Err(self.report(&list.here, diagnostic))

@@ -1,0 +1,217 @@
+//! What the faces of a mesh have of their own: textures, and places in one.
+//!
+//! **Invariant:** each index is that of an entry.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{FinishId, PigmentId, TextureId, TransformId};
+use crate::vocabulary::Word;
+
+use super::super::super::stream::{Token, TokenKind};
+use super::super::super::value::Value;
+use super::super::super::{Evaluator, Outcome, Reported};
+use super::super::{Given, Place};
+
+/// Of one face.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Dress {
+    /// A texture for each corner, of [`Textures`].
+    pub paint: Option<[u32; 3]>,
+    pub uvs: Option<[[f64; 2]; 3]>,
+}
+
+/// The textures of a mesh's triangles, each once.
+#[derive(Debug, Default)]
+pub(super) struct Textures {
+    list: Vec<TextureId>,
+    known: HashMap<(PigmentId, FinishId, Vec<TransformId>), u32>,
+}
+
+impl Textures {
+    pub fn into_list(self) -> Vec<TextureId> {
+        self.list
+    }
+}
+
+/// A face of a `mesh2`, and the textures of its corners.
+pub(super) type Painted = ([f64; 3], Option<[u32; 3]>);
+
+impl Evaluator<'_> {
+    /// One of the words that may stand behind the corners of a mesh's triangle.
+    pub(super) fn dress(
+        &mut self,
+        token: &Token,
+        word: Word,
+        dress: &mut Dress,
+        all: &mut Textures,
+    ) -> Outcome<()> {
+        match word {
+            Word::UvVectors => {
+                let mut corner = |name| self.uv_after(token, name);
+                let (a, b, c) = (corner("first"), corner("second"), corner("third"));
+                dress.uvs = Some([a?, b?, c?]);
+            }
+            Word::Texture => {
+                let id = self.face_texture(token)?;
+                dress.paint = Some([self.number_of_texture(id, all); 3]);
+            }
+            _ => {
+                let listed = self.block(token, word, Self::listed_textures)?;
+                let [a, b, c] = listed[..] else {
+                    let message =
+                        format!("{} textures for the 3 corners of a triangle", listed.len());
+                    let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                        .at(token.span, "expected a texture for each corner: 3");
+                    return Err(self.report(&token.here, diagnostic));
+                };
+                dress.paint = Some([a, b, c].map(|id| self.number_of_texture(id, all)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Where a texture stands in a mesh's list, into which it comes if it is new.
+    fn number_of_texture(&self, id: TextureId, all: &mut Textures) -> u32 {
+        let texture = &self.scene.textures[id.index()];
+        let key = (texture.pigment, texture.finish, texture.transforms.clone());
+        *all.known.entry(key).or_insert_with(|| {
+            all.list.push(id);
+            all.list.len() as u32 - 1
+        })
+    }
+
+    /// `texture { … }`, to which no layer belongs.
+    fn face_texture(&mut self, token: &Token) -> Outcome<TextureId> {
+        let texture = self.one_texture(token)?;
+        Ok(self.add_texture(texture))
+    }
+
+    /// The textures to the end of a block, each in braces or by its name alone.
+    fn listed_textures(&mut self) -> Outcome<Vec<TextureId>> {
+        let mut listed = Vec::new();
+        while let Some(token) = self.next() {
+            listed.push(match token.kind {
+                TokenKind::Comma => continue,
+                TokenKind::Word(Word::Texture) => self.face_texture(&token)?,
+                TokenKind::Expression(id) => match self.declared(&token, id) {
+                    Some(Value::Texture(id)) => id,
+                    Some(Value::Broken) => return Err(Reported),
+                    Some(Value::Poison(poison)) => {
+                        self.is_of_place(&token, poison, Place::TEXTURE);
+                        self.set_poison(poison);
+                        return Err(Reported);
+                    }
+                    _ => {
+                        return Err(self.expected(
+                            "a texture",
+                            Some(&token),
+                            (&token.here, token.span),
+                        ));
+                    }
+                },
+                _ => {
+                    return Err(self.expected(
+                        "a texture",
+                        Some(&token),
+                        (&token.here, token.span),
+                    ));
+                }
+            });
+        }
+        Ok(listed)
+    }
+
+    /// `texture_list { count, texture { … }, … }` of a `mesh2`.
+    pub(super) fn texture_list(&mut self, list: &Token) -> Outcome<Vec<TextureId>> {
+        self.block(list, Word::TextureList, |evaluator| {
+            let count = evaluator.number_after(list, "how many there are")?;
+            let listed = evaluator.listed_textures()?;
+            if listed.len() == count.value as usize {
+                return Ok(listed);
+            }
+            let message = format!("`texture_list` has {} entries", listed.len());
+            let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                .at(count.span, "another number was announced");
+            Err(evaluator.report(&list.here, diagnostic))
+        })
+    }
+
+    /// `face_indices` behind a `texture_list` of `textures`: behind a face may stand the number of its
+    /// texture, or those of its corners. What follows the point of each is dropped, as in POV-Ray.
+    pub(super) fn painted_faces(&mut self, list: &Token, textures: usize) -> Outcome<Vec<Painted>> {
+        self.block(list, Word::FaceIndices, |evaluator| {
+            let count = evaluator.number_after(list, "how many there are")?;
+            let wanted = count.value as u32 as usize;
+            let mut faces: Vec<([f64; 3], Vec<u32>)> = Vec::new();
+            while faces.len() < wanted || evaluator.is_value_next() {
+                let given = evaluator.given(list, &format!("{wanted} vectors"))?;
+                let is_full = faces.len() == wanted;
+                match (given.value.as_number(), given.value.numbers(), faces.last_mut()) {
+                    (Some(number), _, Some((_, paint))) => {
+                        if !(number > -1.0 && number < textures as f64) {
+                            let message = format!("there is no texture {number} in this mesh2");
+                            let label = format!("`texture_list` has entries 0 to {}", textures - 1);
+                            let diagnostic =
+                                Diagnostic::new(Code::OutOfRange, message).at(given.span, label);
+                            return Err(evaluator.report(&given.here, diagnostic));
+                        }
+                        paint.push(number as u32);
+                    }
+                    (None, Some(_), _) if is_full => {
+                        let at = (&given.here, given.span);
+                        return Err(evaluator.too_many(Word::FaceIndices, wanted, at, count.span));
+                    }
+                    (None, Some(numbers), _) if numbers.len() <= 3 => {
+                        let mut corners = [0.0; 3];
+                        corners[..numbers.len()].copy_from_slice(numbers.as_slice());
+                        faces.push((corners, Vec::new()));
+                    }
+                    _ => {
+                        let Given { value, span, here, .. } = &given;
+                        return Err(evaluator.wrong_type(here, *span, "a vector", value));
+                    }
+                }
+                if !evaluator.has_memory(size_of_val(&faces[..]) as u64) {
+                    return Err(evaluator.too_much_memory(&list.here, list.span));
+                }
+            }
+            if let Some(next) = evaluator.next() {
+                let at = (&next.here, next.span);
+                return Err(evaluator.too_many(Word::FaceIndices, wanted, at, count.span));
+            }
+            let paint = |paint: &[u32]| match *paint {
+                [] => Some(None),
+                [one] => Some(Some([one; 3])),
+                [a, b, c] => Some(Some([a, b, c])),
+                _ => None,
+            };
+            let painted = faces.iter().map(|(face, all)| paint(all).map(|paint| (*face, paint)));
+            painted.collect::<Option<_>>().ok_or_else(|| {
+                let stray = faces.iter().position(|(_, all)| paint(all).is_none()).unwrap_or(0);
+                let message = format!("face {stray} has {} textures", faces[stray].1.len());
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(list.span, "a face has one texture, or one for each of its three corners");
+                evaluator.report(&list.here, diagnostic)
+            })
+        })
+    }
+
+    /// Whether a value stands behind commas.
+    fn is_value_next(&mut self) -> bool {
+        self.skip_commas();
+        let next = self.peek().map(|token| &token.kind);
+        matches!(next, Some(TokenKind::Expression(_) | TokenKind::Literal(_)))
+    }
+
+    /// A point of a texture, of two numbers.
+    pub(in super::super) fn uv_after(&mut self, token: &Token, name: &str) -> Outcome<[f64; 2]> {
+        let wanted = format!("a vector of two numbers for the {name} corner");
+        let given = self.given(token, &wanted)?;
+        match given.value.numbers().as_ref().map(|numbers| numbers.as_slice()) {
+            Some(&[u, v]) => Ok([u, v]),
+            Some(&[both]) => Ok([both; 2]),
+            _ => Err(self.wrong_type(&given.here, given.span, &wanted, &given.value)),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Textures that faces of a mesh have themselves: the colours of one material, by their corners.
+
+use std::sync::Arc;
+
+use super::finish::lower_finish;
+use super::object::Inherited;
+use super::texture::{Surface, lower_pigment, material};
+use super::{Fault, Lowering};
+use crate::diagnostic::Code;
+use crate::math::placement::Map;
+use crate::scene::mesh::Triangles;
+use crate::scene::{self, FinishId, PigmentId, PigmentKind};
+use crate::world::Pigment;
+
+impl Surface {
+    /// As the surface of a mesh, of which it is seen where a face has no texture itself.
+    fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
+        let Some(first) = triangles.textures.first() else { return self.clone() };
+        let faces = Some(triangles.clone());
+        if triangles.faces.iter().any(|face| face.paint.is_none()) {
+            return Self { faces, ..self.clone() };
+        }
+        let scene::Texture { pigment, finish, .. } = scene.textures[first.index()];
+        Self { pigment, finish, faces, ..self.clone() }
+    }
+
+    /// All that may be seen of it: the textures of faces, in their order, and then its own.
+    pub fn all(&self, scene: &scene::Scene) -> Vec<(PigmentId, FinishId)> {
+        let textures = self.faces.iter().flat_map(|triangles| &triangles.textures);
+        let of_faces = textures.map(|id| &scene.textures[id.index()]);
+        let of_faces = of_faces.map(|texture| (texture.pigment, texture.finish));
+        of_faces.chain([(self.pigment, self.finish)]).collect()
+    }
+}
+
+impl Inherited {
+    /// What is said of a mesh whose faces may have textures themselves.
+    pub fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
+        Self { surface: self.surface.of_faces(scene, triangles), ..self.clone() }
+    }
+}
+
+impl Lowering<'_, '_> {
+    /// The World's index of the material of a mesh whose faces have textures themselves.
+    pub(super) fn material_of_faces(&mut self, surface: &Surface) -> Result<u32, Fault> {
+        let scene = self.scene;
+        let all = surface.all(scene);
+        let (mut colors, mut finishes) = (Vec::new(), Vec::new());
+        for &(pigment, finish) in &all {
+            match lower_pigment(&scene.pigments[pigment.index()].kind, Map::IDENTITY)? {
+                Pigment::Color(color) => colors.push(color),
+                Pigment::Patterned { .. } | Pigment::Faces(_) => return Err(unlike_faces()),
+            }
+            let lowered =
+                lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light)?;
+            if finishes.first().is_some_and(|first| *first != lowered) {
+                return Err(unlike_faces());
+            }
+            finishes.push(lowered);
+        }
+        let finish = finishes.swap_remove(0);
+        let pigment = lower_pigment(&PigmentKind::Faces(colors.into()), Map::IDENTITY)?;
+        let origin = self.origin(surface.pigment, surface.finish);
+        let index = self.index(material(pigment, finish), origin);
+        for (pigment, finish) in all {
+            self.note_material(index, &scene.pigments[pigment.index()], finish);
+        }
+        Ok(index)
+    }
+}
+
+fn unlike_faces() -> Fault {
+    let message =
+        "faces of one mesh with patterns, or with more than one finish, are not supported yet";
+    Fault::new(Code::NotSupportedYet, message)
+        .label("its textures are not each of one colour, all with the same finish")
+}

@@ -1,0 +1,152 @@
+//! Every example of objects and of their modifiers that lacks only a texture looks as POV-Ray 3.7 shows it, once that
+//! texture is a plain one in both: `silhouettes.list` has a line for each.
+//!
+//! A line is the scene, `same` or the mean of FLIP's errors as in `pictures.list`, what of it is made plain,
+//! and after `—` why it differs. `pigment NAME` and `texture NAME` become plain ones, where NAME stands in
+//! them and in no smaller one; `normal NAME` and `layer NAME`, a texture above another, are left out.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+use std::path::Path;
+
+use super::pictures::{is_povray_there, outcome};
+use super::{SCENES, files, is_installed};
+
+const LIST: &str = include_str!("silhouettes.list");
+const EXAMPLES: &str = include_str!("examples.list");
+
+const PLAIN: &str = "pigment { rgb <0.8, 0.6, 0.4> }";
+
+/// A line of the list.
+struct Line<'a> {
+    scene: &'a str,
+    outcome: &'a str,
+    /// The kind and the name of each item that is made plain.
+    items: Vec<(&'a str, &'a str)>,
+}
+
+impl<'a> Line<'a> {
+    fn read(line: &'a str) -> Option<Self> {
+        let (scene, rest) = line.split_once(": ")?;
+        let rest = rest.split_once(" — ").map_or(rest, |(rest, _)| rest);
+        let (outcome, items) = rest.split_once(" without ")?;
+        let items = items.split(", ").map(|item| item.split_once(' ')).collect::<Option<_>>()?;
+        Some(Self { scene, outcome, items })
+    }
+}
+
+/// The text with blanks for its comments, as long as before.
+fn without_comments(text: &str) -> String {
+    let mut text = text.as_bytes().to_vec();
+    for (start, end) in [(&b"//"[..], &b"\n"[..]), (b"/*", b"*/")] {
+        let mut place = 0;
+        while let Some(found) = find(&text[place..], start) {
+            let from = place + found;
+            place = find(&text[from..], end).map_or(text.len(), |length| from + length + end.len());
+            text[from..place].iter_mut().for_each(|byte| *byte = b' ');
+        }
+    }
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+fn find(text: &[u8], what: &[u8]) -> Option<usize> {
+    text.windows(what.len()).position(|window| window == what)
+}
+
+/// The places of a word.
+fn places<'a>(text: &'a str, word: &'a str) -> impl Iterator<Item = usize> + 'a {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    text.match_indices(word).map(|(place, _)| place).filter(move |&place| {
+        !text[..place].ends_with(is_part) && !text[place + word.len()..].starts_with(is_part)
+    })
+}
+
+/// The smallest block that this word opens and that holds the place.
+fn block(text: &str, word: &str, place: usize) -> Option<Range<usize>> {
+    let opened = places(&text[..place], word).filter_map(|start| {
+        let mut depth = 0;
+        let body = start + text[start..].find('{')?;
+        let end = text[body..].char_indices().find(|&(_, c)| {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            depth == 0
+        });
+        let block = start..body + end?.0 + 1;
+        block.contains(&place).then_some(block)
+    });
+    opened.last()
+}
+
+/// The scene with those items made plain.
+fn plain(text: &str, items: &[(&str, &str)]) -> Result<String, String> {
+    let mut text = without_comments(text);
+    for &(kind, name) in items {
+        let (word, plain) = match kind {
+            "pigment" => ("pigment", PLAIN.to_owned()),
+            "texture" => ("texture", format!("texture {{ {PLAIN} }}")),
+            "layer" => ("texture", String::new()),
+            "normal" => ("normal", String::new()),
+            _ => return Err(format!("`{kind}` is nothing to be made plain")),
+        };
+        let mut is_found = false;
+        let item = |text: &str| places(text, name).find_map(|place| block(text, word, place));
+        while let Some(item) = item(&text) {
+            text.replace_range(item, &plain);
+            is_found = true;
+        }
+        if !is_found {
+            return Err(format!("there is no {kind} with {name}"));
+        }
+    }
+    Ok(text)
+}
+
+#[test]
+fn every_example_of_objects_that_lacks_a_texture_is_listed() {
+    let listed: Vec<&str> = LIST.lines().filter_map(Line::read).map(|line| line.scene).collect();
+    assert_eq!(listed.len(), LIST.lines().count(), "a line that is none");
+    let lacking: Vec<&str> = EXAMPLES
+        .lines()
+        .filter_map(|line| line.split_once(": "))
+        .filter(|(name, found)| name.starts_with("object") && *found != "whole")
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(listed, lacking);
+}
+
+#[test]
+fn every_example_that_lacks_a_texture_looks_the_same_with_a_plain_one() {
+    if !is_installed("povray-examples", &files(SCENES, &["pov"])) || !is_povray_there() {
+        return;
+    }
+    let mut wrong = String::new();
+    for line in LIST.lines().filter_map(Line::read) {
+        let original = Path::new(SCENES).join(line.scene);
+        // Some are no UTF-8.
+        let text = std::fs::read(&original).expect("it is there");
+        let place = tempfile::tempdir().expect("a folder");
+        let scene = place.path().join("plain.pov");
+        let found = match plain(&String::from_utf8_lossy(&text), &line.items) {
+            Ok(text) => {
+                std::fs::write(&scene, text).expect("it is written");
+                outcome(&scene, original.parent().expect("below the examples"), line.scene)
+            }
+            Err(told) => told,
+        };
+        if found != line.outcome {
+            let _ = writeln!(wrong, "{}:\n  was {}\n  now {found}", line.scene, line.outcome);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_smallest_item_with_the_name_is_made_plain() {
+    let text = "sphere { 0, 1 texture { pigment { wood scale 2 } normal { bumps } } } // wood {\n";
+    let made = |kind, name| plain(text, &[(kind, name)]).map(|made| made.trim().to_owned());
+    let sphere = |inner: &str| Ok(format!("sphere {{ 0, 1 {inner} }}"));
+    let bumps = "normal { bumps }";
+    assert_eq!(made("pigment", "wood"), sphere(&format!("texture {{ {PLAIN} {bumps} }}")));
+    assert_eq!(made("texture", "bumps"), sphere(&format!("texture {{ {PLAIN} }}")));
+    assert_eq!(made("normal", "bumps"), sphere("texture { pigment { wood scale 2 }  }"));
+    assert!(made("normal", "wood").is_err());
+}
