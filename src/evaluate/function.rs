@@ -20,6 +20,7 @@ use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
 mod asked;
+mod broken;
 mod closed;
 mod internal;
 
@@ -58,6 +59,18 @@ impl Evaluator<'_> {
 
     /// The block of a function of these parameters.
     pub(super) fn function_of(
+        &mut self,
+        token: &Token,
+        parameters: &[ParameterName],
+    ) -> Outcome<Value> {
+        let value = self.function_block(token, parameters);
+        if value.is_err() {
+            self.broken_function = Some(parameters.len());
+        }
+        value
+    }
+
+    fn function_block(
         &mut self,
         token: &Token,
         parameters: &[ParameterName],
