@@ -10,6 +10,9 @@ use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 use super::value::Value;
 use super::{Evaluator, Here, Symbol};
 
+/// An argument of so many characters is quoted.
+const LONGEST: usize = 40;
+
 /// An argument of a call that its macro could not use.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refused {
@@ -34,7 +37,7 @@ impl Evaluator<'_> {
     /// changed places.
     pub(super) fn is_refused_again(&mut self, here: &Here, span: Span, found: &Value) -> bool {
         let Some(Origin { call, parameter, .. }) = self.origin(here, span, found) else {
-            return false;
+            return self.is_made_of_refused(here, span, found);
         };
         let refused = Refused { parameter, kind: found.kind(), told: span };
         let before = self.remembered.refused.get(&call).map_or(&[][..], Vec::as_slice);
@@ -49,7 +52,28 @@ impl Evaluator<'_> {
         repeats
     }
 
-    /// Points at the argument that a value of no use came by.
+    /// `#local Half = Size/2;`: whether `span` has a name that the macro itself declares, of the kind of an argument
+    /// that was told.
+    fn is_made_of_refused(&self, here: &Here, span: Span, found: &Value) -> bool {
+        let mut names = words(self.sources.text(span)).filter_map(|name| self.scopes.symbol(name));
+        let is_made = names.any(|name| {
+            let site = self.scopes.declared(name).map(|declared| declared.site);
+            site.is_some_and(|site| site.expansion == here.expansion)
+                && self.scopes.look(name).is_some_and(|value| value.kind() == found.kind())
+        });
+        let calls = || {
+            let calls = self.scene.expansions.chain(here.expansion);
+            calls.filter(|call| call.kind == ExpansionKind::Macro)
+        };
+        let told =
+            |one: &Refused| one.kind == found.kind() && one.told != span && self.tells_at(one.told);
+        is_made
+            && calls().any(|call| {
+                self.remembered.refused.get(&call.call).is_some_and(|all| all.iter().any(told))
+            })
+    }
+
+    /// Names the argument that a value of no use came by.
     pub(super) fn given_by_call(
         &self,
         here: &Here,
@@ -57,9 +81,16 @@ impl Evaluator<'_> {
         found: &Value,
         diagnostic: Diagnostic,
     ) -> Diagnostic {
-        match self.origin(here, span, found).and_then(|origin| origin.argument) {
-            Some(argument) => diagnostic.also(argument, "given here"),
-            None => diagnostic,
+        let Some(Origin { parameter, argument: Some(argument), .. }) =
+            self.origin(here, span, found)
+        else {
+            return diagnostic;
+        };
+        let (name, given) = (self.scopes.name(parameter), self.sources.text(argument));
+        let plain = given.chars().count() <= LONGEST && !given.contains('\n');
+        match plain && given != self.sources.text(span) {
+            true => diagnostic.help(format!("`{name}` was given as `{given}`")),
+            false => diagnostic,
         }
     }
 
@@ -84,17 +115,15 @@ impl Evaluator<'_> {
     /// The parameter in a text that a value of this kind came by: its only name, or the one that is of that kind.
     fn parameter_within(&self, span: Span, found: &Value) -> Option<Symbol> {
         let text = self.sources.text(span);
-        let known = |name: &str| {
-            self.scopes.symbol(name).filter(|symbol| self.is_a_parameter(*symbol))
-        };
-        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        if text.chars().all(is_name) {
+        let known =
+            |name: &str| self.scopes.symbol(name).filter(|symbol| self.is_a_parameter(*symbol));
+        if words(text).next() == Some(text) {
             return known(text);
         }
         let of_kind = |symbol: &Symbol| {
             self.scopes.look(*symbol).is_some_and(|value| value.kind() == found.kind())
         };
-        text.split(|c| !is_name(c)).filter_map(known).find(of_kind)
+        words(text).filter_map(known).find(of_kind)
     }
 
     /// What a call has for a parameter.
@@ -121,4 +150,9 @@ impl Evaluator<'_> {
     fn tells_at(&self, place: Span) -> bool {
         self.diagnostics.iter().any(|told| told.primary().is_some_and(|label| label.span == place))
     }
+}
+
+/// The names, and whatever is written like them, of a text.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }

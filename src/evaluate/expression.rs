@@ -307,8 +307,7 @@ impl Evaluator<'_> {
                     format!("{what} works on numbers, vectors and colours, not on {kind}"),
                 )
                 .at(spans[index], format!("this is {kind}"));
-                let diagnostic =
-                    self.given_by_call(here, spans[index], values[index], diagnostic);
+                let diagnostic = self.given_by_call(here, spans[index], values[index], diagnostic);
                 let text = self.sources.text(spans[index]);
                 match values[index] {
                     Value::String(found) if found.trim().parse::<f64>().is_ok() => {

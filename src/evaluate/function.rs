@@ -70,11 +70,7 @@ impl Evaluator<'_> {
         value
     }
 
-    fn function_block(
-        &mut self,
-        token: &Token,
-        parameters: &[ParameterName],
-    ) -> Outcome<Value> {
+    fn function_block(&mut self, token: &Token, parameters: &[ParameterName]) -> Outcome<Value> {
         self.block(token, Word::Function, |evaluator| {
             let Some(first) = evaluator.next() else {
                 return Err(evaluator.expected("a formula", None, (&token.here, token.span)));

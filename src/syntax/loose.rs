@@ -180,8 +180,7 @@ impl Branches {
             (Some(Turn::Divide), TokenKind::Directive(head)) => {
                 if let Some(branch) = self.0.last_mut() {
                     // A case runs on into the next one up to a `#break`.
-                    let of_switch =
-                        matches!(branch.head, Head::Switch | Head::Case | Head::Range);
+                    let of_switch = matches!(branch.head, Head::Switch | Head::Case | Head::Range);
                     let first = of_switch && branch.first && !branch.broken;
                     let otherwise = head == Head::Else;
                     *branch = Branch { head, first, otherwise, broken: branch.broken };

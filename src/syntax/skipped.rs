@@ -145,7 +145,9 @@ fn may_skip(text: &str) -> bool {
         let Some(open) = rest.find('(').filter(|open| *open < 12) else { return false };
         let inside = rest[open + 1..].trim_start().trim_start_matches('!').trim_start();
         let name = inside.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
-        rest.starts_with("def") || inside.starts_with("defined") || name.trim_start().starts_with(')')
+        rest.starts_with("def")
+            || inside.starts_with("defined")
+            || name.trim_start().starts_with(')')
     })
 }
 

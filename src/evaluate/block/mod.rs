@@ -138,9 +138,7 @@ impl Evaluator<'_> {
         let Some(&Value::Object(object)) = self.scopes.read(symbol) else { return None };
         let follows = match self.peek_on().map(|next| &next.kind) {
             Some(TokenKind::Block(_)) => true,
-            Some(TokenKind::Word(word)) => {
-                !place::is_at_top_level(*word) && !is_object_word(*word)
-            }
+            Some(TokenKind::Word(word)) => !place::is_at_top_level(*word) && !is_object_word(*word),
             _ => false,
         };
         (!follows).then_some(object)

@@ -135,8 +135,8 @@ impl Evaluator<'_> {
             Some(&opener) => diagnostic.also(opener, "inside this block"),
             None => diagnostic,
         };
-        let diagnostic = diagnostic
-            .help(format!("move `{modifier}` behind the last part of `{of}`"));
+        let diagnostic =
+            diagnostic.help(format!("move `{modifier}` behind the last part of `{of}`"));
         *late = Some(Late { token: token.clone(), diagnostic, others: 0 });
     }
 
@@ -144,10 +144,7 @@ impl Evaluator<'_> {
     fn too_late(&mut self, token: &Token, shape: Word, first: Site, late: &mut Option<Late>) {
         let TokenKind::Word(item) = token.kind else { return };
         if matches!(item.family(), Family::Shape | Family::Csg)
-            || matches!(
-                item,
-                Word::Object | Word::LightSource | Word::LightGroup | Word::Component
-            )
+            || matches!(item, Word::Object | Word::LightSource | Word::LightGroup | Word::Component)
         {
             return self.late_part(token, [item, shape], first, late);
         }

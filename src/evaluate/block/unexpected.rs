@@ -24,9 +24,7 @@ impl Evaluator<'_> {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
             // What comes next is looked at for no name: it may declare it.
-            TokenKind::Word(word)
-                if of_poison && stands_alone(*word) && self.is_before_block() =>
-            {
+            TokenKind::Word(word) if of_poison && stands_alone(*word) && self.is_before_block() => {
                 self.unexpected_word(token, *word, place);
             }
             TokenKind::Word(word) if of_poison => {
@@ -148,6 +146,12 @@ impl Evaluator<'_> {
         };
         if matches!(token.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
             && self.missing_at.is_some_and(was_missing)
+        {
+            return self.skip_values();
+        }
+        // An argument of a macro that was told, or two that changed places.
+        if let TokenKind::Expression(_) = token.kind
+            && self.is_refused_again(&token.here, token.span, value)
         {
             return self.skip_values();
         }

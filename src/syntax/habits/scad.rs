@@ -82,9 +82,7 @@ fn written(name: &str, given: &Given) -> Option<(&'static str, String)> {
             ("an outline that is drawn up", format!("prism {{ 0, {height}, count, points }}"))
         }
         "rotate_extrude" => ("an outline that is turned", "lathe { count, points }".to_owned()),
-        "hull" | "minkowski" => {
-            ("what is around objects", "union { … }".to_owned())
-        }
+        "hull" | "minkowski" => ("what is around objects", "union { … }".to_owned()),
         _ => return None,
     })
 }
@@ -131,7 +129,10 @@ impl Reader<'_> {
             false => format!("`{name}(…)` is how OpenSCAD writes {what}"),
         };
         let diagnostic = Diagnostic::new(Code::ForeignWord, message)
-            .at(span, "objects have their parts in braces")
+            .at(
+                span,
+                if of_whole { "no object here" } else { "objects have their parts in braces" },
+            )
             .help(format!("write `{right}`"));
         let whole = self.span(0, end - 1);
         let complete = !right.contains("count") && !right.contains('…');
@@ -256,7 +257,9 @@ impl Reader<'_> {
         while let Some(kind) = self.kind(at) {
             match kind {
                 TokenKind::Mark(Mark::Semicolon) => return at + 1,
-                TokenKind::Mark(Mark::Close(Bracket::Brace)) | TokenKind::Directive(_) => return at,
+                TokenKind::Mark(Mark::Close(Bracket::Brace)) | TokenKind::Directive(_) => {
+                    return at;
+                }
                 TokenKind::Mark(Mark::Open(bracket)) => {
                     let Some(close) = self.closed(at, bracket) else { return at };
                     at = close + 1;

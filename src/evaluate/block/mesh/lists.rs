@@ -80,7 +80,9 @@ impl Evaluator<'_> {
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
-            return Err(self.report(&token.here, diagnostic));
+            // Unless they stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
+            return Err(Reported);
         };
         if let Some((of_uv, indices)) = face_uv {
             let count = uv_vectors.map_or(0, |(_, list)| list.len());
