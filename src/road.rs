@@ -159,6 +159,7 @@ impl<'a> Road<'a> {
         let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
         let before = self.diagnostics.len();
         let lowered = lower(scene, &options, &mut self.diagnostics);
+        self.tell_blind();
         self.tell_dark();
         self.silence(before);
         lowered

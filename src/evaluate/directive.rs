@@ -77,6 +77,7 @@ impl Evaluator<'_> {
             DirectiveKind::Switch { value, cases } => {
                 let value = self.number(here, *value)?;
                 if let Some(chosen) = self.chosen_case(here, value, cases)? {
+                    self.lint_runs_on(here, &cases[chosen..]);
                     self.push_switch(here, Items::default());
                     for case in cases[chosen..].iter().rev() {
                         self.push_branch(here, case.body);
@@ -222,7 +223,11 @@ impl Evaluator<'_> {
             let value = self.declared_value(here, head, target);
             return self.assign_element(here, target, indices, value);
         }
+        self.broken_function = None;
+        self.declared_now.push(symbol);
         let value = self.declared_value(here, head, target);
+        self.declared_now.pop();
+        self.note_broken(symbol, value.is_err());
         if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
             self.redeclared(here, head, target);
         }

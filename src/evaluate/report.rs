@@ -140,6 +140,7 @@ impl Evaluator<'_> {
             }
             _ => diagnostic,
         };
+        let diagnostic = self.given_by_call(here, span, found, diagnostic);
         self.report(here, diagnostic)
     }
 

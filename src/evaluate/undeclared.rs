@@ -85,6 +85,10 @@ impl Evaluator<'_> {
         span: Span,
         fits: impl Fn(Word) -> bool,
     ) -> Option<Diagnostic> {
+        // Its own declaration goes on to here for want of a brace.
+        if self.misread && self.declared_now.contains(&symbol) {
+            return None;
+        }
         let mut diagnostic =
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
         let rest = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");

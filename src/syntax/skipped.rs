@@ -6,7 +6,7 @@
 //! skips such a branch word by word, whatever stands there (measured).
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::comment::Quiet;
@@ -14,7 +14,7 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
 use super::{ParseOptions, parse};
 use crate::diagnostic::Diagnostics;
 use crate::source::{FileId, Source, Span};
-use crate::vocabulary::{is_standard_include, standard_include_of};
+use crate::vocabulary::{Word, is_standard_include, standard_include_of};
 
 pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     if !may_skip(&quiet.text) {
@@ -51,14 +51,103 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     quiet.text = Cow::Owned(String::from_utf8(bytes).unwrap_or_default());
 }
 
+/// What a name stands for at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Declared {
+    Nothing,
+    Truth(bool),
+    Something,
+}
+
+/// What the names of a text stand for, of those that are declared outside of all directives alone.
+struct Known<'a> {
+    names: HashMap<&'a str, Declared>,
+    /// Names that a loop, a macro or a branch declares.
+    moving: HashSet<&'a str>,
+    depth: usize,
+}
+
+impl<'a> Known<'a> {
+    fn of(reader: &Reader<'a>) -> Self {
+        let mut known = Self { names: HashMap::new(), moving: HashSet::new(), depth: 0 };
+        let includes = (0..reader.tokens.len()).any(|at| {
+            reader.tokens[at].kind == TokenKind::Directive(Head::Include)
+                && !is_standard_include(reader.slice(at + 1).trim_matches('"'))
+        });
+        if includes {
+            // Another text may declare anything.
+            known.depth = usize::MAX / 2;
+            return known;
+        }
+        let mut moving = HashSet::new();
+        for (at, token) in reader.tokens.iter().enumerate() {
+            known.turn(token);
+            let depth = known.depth;
+            let target = match token.kind {
+                TokenKind::Directive(Head::For) => Some(reader.slice(at + 2)),
+                TokenKind::Directive(Head::Declare | Head::Local | Head::Undef | Head::Macro) => {
+                    let plain = depth == 0 && token.kind != TokenKind::Directive(Head::Macro);
+                    (!plain).then(|| reader.slice(at + 1))
+                }
+                // `#read (File, A, B)`, `M(A)`: names that something may be done to.
+                TokenKind::Name => {
+                    let before = at.checked_sub(1).map(|before| reader.tokens[before].kind);
+                    let behind = reader.tokens.get(at + 1).map(|behind| behind.kind);
+                    let comma = TokenKind::Mark(Mark::Comma);
+                    (before == Some(comma) || behind == Some(comma)).then(|| reader.slice(at))
+                }
+                _ => None,
+            };
+            moving.extend(target);
+        }
+        Self { names: HashMap::new(), moving, depth: 0 }
+    }
+
+    fn turn(&mut self, token: &Token) {
+        match token.kind {
+            TokenKind::Directive(head) if head.opens() => self.depth += 1,
+            TokenKind::Directive(Head::End) => self.depth = self.depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+
+    /// Takes notice of a token.
+    fn pass(&mut self, reader: &Reader<'a>, at: usize) {
+        let token = &reader.tokens[at];
+        self.turn(token);
+        if self.depth > 0 {
+            return;
+        }
+        let name = reader.slice(at + 1);
+        let declared = match token.kind {
+            TokenKind::Directive(Head::Undef) => Declared::Nothing,
+            TokenKind::Directive(Head::Declare | Head::Local) => {
+                let text = reader.slice(at + 3);
+                let constant = CONSTANTS.iter().find(|(word, _)| *word == text);
+                let ends = reader.is(at + 2, Mark::Equal) && reader.is(at + 4, Mark::Semicolon);
+                constant.filter(|_| ends).map_or(Declared::Something, |c| Declared::Truth(c.1))
+            }
+            _ => return,
+        };
+        self.names.insert(name, declared);
+    }
+
+    fn value(&self, name: &str) -> Option<Declared> {
+        self.names.get(name).copied().filter(|_| !self.moving.contains(name))
+    }
+}
+
 /// Whether a text may hold a condition that is plain.
 fn may_skip(text: &str) -> bool {
     text.match_indices('#').any(|(at, _)| {
         let rest = text[at + 1..].trim_start();
         let Some(rest) = rest.strip_prefix("if") else { return false };
         let Some(open) = rest.find('(').filter(|open| *open < 12) else { return false };
-        let inside = rest[open + 1..].trim_start();
-        rest.starts_with("def") || CONSTANTS.iter().any(|(word, _)| inside.starts_with(word))
+        let inside = rest[open + 1..].trim_start().trim_start_matches('!').trim_start();
+        let name = inside.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        rest.starts_with("def")
+            || inside.starts_with("defined")
+            || name.trim_start().starts_with(')')
     })
 }
 
@@ -79,8 +168,8 @@ struct Reader<'a> {
     options: &'a ParseOptions,
 }
 
-impl Reader<'_> {
-    fn slice(&self, at: usize) -> &str {
+impl<'a> Reader<'a> {
+    fn slice(&self, at: usize) -> &'a str {
         self.tokens
             .get(at)
             .and_then(|token| self.text.get(token.start as usize..token.end as usize))
@@ -90,25 +179,14 @@ impl Reader<'_> {
     /// The branches that are never run, without those inside others, and without the blanks around them.
     fn branches(&self) -> Vec<Range<usize>> {
         let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
+        let mut known = Known::of(self);
         let (mut found, mut at) = (Vec::new(), 0);
         while at < self.tokens.len() {
-            let condition = match self.tokens[at].kind {
-                TokenKind::Directive(Head::If) => {
-                    CONSTANTS.iter().find(|(word, _)| *word == self.slice(at + 2)).map(|c| c.1)
-                }
-                TokenKind::Directive(Head::Ifdef) => {
-                    unknown.contains(self.slice(at + 2)).then_some(false)
-                }
-                _ => None,
-            };
-            let is = |at: usize, mark| {
-                self.tokens.get(at).is_some_and(|token| token.kind == TokenKind::Mark(mark))
-            };
-            let plain =
-                is(at + 1, Mark::Open(Bracket::Round)) && is(at + 3, Mark::Close(Bracket::Round));
+            known.pass(self, at);
+            let condition = self.condition(at, &unknown, &known);
             at += 1;
-            let (Some(condition), true) = (condition, plain) else { continue };
-            let (first, Some(end)) = (at + 3, self.end_of_branch(at + 3)) else { continue };
+            let Some((condition, first)) = condition else { continue };
+            let Some(end) = self.end_of_branch(first) else { continue };
             let branch = match (condition, self.tokens[end].kind) {
                 (false, _) => Some((first, end)),
                 (true, TokenKind::Directive(Head::Else)) => {
@@ -118,10 +196,56 @@ impl Reader<'_> {
             };
             if let Some((first, end)) = branch.filter(|(first, end)| first < end) {
                 found.push(self.tokens[first].start as usize..self.tokens[end - 1].end as usize);
+                // What is declared in between is declared as before.
+                (at..end).for_each(|at| known.pass(self, at));
                 at = end;
             }
         }
         found
+    }
+
+    fn is(&self, at: usize, mark: Mark) -> bool {
+        self.tokens.get(at).is_some_and(|token| token.kind == TokenKind::Mark(mark))
+    }
+
+    /// Whether the condition that begins at `at` holds, if that is plain, and where its branch begins.
+    fn condition(
+        &self,
+        at: usize,
+        unknown: &HashSet<&str>,
+        known: &Known,
+    ) -> Option<(bool, usize)> {
+        let TokenKind::Directive(head) = self.tokens[at].kind else { return None };
+        let [open, close] = [Mark::Open(Bracket::Round), Mark::Close(Bracket::Round)];
+        let is_known = |name: &str| match known.value(name) {
+            Some(value) => Some(value != Declared::Nothing),
+            None => unknown.contains(name).then_some(false),
+        };
+        let (value, end) = match head {
+            Head::Ifdef | Head::Ifndef => {
+                (is_known(self.slice(at + 2))? == (head == Head::Ifdef), at + 3)
+            }
+            Head::If => {
+                let not = self.is(at + 2, Mark::Not);
+                let first = if not { at + 3 } else { at + 2 };
+                let constant = || CONSTANTS.iter().find(|(word, _)| *word == self.slice(first));
+                let (value, end) = match self.tokens.get(first)?.kind {
+                    TokenKind::Word(Word::Defined)
+                        if self.is(first + 1, open) && self.is(first + 3, close) =>
+                    {
+                        (is_known(self.slice(first + 2))?, first + 4)
+                    }
+                    TokenKind::Name => match known.value(self.slice(first))? {
+                        Declared::Truth(truth) => (truth, first + 1),
+                        Declared::Nothing | Declared::Something => return None,
+                    },
+                    _ => (constant()?.1, first + 1),
+                };
+                (value != not, end)
+            }
+            _ => return None,
+        };
+        (self.is(at + 1, open) && self.is(end, close)).then_some((value, end + 1))
     }
 
     /// The `#else`, `#elseif` or `#end` that a branch which begins at `at` ends with.

@@ -108,7 +108,7 @@ impl Evaluator<'_> {
     /// `[value color]`, or the old `[from, to color a color b]`, and of that `to color a` where it can go.
     fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
         let given = self.number_after(token, "a number and a colour")?;
-        let from = given.value;
+        let (from, first_number) = (given.value, given.span);
         rise.entry(given, self.sources);
         self.skip_commas();
         let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
@@ -130,6 +130,11 @@ impl Evaluator<'_> {
                 rise.entry(second.with(to), self.sources);
                 let first = self.written_color_after(token, "a colour")?.value;
                 let piece = self.joined(number, self.taken.unwrap_or(number));
+                if let Some(diagnostic) = self.decimal_comma(first_number)
+                    && self.peek().is_none()
+                {
+                    return Err(self.report(&token.here, diagnostic));
+                }
                 let last = self.written_color_after(token, "a second colour")?.value;
                 // POV-Ray's manual has it as a form of today.
                 if self.options.dialect == Dialect::Scene {

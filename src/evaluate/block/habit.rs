@@ -31,6 +31,26 @@ impl Evaluator<'_> {
             .filter(|(whole, _)| whole.start == span.start)
     }
 
+    /// What to say of `0,5`, whose `0` stands at `span`.
+    pub(in crate::evaluate) fn decimal_comma(&self, span: Span) -> Option<Diagnostic> {
+        let (whole, number) = self.comma_after(span)?;
+        Some(told_comma(self.sources.text(whole), whole, number))
+    }
+
+    /// `#declare R = 0,5;`: the name has the number that was meant from here on, so that nothing else is told of it.
+    pub(super) fn declare_with_point(&mut self, number: Span, meant: &str) {
+        let text = &self.sources.get(number.file).text;
+        let before = text.get(..number.start as usize).unwrap_or("").trim_end();
+        let Some(before) = before.strip_suffix('=').map(str::trim_end) else { return };
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let name = &before[before.trim_end_matches(is_name).len()..];
+        if let (Some(symbol), Ok(meant)) = (self.scopes.symbol(name), meant.parse())
+            && let Some(Value::Number(_)) = self.scopes.look(symbol)
+        {
+            self.scopes.assign(symbol, Value::Number(meant));
+        }
+    }
+
     /// The number whose fraction stands at `span`, after a comma that ends the text `before`.
     fn decimal(&self, span: Span, before: &str) -> Option<(Span, String)> {
         let fraction = digits(self.sources.text(span))?;
@@ -326,6 +346,14 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+/// `0,5` where a number stands.
+pub(super) fn told_comma(text: &str, span: Span, number: String) -> Diagnostic {
+    Diagnostic::new(Code::MalformedNumber, format!("`{text}` is no number"))
+        .at(span, "expected a point, not a comma")
+        .help(format!("a fraction is written with a point: `{number}`"))
+        .fix(span, number)
 }
 
 fn digits(text: &str) -> Option<&str> {

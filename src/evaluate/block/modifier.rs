@@ -10,6 +10,13 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::place::is_before_modifiers;
 
+/// The first part behind the modifiers of its block, and how many others follow.
+struct Late {
+    token: Token,
+    diagnostic: Diagnostic,
+    others: u32,
+}
+
 impl Evaluator<'_> {
     /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
     /// pigment or finish alone changes that in part.
@@ -28,6 +35,7 @@ impl Evaluator<'_> {
         };
         let (mut failed, mut painted): (bool, Option<Site>) = (false, None);
         let mut first: Option<Site> = None;
+        let mut late: Option<Late> = None;
         while let Some(token) = self.next() {
             let before = self.poison;
             if let TokenKind::Word(item) = token.kind
@@ -35,7 +43,7 @@ impl Evaluator<'_> {
                 && used.is_none()
                 && is_before_modifiers(word, item)
             {
-                self.too_late(&token, word, first);
+                self.too_late(&token, word, first, &mut late);
                 failed = true;
                 continue;
             }
@@ -89,12 +97,57 @@ impl Evaluator<'_> {
                 },
             }
         }
+        if let Some(Late { token, diagnostic, others }) = late {
+            let diagnostic = match others {
+                0 => diagnostic,
+                1 => diagnostic.help("so does one more part behind it"),
+                others => diagnostic.help(format!("so do {others} more parts behind it")),
+            };
+            self.report(&token.here, diagnostic);
+        }
         if failed { Err(Reported) } else { Ok(()) }
     }
 
+    /// `union { sphere { 0, 1 } pigment { rgb 1 } box { … } }`: one message for all of them.
+    fn late_part(
+        &mut self,
+        token: &Token,
+        [item, of]: [Word; 2],
+        first: Site,
+        late: &mut Option<Late>,
+    ) {
+        match of.family() {
+            // Each may have mistakes of its own.
+            Family::Csg => drop(self.object(token, item)),
+            _ => self.skip_arguments(item),
+        }
+        if let Some(late) = late {
+            late.others += 1;
+            return;
+        }
+        let (name, of) = (item.name(), of.name());
+        let modifier = self.sources.text(first.span).to_owned();
+        let message = format!("this `{name}` stands after the modifiers of `{of}`");
+        let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+            .at(token.span, format!("the parts of `{of}` come first"))
+            .also(first.span, "its modifiers begin here");
+        let diagnostic = match self.openers.last() {
+            Some(&opener) => diagnostic.also(opener, "inside this block"),
+            None => diagnostic,
+        };
+        let diagnostic =
+            diagnostic.help(format!("move `{modifier}` behind the last part of `{of}`"));
+        *late = Some(Late { token: token.clone(), diagnostic, others: 0 });
+    }
+
     /// `cylinder { 0, y, 1 pigment { … } open }`: a part of the shape behind the first of its modifiers.
-    fn too_late(&mut self, token: &Token, shape: Word, first: Site) {
+    fn too_late(&mut self, token: &Token, shape: Word, first: Site, late: &mut Option<Late>) {
         let TokenKind::Word(item) = token.kind else { return };
+        if matches!(item.family(), Family::Shape | Family::Csg)
+            || matches!(item, Word::Object | Word::LightSource | Word::LightGroup | Word::Component)
+        {
+            return self.late_part(token, [item, shape], first, late);
+        }
         self.skip_arguments(item);
         let whole = self.whole(token);
         let text = self.sources.text(whole.span).to_owned();

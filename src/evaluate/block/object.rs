@@ -99,7 +99,14 @@ impl Evaluator<'_> {
                 Ok(ObjectKind::Use(used)) => Some(used),
                 _ => None,
             };
-            evaluator.modifiers(word, used, &mut modifiers)?;
+            let (owed, before) = (evaluator.owed.take(), evaluator.reports);
+            let modified = evaluator.modifiers(word, used, &mut modifiers);
+            if let Some((here, diagnostic)) = owed
+                && evaluator.reports == before
+            {
+                evaluator.report(&here, diagnostic);
+            }
+            modified?;
             kind
         })?;
         self.add_object(Object { kind, modifiers, site, item: None })

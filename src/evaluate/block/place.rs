@@ -286,7 +286,12 @@ pub(super) fn is_before_modifiers(shape: Word, item: Word) -> bool {
         W::SphereSweep => {
             matches!(item, W::Tolerance | W::LinearSpline | W::BSpline | W::CubicSpline)
         }
-        W::Blob => matches!(item, W::Threshold | W::Component),
+        W::Blob => matches!(item, W::Threshold | W::Component | W::Sphere | W::Cylinder),
+        W::Mesh if matches!(item, W::Triangle | W::SmoothTriangle) => true,
+        W::Union | W::Merge | W::Difference | W::Intersection => {
+            matches!(item.family(), Family::Shape | Family::Csg)
+                || matches!(item, W::Object | W::LightSource | W::LightGroup)
+        }
         W::Isosurface | W::Parametric => matches!(
             item,
             W::ContainedBy

@@ -66,6 +66,17 @@ impl Evaluator<'_> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
+        // `0,5`: the rest of the number comes next, and is told.
+        let number = |kind: &TokenKind| {
+            matches!(kind, TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
+        };
+        let fraction = diagnostic.primary().and_then(|label| self.comma_after(label.span));
+        if self.options.dialect == Dialect::Pov
+            && fraction.is_some()
+            && self.peek().is_some_and(|next| number(&next.kind))
+        {
+            return Ok(());
+        }
         let reported = self.report(here, diagnostic);
         match self.options.dialect {
             Dialect::Scene => Err(reported),

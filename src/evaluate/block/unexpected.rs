@@ -11,6 +11,7 @@ use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Reported};
 use super::Place;
+use super::habit::told_comma;
 use super::place::{home, is_at_top_level, stands_alone};
 use super::unknown::{is_transform, told_directive};
 
@@ -18,11 +19,12 @@ impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
         // What stands behind a word that is not built may belong to it.
-        let (of_poison, has_block) = (self.poison.is_some(), self.is_before_block());
+        let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
-            TokenKind::Word(word) if of_poison && has_block && stands_alone(*word) => {
+            // What comes next is looked at for no name: it may declare it.
+            TokenKind::Word(word) if of_poison && stands_alone(*word) && self.is_before_block() => {
                 self.unexpected_word(token, *word, place);
             }
             TokenKind::Word(word) if of_poison => {
@@ -147,6 +149,12 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
+        // An argument of a macro that was told, or two that changed places.
+        if let TokenKind::Expression(_) = token.kind
+            && self.is_refused_again(&token.here, token.span, value)
+        {
+            return self.skip_values();
+        }
         let kind = value.kind();
         let mut diagnostic = Diagnostic::new(
             Code::ExtraPart,
@@ -199,10 +207,8 @@ impl Evaluator<'_> {
         } else if let Some(told) = self.angle_behind_axis(token, value) {
             diagnostic = told;
         } else if let Some((span, number)) = self.comma_before(token.span) {
-            diagnostic.labels.iter_mut().for_each(|label| label.span = span);
-            diagnostic = diagnostic
-                .help(format!("a fraction is written with a point: `{number}`"))
-                .fix(span, number);
+            self.declare_with_point(span, &number);
+            diagnostic = told_comma(self.sources.text(span), span, number);
         } else if let (Some(word), Value::Texture(_)) = (place.word, value)
             && matches!(word, Word::Pigment | Word::Finish)
         {

@@ -17,6 +17,7 @@ mod map;
 mod number;
 mod part;
 mod sample;
+mod scad;
 mod sign;
 mod template;
 mod vector;
@@ -169,6 +170,7 @@ impl Reader<'_> {
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
                     || self.head_without_hash(word, meant)
+                    || self.scad(meant)
                     || self.empty_parentheses(word, meant)
                     || self.assigned_block(word, meant)
                     || self.part(meant)
@@ -185,6 +187,7 @@ impl Reader<'_> {
                     || self.returns()
                     || self.changes(meant)
                     || self.logic(meant)
+                    || self.scad(meant)
                     || self.vector(meant)
                     || self.part(meant)
             }
@@ -203,6 +206,7 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
                 self.template(meant) || self.vector(meant)
             }
+            TokenKind::String => self.part(meant),
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
             TokenKind::Mark(Mark::Open(Bracket::Round)) => {
                 self.uncertain_number(meant) || self.map(meant) || self.vector(meant)

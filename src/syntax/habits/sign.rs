@@ -209,15 +209,20 @@ impl Reader<'_> {
 
     /// `look at`, `light source { … }`: a word of the language in two parts.
     pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
-        if !matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_))) {
+        let is_part = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+        // `look-at`
+        let hyphen = self.is(1, Mark::Minus) && self.touches(1) && self.kind(2).is_some();
+        let last = if hyphen && self.touches(2) { 2 } else { 1 };
+        if !is_part(self.kind(last)) {
             return false;
         }
-        let span = self.span(0, 1);
+        let span = self.span(0, last);
         let text = self.text.get(span.range()).unwrap_or("");
-        let Some(blank) = text.find([' ', '\t']).filter(|_| text.len() <= LONGEST_WORD) else {
+        let part = [' ', '\t', '-'];
+        let Some(blank) = text.find(part).filter(|_| text.len() <= LONGEST_WORD) else {
             return false;
         };
-        let rest = text[blank..].trim_start_matches([' ', '\t']);
+        let rest = text[blank..].trim_start_matches(part);
         let whole = format!("{}_{rest}", text[..blank].trim_end_matches('_'));
         let Some(word) = Word::from_name(&whole).filter(|word| word.role() == Role::Statement)
         else {
@@ -230,7 +235,7 @@ impl Reader<'_> {
                 .fix(span, whole),
         );
         meant.push(Token { kind: TokenKind::Word(word), end: span.end, ..self.tokens[self.at] });
-        self.at += 2;
+        self.at += last + 1;
         true
     }
 

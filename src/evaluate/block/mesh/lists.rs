@@ -83,7 +83,9 @@ impl Evaluator<'_> {
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
-            return Err(self.report(&token.here, diagnostic));
+            // Unless they stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
+            return Err(Reported);
         };
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
