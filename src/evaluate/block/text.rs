@@ -34,7 +34,13 @@ impl Evaluator<'_> {
             self.next();
             return Err(reported);
         }
-        let given = self.given(token, wanted)?;
+        let is_written = self.is_before_value();
+        let given = self.given(token, wanted);
+        if given.is_err() && is_written && !self.is_before_value() {
+            // A mistake in the string hides none behind it.
+            self.number_after(token, "a number for the thickness")?;
+        }
+        let given = given?;
         let Value::String(string) = &given.value else {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
         };

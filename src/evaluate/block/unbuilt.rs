@@ -32,6 +32,7 @@ fn values_not_built(word: Word) -> &'static [&'static str] {
             "a number of lights along the second side",
         ],
         Word::Adaptive | Word::Aperture | Word::MajorRadius => &["a number"],
+        Word::BrickSize => &["a vector for the size of a brick"],
         _ => &[],
     }
 }
@@ -42,8 +43,14 @@ impl Evaluator<'_> {
         let outer = self.poison.take();
         for wanted in values_not_built(word) {
             if self.unbuilt_part(token, wanted).is_err() {
+                self.skip_values();
                 break;
             }
+        }
+        if word == Word::Function && self.is_before_block() {
+            let _: Outcome<Value> = self.function(token);
+            self.poison = outer;
+            return;
         }
         self.poison = outer;
         if let Word::TextureMap
@@ -242,6 +249,11 @@ impl Evaluator<'_> {
     }
 
     fn unbuilt_part(&mut self, token: &Token, wanted: &str) -> Outcome<()> {
+        if wanted.starts_with("a vector")
+            && let Some(reported) = self.bare_points(1, 0)
+        {
+            return Err(reported);
+        }
         let given = self.given(token, wanted)?;
         match &given.value {
             Value::Poison(_) | Value::Broken => Ok(()),

@@ -246,7 +246,7 @@ impl Evaluator<'_> {
     }
 
     /// Whether a value comes next, behind a comma or not; a name that is not declared is none.
-    fn is_before_value(&mut self) -> bool {
+    pub(in crate::evaluate::block) fn is_before_value(&mut self) -> bool {
         self.skip_commas();
         match self.peek().cloned() {
             Some(Token { kind: TokenKind::Expression(id), here, .. }) => {
