@@ -130,7 +130,7 @@ codes! {
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
-    MissingBreak "missing-break" lint "a case of a `#switch` without `#break` runs on into the next one";
+    MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
     NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";
     CountedTwice "counted-twice" lint "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";

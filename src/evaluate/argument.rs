@@ -37,7 +37,7 @@ impl Evaluator<'_> {
     /// changed places.
     pub(super) fn is_refused_again(&mut self, here: &Here, span: Span, found: &Value) -> bool {
         let Some(Origin { call, parameter, .. }) = self.origin(here, span, found) else {
-            return self.is_made_of_refused(here, span, found);
+            return false;
         };
         let refused = Refused { parameter, kind: found.kind(), told: span };
         let before = self.remembered.refused.get(&call).map_or(&[][..], Vec::as_slice);
@@ -50,27 +50,6 @@ impl Evaluator<'_> {
             self.remembered.refused.entry(call).or_default().push(refused);
         }
         repeats
-    }
-
-    /// `#local Half = Size/2;`: whether `span` has a name that the macro itself declares, of the kind of an argument
-    /// that was told.
-    fn is_made_of_refused(&self, here: &Here, span: Span, found: &Value) -> bool {
-        let mut names = words(self.sources.text(span)).filter_map(|name| self.scopes.symbol(name));
-        let is_made = names.any(|name| {
-            let site = self.scopes.declared(name).map(|declared| declared.site);
-            site.is_some_and(|site| site.expansion == here.expansion)
-                && self.scopes.look(name).is_some_and(|value| value.kind() == found.kind())
-        });
-        let calls = || {
-            let calls = self.scene.expansions.chain(here.expansion);
-            calls.filter(|call| call.kind == ExpansionKind::Macro)
-        };
-        let told =
-            |one: &Refused| one.kind == found.kind() && one.told != span && self.tells_at(one.told);
-        is_made
-            && calls().any(|call| {
-                self.remembered.refused.get(&call.call).is_some_and(|all| all.iter().any(told))
-            })
     }
 
     /// Names the argument that a value of no use came by.
@@ -117,13 +96,20 @@ impl Evaluator<'_> {
         let text = self.sources.text(span);
         let known =
             |name: &str| self.scopes.symbol(name).filter(|symbol| self.is_a_parameter(*symbol));
-        if words(text).next() == Some(text) {
-            return known(text);
+        if let (Some(parameter), true) = (known(text), words(text).next() == Some(text)) {
+            return Some(parameter);
         }
         let of_kind = |symbol: &Symbol| {
             self.scopes.look(*symbol).is_some_and(|value| value.kind() == found.kind())
         };
-        words(text).filter_map(known).find(of_kind)
+        words(text).filter_map(known).find(of_kind).or_else(|| {
+            // `#local Half = Size/2;`
+            let made = words(text).filter_map(|name| self.scopes.symbol(name)).find(of_kind)?;
+            let name = self.scopes.declared(made)?.site.span;
+            let behind = self.sources.get(name.file).text.get(name.end as usize..)?;
+            let value = behind.split([';', '\n']).next()?;
+            words(value).filter_map(known).find(of_kind)
+        })
     }
 
     /// What a call has for a parameter.

@@ -37,7 +37,7 @@ impl Road<'_> {
         own.map(|(_, (_, source))| source.text.to_ascii_lowercase()).collect()
     }
 
-    /// That a scene with `global_settings` and mistakes has no camera; of one without mistakes `lower` tells it.
+    /// That a scene with lights, `global_settings` and mistakes has no camera; of one without mistakes `lower` tells it.
     pub(super) fn tell_blind(&mut self) {
         let lacking = |one: &Diagnostic| {
             matches!(
@@ -57,7 +57,9 @@ impl Road<'_> {
             let mut words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
             words.any(|word| word.starts_with("cam") || closest(word, ["camera"]).is_some())
         };
-        let whole = texts.first().is_some_and(|main| main.contains("global_settings"));
+        let whole = texts
+            .first()
+            .is_some_and(|main| main.contains("global_settings") && main.contains("light_source"));
         if whole && !texts.iter().any(|text| misspelt(text)) {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";

@@ -34,7 +34,12 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
         parse(&Source::new("", text.to_owned()), file, &options.inside(), &mut told);
         !told.is_empty()
     };
-    let branches: Vec<Range<usize>> = branches.into_iter().filter(unreadable).collect();
+    // Where the other branch cannot be read either, what both open may go on behind them.
+    let skips = |(branch, other): &(Range<usize>, Option<Range<usize>>)| {
+        unreadable(branch) && !other.as_ref().is_some_and(&unreadable)
+    };
+    let branches: Vec<Range<usize>> =
+        branches.into_iter().filter(skips).map(|(branch, _)| branch).collect();
     if branches.is_empty() {
         return;
     }
@@ -176,8 +181,9 @@ impl<'a> Reader<'a> {
             .unwrap_or("")
     }
 
-    /// The branches that are never run, without those inside others, and without the blanks around them.
-    fn branches(&self) -> Vec<Range<usize>> {
+    /// The branches that are never run, each with the one that is run instead; without those inside others, and
+    /// without the blanks around them.
+    fn branches(&self) -> Vec<(Range<usize>, Option<Range<usize>>)> {
         let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
         let mut known = Known::of(self);
         let (mut found, mut at) = (Vec::new(), 0);
@@ -187,15 +193,17 @@ impl<'a> Reader<'a> {
             at += 1;
             let Some((condition, first)) = condition else { continue };
             let Some(end) = self.end_of_branch(first) else { continue };
-            let branch = match (condition, self.tokens[end].kind) {
-                (false, _) => Some((first, end)),
-                (true, TokenKind::Directive(Head::Else)) => {
-                    self.end_of_branch(end + 1).map(|last| (end + 1, last))
-                }
-                (true, _) => None,
+            let is_else = self.tokens[end].kind == TokenKind::Directive(Head::Else);
+            let last = if is_else { self.end_of_branch(end + 1) } else { None };
+            let (own, other) = ((first, end), last.map(|last| (end + 1, last)));
+            let branches = if condition { (other, Some(own)) } else { (Some(own), other) };
+            let text = |&(first, end): &(usize, usize)| {
+                self.tokens[first].start as usize..self.tokens[end - 1].end as usize
             };
-            if let Some((first, end)) = branch.filter(|(first, end)| first < end) {
-                found.push(self.tokens[first].start as usize..self.tokens[end - 1].end as usize);
+            let whole = |branch: Option<(usize, usize)>| branch.filter(|(first, end)| first < end);
+            if let (Some(branch), other) = (whole(branches.0), whole(branches.1)) {
+                let end = branch.1;
+                found.push((text(&branch), other.as_ref().map(text)));
                 // What is declared in between is declared as before.
                 (at..end).for_each(|at| known.pass(self, at));
                 at = end;

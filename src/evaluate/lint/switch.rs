@@ -20,6 +20,10 @@ impl Evaluator<'_> {
         }
         let Some(head) = self.head_of(here, next) else { return };
         let first = ast.items(case.body).first().map_or(head, |item| item.span);
+        // A head that was mended may stand before what it heads.
+        if first.start > head.start {
+            return;
+        }
         let between = self.sources.text(Span { end: head.start, ..first });
         if between.to_ascii_lowercase().contains("fall") {
             return;
