@@ -350,7 +350,7 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
 
 /// `0,5` where a number stands.
 pub(super) fn told_comma(text: &str, span: Span, number: String) -> Diagnostic {
-    Diagnostic::new(Code::MalformedNumber, format!("`{text}` is no number"))
+    Diagnostic::new(Code::ExtraPart, format!("`{text}` is no number"))
         .at(span, "expected a point, not a comma")
         .help(format!("a fraction is written with a point: `{number}`"))
         .fix(span, number)
