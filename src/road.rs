@@ -3,6 +3,7 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
+mod dark;
 mod echo;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
@@ -78,6 +79,9 @@ impl<'a> Road<'a> {
             error.valid_up_to() + before.iter().filter(|byte| !byte.is_ascii()).count()
         });
         let (text, _) = decode(bytes);
+        if dark::is_whole(&text) {
+            self.diagnostics.of_whole_scene();
+        }
         let file = self.sources.add(Source::new(name, text));
         if let Some(at) = wrong {
             let end =
@@ -99,8 +103,13 @@ impl<'a> Road<'a> {
     }
 
     pub fn parse(&mut self, file: FileId) -> Ast {
-        let EvaluateOptions { dialect, limits, .. } = self.options.evaluate;
-        let options = ParseOptions { dialect, nesting_limit: limits.nesting as usize };
+        let EvaluateOptions { dialect, limits, ref declares, .. } = self.options.evaluate;
+        let options = ParseOptions {
+            dialect,
+            nesting_limit: limits.nesting as usize,
+            alone: declares.is_empty(),
+            ..ParseOptions::default()
+        };
         let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
         self.drop_encoding_of_comments(&ast);
         if self.options.legacy {
@@ -150,6 +159,8 @@ impl<'a> Road<'a> {
         let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
         let before = self.diagnostics.len();
         let lowered = lower(scene, &options, &mut self.diagnostics);
+        self.tell_blind();
+        self.tell_dark();
         self.silence(before);
         lowered
     }

@@ -372,14 +372,15 @@ fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The files beside a scene.
+/// The files beside a scene, and those that are built in.
 struct Beside(PathBuf);
 
 impl Files for Beside {
     fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
-        match fs::read(self.0.join(name)) {
-            Ok(bytes) => Ok(Found { name: name.to_owned(), bytes }),
-            Err(error) => Err(FileError::Unreadable(error.to_string())),
+        match (fs::read(self.0.join(name)), lucarne::standard::include(name)) {
+            (Ok(bytes), _) => Ok(Found { name: name.to_owned(), bytes }),
+            (_, Some((name, text))) => Ok(Found { name, bytes: text.as_bytes().to_vec() }),
+            (Err(error), _) => Err(FileError::Unreadable(error.to_string())),
         }
     }
 }

@@ -12,6 +12,7 @@ use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Frame, Kernel, Plan, PlanOptions, plan};
 use lucarne::road::{Options, Road, dialect};
 use lucarne::source::{FileError, Files, Found, Sources, Span};
+use lucarne::standard::include;
 use lucarne::trace::{Counters, Evaluations, TraceOptions, Traced, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
@@ -30,18 +31,22 @@ const OPTIONS: PlanOptions = PlanOptions {
     julia_iterations: None,
 };
 
-/// Files as they lie on disk, but for those that were changed here.
+/// Files as they lie on disk, or are built in, but for those that were changed here.
 #[derive(Default)]
 struct Changed(BTreeMap<String, String>);
 
 impl Files for Changed {
     fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
-        let name = Path::new(from).with_file_name(name).to_string_lossy().into_owned();
-        let bytes = match self.0.get(&name) {
-            Some(text) => text.clone().into_bytes(),
-            None => fs::read(&name).map_err(|error| FileError::Unreadable(error.to_string()))?,
+        let near = Path::new(from).with_file_name(name).to_string_lossy().into_owned();
+        let found = match fs::read(&near) {
+            Ok(bytes) => Some((near, bytes)),
+            Err(_) => include(name).map(|(place, text)| (place, text.as_bytes().to_vec())),
         };
-        Ok(Found { name, bytes })
+        let Some((name, bytes)) = found else {
+            return Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() });
+        };
+        let changed = self.0.get(&name).map(|text| text.clone().into_bytes());
+        Ok(Found { name, bytes: changed.unwrap_or(bytes) })
     }
 }
 
@@ -301,7 +306,7 @@ sphere { 0, 1 no_shadow }";
             BARE,
             "plane { y, 0 pigment { checker rgb 1 rgb 0 } finish { diffuse 0 } }",
             Effect::Patterns,
-            "checker",
+            "checker rgb 1",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),

@@ -130,6 +130,7 @@ codes! {
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
+    MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
     NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";
     CountedTwice "counted-twice" lint "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
@@ -161,7 +162,7 @@ codes! {
     SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
     Comma "comma" warning "a comma stands where it parts no values";
     Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
-    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`";
+    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`, or of a version to come";
 }
 
 impl Code {

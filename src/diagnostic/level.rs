@@ -21,6 +21,8 @@ pub enum Level {
 pub struct Levels {
     /// Lints are told: not the quiet ones.
     lints: bool,
+    /// The scene is whole: that it shows nothing is told in any case.
+    whole: bool,
     /// Of all that were not named; where it is not said, other warnings are told.
     all: Option<Level>,
     named: BTreeMap<Code, Level>,
@@ -29,7 +31,12 @@ pub struct Levels {
 impl Levels {
     /// Lints told, but for the quiet ones; or none.
     pub fn new(lints: bool) -> Self {
-        Self { lints, all: None, named: BTreeMap::new() }
+        Self { lints, ..Self::default() }
+    }
+
+    /// The main file is a whole scene, and no part of one.
+    pub fn of_whole_scene(&mut self) {
+        self.whole = true;
     }
 
     /// Sets every code that is not named.
@@ -48,7 +55,8 @@ impl Levels {
 
     /// Of a code that warns; of an error and of a note, none.
     pub fn of(&self, code: Code) -> Option<Level> {
-        let is_told = !code.is_lint() || self.lints && !code.is_quiet();
+        let of_whole = matches!(code, Code::NoLight | Code::EmptyScene);
+        let is_told = !code.is_lint() || self.lints && !code.is_quiet() || self.whole && of_whole;
         let unnamed = self.all.unwrap_or(if is_told { Level::Warn } else { Level::Allow });
         code.warns().then(|| self.named.get(&code).copied().unwrap_or(unnamed))
     }

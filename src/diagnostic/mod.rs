@@ -167,6 +167,11 @@ impl Diagnostics {
         Self { levels, ..Self::default() }
     }
 
+    /// The main file is a whole scene: that it shows nothing is told in any case.
+    pub fn of_whole_scene(&mut self) {
+        self.levels.of_whole_scene();
+    }
+
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if let Some(level) = self.levels.of(diagnostic.code) {
             let Some(severity) = level.severity() else { return };

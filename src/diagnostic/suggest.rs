@@ -187,6 +187,19 @@ pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
+/// The candidate that begins as `word` does, for two thirds of the longer one: `contained_by` for `container`,
+/// `extinction` for `extinct`.
+pub fn begun<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    const LEAST: usize = 4;
+    let fits = |candidate: &&str| {
+        let same = word.bytes().zip(candidate.bytes()).take_while(|(a, b)| a == b).count();
+        let longer = word.len().max(candidate.len());
+        **candidate != *word && same >= LEAST && 3 * same >= 2 * longer
+    };
+    let mut fitting = candidates.into_iter().filter(fits);
+    fitting.next().filter(|_| fitting.next().is_none())
+}
+
 /// The words that a name is made of, in lower case: `LeafPigment`, `leaf_pigment`.
 fn parts(name: &str) -> Vec<String> {
     let mut parts = vec![String::new()];

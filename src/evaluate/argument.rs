@@ -1,14 +1,19 @@
 //! What a call of a macro was given and its body cannot use: one mistake of the call, however often the body
-//! has it.
+//! has it, and whatever other macros the body hands it to.
 //!
 //! **Invariant:** only what was told, and still is, makes anything else its repetition.
 
-use crate::source::{ExpansionKind, Span};
+use crate::diagnostic::Diagnostic;
+use crate::source::{Expansion, ExpansionKind, Span};
+use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 
 use super::value::Value;
 use super::{Evaluator, Here, Symbol};
 
-/// The first argument of a call that its macro could not use.
+/// An argument of so many characters is quoted.
+const LONGEST: usize = 40;
+
+/// An argument of a call that its macro could not use.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refused {
     parameter: Symbol,
@@ -17,30 +22,111 @@ pub(super) struct Refused {
     told: Span,
 }
 
+/// The parameter that a value came by, and the call that it was written in.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    call: Span,
+    parameter: Symbol,
+    /// The argument itself, where it is found.
+    argument: Option<Span>,
+}
+
 impl Evaluator<'_> {
-    /// Whether `found`, which is of no use at `span`, is a parameter of the macro that is being run, and says
+    /// Whether `found`, which is of no use at `span`, comes of a parameter of the macro that is being run, and says
     /// nothing new: that parameter was told, or another one of another kind, so that the two arguments rather
     /// changed places.
     pub(super) fn is_refused_again(&mut self, here: &Here, span: Span, found: &Value) -> bool {
-        let mut calls = self.scene.expansions.chain(here.expansion);
-        let Some(call) = calls.find(|call| call.kind == ExpansionKind::Macro).map(|call| call.call)
-        else {
+        let Some(Origin { call, parameter, .. }) = self.origin(here, span, found) else {
             return false;
         };
-        let Some(parameter) = self.scopes.symbol(self.sources.text(span)) else { return false };
-        if !self.is_a_parameter(parameter) {
-            return false;
-        }
         let refused = Refused { parameter, kind: found.kind(), told: span };
-        if let Some(first) = self.remembered.refused.get(&call)
-            && first.told != span
-            && (first.parameter == parameter || first.kind != refused.kind)
-            && self.tells_at(first.told)
-        {
-            return true;
+        let before = self.remembered.refused.get(&call).map_or(&[][..], Vec::as_slice);
+        let repeats = before.iter().any(|first| {
+            first.told != span
+                && (first.parameter == parameter || first.kind != refused.kind)
+                && self.tells_at(first.told)
+        });
+        if !repeats && before.iter().all(|first| first.told != span) {
+            self.remembered.refused.entry(call).or_default().push(refused);
         }
-        self.remembered.refused.insert(call, refused);
-        false
+        repeats
+    }
+
+    /// Names the argument that a value of no use came by.
+    pub(super) fn given_by_call(
+        &self,
+        here: &Here,
+        span: Span,
+        found: &Value,
+        diagnostic: Diagnostic,
+    ) -> Diagnostic {
+        let Some(Origin { parameter, argument: Some(argument), .. }) =
+            self.origin(here, span, found)
+        else {
+            return diagnostic;
+        };
+        let (name, given) = (self.scopes.name(parameter), self.sources.text(argument));
+        let plain = given.chars().count() <= LONGEST && !given.contains('\n');
+        match plain && given != self.sources.text(span) {
+            true => diagnostic.help(format!("`{name}` was given as `{given}`")),
+            false => diagnostic,
+        }
+    }
+
+    /// Where `found`, which `span` came to, entered the macro that is being run; through the calls that only hand
+    /// it on.
+    fn origin(&self, here: &Here, span: Span, found: &Value) -> Option<Origin> {
+        let mut calls = self.scene.expansions.chain(here.expansion);
+        let mut call = calls.find(|call| call.kind == ExpansionKind::Macro)?;
+        let mut parameter = self.parameter_within(span, found)?;
+        let mut argument = self.argument(call, parameter);
+        while let Some(given) = argument
+            && let Some(outer) = calls.find(|call| call.kind == ExpansionKind::Macro)
+            && given.file == call.call.file
+            && let Some(above) = self.parameter_within(given, found)
+            && let Some(higher) = self.argument(outer, above)
+        {
+            (call, parameter, argument) = (outer, above, Some(higher));
+        }
+        Some(Origin { call: call.call, parameter, argument })
+    }
+
+    /// The parameter in a text that a value of this kind came by: its only name, or the one that is of that kind.
+    fn parameter_within(&self, span: Span, found: &Value) -> Option<Symbol> {
+        let text = self.sources.text(span);
+        let known =
+            |name: &str| self.scopes.symbol(name).filter(|symbol| self.is_a_parameter(*symbol));
+        if let (Some(parameter), true) = (known(text), words(text).next() == Some(text)) {
+            return Some(parameter);
+        }
+        let of_kind = |symbol: &Symbol| {
+            self.scopes.look(*symbol).is_some_and(|value| value.kind() == found.kind())
+        };
+        words(text).filter_map(known).find(of_kind).or_else(|| {
+            // `#local Half = Size/2;`
+            let made = words(text).filter_map(|name| self.scopes.symbol(name)).find(of_kind)?;
+            let name = self.scopes.declared(made)?.site.span;
+            let behind = self.sources.get(name.file).text.get(name.end as usize..)?;
+            let value = behind.split([';', '\n']).next()?;
+            words(value).filter_map(known).find(of_kind)
+        })
+    }
+
+    /// What a call has for a parameter.
+    fn argument(&self, call: &Expansion, parameter: Symbol) -> Option<Span> {
+        let units = self.frames.iter().rev().map(|frame| &frame.here.unit);
+        let unit = units.into_iter().find(|unit| unit.ast.file == call.call.file)?;
+        let found = unit.ast.expressions.iter().find(|expression| {
+            expression.span == call.call && matches!(expression.kind, ExpressionKind::Call(..))
+        })?;
+        let ExpressionKind::Call(Callee::Name(name, _), list) = found.kind else { return None };
+        let symbol = unit.symbols[name.0 as usize];
+        let definition = self.macros.iter().rev().find(|one| one.name == symbol)?;
+        let place = definition.parameters.iter().position(|&(name, _)| name == parameter)?;
+        match *unit.ast.arguments(list).get(place)? {
+            Argument::Expression(id) => Some(unit.expression(id).span),
+            Argument::Items(_) => None,
+        }
     }
 
     fn is_a_parameter(&self, symbol: Symbol) -> bool {
@@ -50,4 +136,9 @@ impl Evaluator<'_> {
     fn tells_at(&self, place: Span) -> bool {
         self.diagnostics.iter().any(|told| told.primary().is_some_and(|label| label.span == place))
     }
+}
+
+/// The names, and whatever is written like them, of a text.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }

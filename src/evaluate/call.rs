@@ -40,7 +40,10 @@ impl Evaluator<'_> {
                         let spline = spline.clone();
                         self.spline_value(here, &spline, here.unit.ast.arguments(arguments), span)
                     }
-                    Some(Value::Broken) => Err(Reported),
+                    Some(Value::Broken) => {
+                        self.run_arguments(here, arguments);
+                        Err(self.broken_call(here, symbol, arguments, span))
+                    }
                     Some(Value::Poison(poison)) => {
                         let poison = *poison;
                         self.run_arguments(here, arguments);

@@ -77,6 +77,7 @@ impl Evaluator<'_> {
             DirectiveKind::Switch { value, cases } => {
                 let value = self.number(here, *value)?;
                 if let Some(chosen) = self.chosen_case(here, value, cases)? {
+                    self.lint_runs_on(here, &cases[chosen..]);
                     self.push_switch(here, Items::default());
                     for case in cases[chosen..].iter().rev() {
                         self.push_branch(here, case.body);
@@ -149,7 +150,17 @@ impl Evaluator<'_> {
     fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
         /// The newest version of POV-Ray that there is.
         const NEWEST: f64 = 3.8;
+        /// The one whose language this is.
+        const BUILT: f64 = 3.7;
         if self.version <= NEWEST {
+            if self.version > BUILT {
+                let message = format!("version {} is newer than the language here", self.version);
+                let diagnostic = Diagnostic::new(Code::OldVersion, message)
+                    .at(span, format!("it is that of {BUILT}, with few words of what comes"))
+                    .help(format!("write `#version {BUILT};`"))
+                    .fix(span, BUILT.to_string());
+                self.report(here, diagnostic);
+            }
             return Ok(());
         }
         let message = format!("there is no version {} of POV-Ray", self.version);
@@ -212,7 +223,11 @@ impl Evaluator<'_> {
             let value = self.declared_value(here, head, target);
             return self.assign_element(here, target, indices, value);
         }
+        self.broken_function = None;
+        self.declared_now.push(symbol);
         let value = self.declared_value(here, head, target);
+        self.declared_now.pop();
+        self.note_broken(symbol, value.is_err());
         if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
             self.redeclared(here, head, target);
         }

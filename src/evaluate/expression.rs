@@ -296,11 +296,18 @@ impl Evaluator<'_> {
             }
             OperationError::NotNumeric(index) => {
                 let kind = values[index].kind();
+                if let Value::String(_) = values[index]
+                    && what == "`+`"
+                    && let Some(joined) = self.joined_strings(here, span, spans)
+                {
+                    return self.report(here, joined);
+                }
                 let diagnostic = Diagnostic::new(
                     Code::WrongType,
                     format!("{what} works on numbers, vectors and colours, not on {kind}"),
                 )
                 .at(spans[index], format!("this is {kind}"));
+                let diagnostic = self.given_by_call(here, spans[index], values[index], diagnostic);
                 let text = self.sources.text(spans[index]);
                 match values[index] {
                     Value::String(found) if found.trim().parse::<f64>().is_ok() => {
@@ -308,9 +315,6 @@ impl Evaluator<'_> {
                         diagnostic
                             .help(format!("write `{meant}` for the number in it"))
                             .fix(spans[index], meant)
-                    }
-                    Value::String(_) if what == "`+`" => {
-                        diagnostic.help("strings are joined by `concat(a, b)`")
                     }
                     Value::Object(_) if what == "`*`" => diagnostic.help(format!(
                         "an object is scaled in its block: `object {{ {text} scale … }}`"

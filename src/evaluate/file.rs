@@ -13,9 +13,11 @@ mod open;
 mod read;
 mod write;
 
+use std::collections::BTreeSet;
+
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Site, Span};
-use crate::syntax::ast::NameId;
+use crate::syntax::ast::{Directive, DirectiveKind, NameId};
 
 use super::scope::Symbol;
 use super::value::Value;
@@ -99,7 +101,7 @@ impl Evaluator<'_> {
         let symbol = here.symbol(name);
         let handle = match self.scopes.read(symbol) {
             // No word of the language is a file.
-            None => return Err(self.undeclared_among(here, symbol, span, |_| false)),
+            None => return Err(self.unknown_file(here, symbol, span)),
             Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
             Some(Value::File(handle)) => *handle,
             Some(other) => {
@@ -125,6 +127,35 @@ impl Evaluator<'_> {
             }
         };
         Err(self.report(here, diagnostic))
+    }
+
+    /// A name that nothing has opened; where one file is open, that is meant.
+    fn unknown_file(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
+        let ast = &here.unit.ast;
+        let opens = |directive: &Directive| match directive.kind {
+            DirectiveKind::Fopen { name, .. } => Some(ast.name(name).to_owned()),
+            _ => None,
+        };
+        let files: BTreeSet<String> = ast.directives.iter().filter_map(opens).collect();
+        let text = self.sources.text(span).to_owned();
+        let one = files
+            .first()
+            .filter(|file| files.len() == 1 && suggest::closest(&text, [file.as_str()]).is_none());
+        let Some(file) = one else {
+            return self.undeclared_among(here, symbol, span, |_| false);
+        };
+        let message = format!("`{text}` is not declared: no `#fopen` has opened it");
+        let mut diagnostic = Diagnostic::new(Code::UndeclaredName, message)
+            .at(span, "expected the name of an open file")
+            .help(format!("did you mean `{file}`?"))
+            .fix(span, file.as_str());
+        let declared = self.scopes.symbol(file).and_then(|symbol| self.scopes.declared(symbol));
+        if let Some(declared) = declared {
+            diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));
+        }
+        // Known from now on, so that it is said once.
+        self.scopes.assign(symbol, Value::Broken);
+        self.report(here, diagnostic)
     }
 
     fn no_file(&mut self, here: &Here, symbol: Symbol, span: Span, value: &Value) -> Reported {

@@ -104,9 +104,8 @@ impl Evaluator<'_> {
             }
             ExpressionKind::Binary(..) => self.sum_node(here, formula, id),
             ExpressionKind::Conditional(condition, then, otherwise) => {
-                let condition = self.node(here, formula, condition)?;
-                let then = self.node(here, formula, then)?;
-                let otherwise = self.node(here, formula, otherwise)?;
+                let all = [condition, then, otherwise].map(|id| self.node(here, formula, id));
+                let [Ok(condition), Ok(then), Ok(otherwise)] = all else { return Err(Reported) };
                 let built = formula.builder.choose(condition, then, otherwise);
                 self.built(here, span, built)
             }
@@ -185,7 +184,10 @@ impl Evaluator<'_> {
         for (operator, right, span) in operations.into_iter().rev() {
             // Both sides may have something to complain of.
             let right = self.node(here, formula, right);
-            let (left, right) = (node?, right?);
+            let (Ok(left), Ok(right)) = (node, right) else {
+                node = Err(Reported);
+                continue;
+            };
             let (operation, left, right) = operation_of(operator, left, right);
             let built = formula.builder.binary(operation, left, right);
             node = self.built(here, span, built);
@@ -263,7 +265,8 @@ impl Evaluator<'_> {
                 }
                 Some(Value::Broken) => {
                     let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
-                    Err(Reported)
+                    let span = here.unit.expression(id).span;
+                    Err(self.broken_call(here, here.symbol(name), arguments, span))
                 }
                 _ => self.constant(here, formula, id),
             },

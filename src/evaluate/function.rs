@@ -20,6 +20,7 @@ use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
 mod asked;
+mod broken;
 mod closed;
 mod internal;
 
@@ -62,6 +63,14 @@ impl Evaluator<'_> {
         token: &Token,
         parameters: &[ParameterName],
     ) -> Outcome<Value> {
+        let value = self.function_block(token, parameters);
+        if value.is_err() {
+            self.broken_function = Some(parameters.len());
+        }
+        value
+    }
+
+    fn function_block(&mut self, token: &Token, parameters: &[ParameterName]) -> Outcome<Value> {
         self.block(token, Word::Function, |evaluator| {
             let Some(first) = evaluator.next() else {
                 return Err(evaluator.expected("a formula", None, (&token.here, token.span)));

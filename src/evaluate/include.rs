@@ -137,6 +137,7 @@ impl Evaluator<'_> {
         let options = ParseOptions {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
+            ..ParseOptions::default()
         };
         let mut told = Diagnostics::new(true);
         let ast = syntax::parse(self.sources.get(id), id, &options, &mut told);

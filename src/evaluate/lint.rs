@@ -5,6 +5,7 @@ mod color;
 mod finish;
 mod light;
 mod map;
+mod switch;
 mod unit;
 
 use std::collections::BTreeMap;

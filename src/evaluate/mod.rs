@@ -10,6 +10,7 @@ mod array;
 mod block;
 mod builtin;
 mod call;
+mod concat;
 mod directive;
 mod element;
 mod enclosure;
@@ -43,7 +44,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
-use crate::diagnostic::{Diagnostics, suggest};
+use crate::diagnostic::{Diagnostic, Diagnostics, suggest};
 use crate::noise::NoiseGenerator;
 use crate::scene::{
     ClassicFinish, Finish, FinishId, ObjectId, Pigment, PigmentId, PigmentKind, Scene, Texture,
@@ -143,6 +144,8 @@ struct Evaluator<'a> {
     options: &'a EvaluateOptions,
     diagnostics: &'a mut Diagnostics,
     scene: Scene,
+    /// The number that says how many values follow, and how many were found up to here.
+    announced: Option<(Span, usize)>,
     /// One for each object of the scene.
     made: Vec<block::Made>,
     scopes: Scopes,
@@ -150,6 +153,10 @@ struct Evaluator<'a> {
     /// Empty; the room in it is for the arguments of the next call.
     bound: Vec<expand::Bound>,
     functions: Vec<function::AuthorFunction>,
+    /// The parameters of the function that was last not understood.
+    broken_function: Option<usize>,
+    /// How many parameters the declared functions have that were not understood.
+    broken_functions: HashMap<Symbol, usize>,
     /// The functions that are built in and are formulas, by their number; empty until one is asked for.
     internals: Vec<Option<function::FunctionId>>,
     /// What functions of noise are made of.
@@ -215,6 +222,8 @@ struct Evaluator<'a> {
     macro_depth: u32,
     /// How many `#declare`s wait for their values.
     declaring: u32,
+    /// Their names.
+    declared_now: Vec<Symbol>,
     /// How many expressions are being calculated inside each other.
     calculating: u64,
     /// Bytes of what the scene holds beside its objects, about.
@@ -230,6 +239,8 @@ struct Evaluator<'a> {
     remembered: Remembered,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
+    /// What a block lacks, to be told unless it stands too late in it.
+    owed: Option<(Here, Diagnostic)>,
     /// All of each of these blocks, from brace to brace.
     blocks: Vec<Site>,
     /// Whether an expression is an angle in radians, as far as lints have asked.
@@ -287,11 +298,14 @@ impl<'a> Evaluator<'a> {
             options,
             diagnostics,
             scene,
+            announced: None,
             made: Vec::new(),
             scopes,
             macros: Vec::new(),
             bound: Vec::new(),
             functions: Vec::new(),
+            broken_function: None,
+            broken_functions: HashMap::new(),
             internals: Vec::new(),
             noise: NoiseGenerator::default(),
             streams: RandomStreams::default(),
@@ -328,6 +342,7 @@ impl<'a> Evaluator<'a> {
             halted: false,
             macro_depth: 0,
             declaring: 0,
+            declared_now: Vec::new(),
             calculating: 0,
             stored: 0,
             turns: 0,
@@ -336,6 +351,7 @@ impl<'a> Evaluator<'a> {
             reports: 0,
             remembered: Remembered::default(),
             openers: Vec::new(),
+            owed: None,
             blocks: Vec::new(),
             in_radians: HashMap::new(),
             probes: HashMap::new(),

@@ -33,7 +33,7 @@ pub(super) struct Remembered {
     pub undeclared: HashMap<(Span, Symbol), Option<Rc<Diagnostic>>>,
     near: HashMap<(Span, Asked), Option<&'static str>>,
     /// By call, what its macro could not use.
-    pub refused: HashMap<Span, Refused>,
+    pub refused: HashMap<Span, Vec<Refused>>,
     /// The file that was last not found at a place.
     pub missing: HashMap<Span, (String, Rc<Diagnostic>)>,
 }

@@ -81,7 +81,17 @@ impl Evaluator<'_> {
         let mut diagnostic = help.into_iter().fold(diagnostic, Diagnostic::help);
         if let Value::Spline(_) = found {
             let help = format!("a spline has a value at a time: `{text}(0.5)`");
-            diagnostic = diagnostic.help(help);
+            let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
+            let index = behind.strip_prefix('[').and_then(|rest| rest.split_once(']'));
+            diagnostic = match index.filter(|(index, _)| !index.contains(['[', '\n'])) {
+                Some((index, _)) => {
+                    let right = format!("{text}({index})");
+                    let end = span.end + index.len() as u32 + 2;
+                    let help = format!("a spline has a value at a time: write `{right}`");
+                    diagnostic.help(help).fix(Span { end, ..span }, right)
+                }
+                None => diagnostic.help(help),
+            };
         }
         let meant = match (found, wanted) {
             (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
@@ -130,6 +140,7 @@ impl Evaluator<'_> {
             }
             _ => diagnostic,
         };
+        let diagnostic = self.given_by_call(here, span, found, diagnostic);
         self.report(here, diagnostic)
     }
 

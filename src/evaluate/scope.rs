@@ -138,6 +138,11 @@ impl Scopes {
         self.value(slot)
     }
 
+    /// As [`Self::read`], for what is said of it and no use of it.
+    pub fn look(&self, symbol: Symbol) -> Option<&Value> {
+        self.value(self.slot(symbol)?)
+    }
+
     #[inline]
     fn value(&self, slot: Slot) -> Option<&Value> {
         match self.slots.get(slot.0 as usize)? {

@@ -85,6 +85,10 @@ impl Evaluator<'_> {
         span: Span,
         fits: impl Fn(Word) -> bool,
     ) -> Option<Diagnostic> {
+        // Its own declaration goes on to here for want of a brace.
+        if self.misread && self.declared_now.contains(&symbol) {
+            return None;
+        }
         let mut diagnostic =
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
         let rest = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
@@ -129,6 +133,12 @@ impl Evaluator<'_> {
             diagnostic =
                 diagnostic.at(span, "not declared, and not a word of the language").help(call.help);
             diagnostic = call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by));
+            if let Some(close) =
+                close.filter(|close| suggest::closest(name, [close.as_str()]).is_some())
+            {
+                diagnostic =
+                    diagnostic.help(format!("or did you mean `{close}`, which is declared?"));
+            }
         } else if let Some(close) = close {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")

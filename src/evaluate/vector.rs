@@ -52,6 +52,10 @@ impl Evaluator<'_> {
                 Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
                 Ok(other) => {
                     let span = here.unit.expression(id).span;
+                    failed = true;
+                    if self.is_refused_again(here, span, &other) {
+                        continue;
+                    }
                     let diagnostic = Diagnostic::new(
                         Code::WrongType,
                         format!("a component of a vector is a number, this is {}", other.kind()),
@@ -63,8 +67,8 @@ impl Evaluator<'_> {
                             .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
                         _ => diagnostic,
                     };
+                    let diagnostic = self.given_by_call(here, span, &other, diagnostic);
                     self.report(here, diagnostic);
-                    failed = true;
                 }
                 Err(Reported) => failed = true,
             }

@@ -5,7 +5,7 @@
 use super::{Fault, Lowering};
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::CameraItemKind;
+use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
 use crate::source::Site;
@@ -54,6 +54,24 @@ impl Lowering<'_, '_> {
             }
             let message = "the scene shows nothing: no object, no background, no sky";
             self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
+        } else if world.objects.is_empty()
+            && let Some(declared) = self.only_declared()
+        {
+            if self.tells_why_empty() {
+                return;
+            }
+            let object = declared.site;
+            let before = |site: &Site| {
+                site.span.file == object.span.file && site.span.start < object.span.start
+            };
+            let names = self.scene.unused.iter().map(|(_, site)| *site).filter(before);
+            let site = names.max_by_key(|site| site.span.start).unwrap_or(object);
+            let message = "the scene shows no object: what is declared is never placed in it";
+            let diagnostic = Diagnostic::new(Code::EmptyScene, message)
+                .at(site.span, "declared, and not placed")
+                .help("place it: `object { Name }`")
+                .traced(site, self.reporter.expansions);
+            self.reporter.diagnostics.push(diagnostic);
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
             let message = "nothing gives light, so the picture is dark";
             let mut diagnostic = Diagnostic::new(Code::NoLight, message)
@@ -90,6 +108,17 @@ impl Lowering<'_, '_> {
         let fault = Fault::new(Code::DegenerateShape, "there is nothing of this isosurface");
         self.reporter.fault(fault.label(label), site);
         nowhere != Nowhere::Above
+    }
+
+    /// The last object of a scene that places none but lights.
+    fn only_declared(&self) -> Option<&Object> {
+        let is_light = |object: &Object| matches!(object.kind, ObjectKind::LightSource(_));
+        let objects = &self.scene.objects;
+        let placed = |root: &Root| !is_light(&objects[root.object.index()]);
+        match self.scene.roots.iter().any(placed) {
+            true => None,
+            false => objects.iter().rfind(|object| !is_light(object)),
+        }
     }
 
     /// Whether it was told that an object is never placed, or a macro never called: the scene is empty by that.

@@ -1,4 +1,5 @@
-//! Lines that other programs leave in a text: the fences of Markdown, the marks of a conflict of versions.
+//! Lines that other programs leave in a text: the fences of Markdown, the marks of a conflict of versions,
+//! the signs of a list of changes.
 //!
 //! **In:** a text without comments. **Out:** the same text with blanks in their place; of a conflict, the
 //! second version goes with its marks. **Invariant:** a text without any passes uncopied; one message for
@@ -9,6 +10,7 @@ use std::ops::Range;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
+use crate::vocabulary::{Family, Role, Word};
 
 const FENCE: &str = "```";
 const OURS: &str = "<<<<<<< ";
@@ -20,15 +22,23 @@ pub(super) fn blank<'a>(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Cow<'a, str> {
-    if !text.contains(FENCE) && !text.contains(OURS) {
+    let changed = text.lines().any(|line| change(line).is_some());
+    if !changed && !text.contains(FENCE) && !text.contains(OURS) {
         return text;
     }
     let span = |range: &Range<usize>| Span::new(file, range.start, range.end);
     let (mut fences, mut gone, mut conflict) = (Vec::new(), Vec::new(), Vec::new());
+    let mut signs: Vec<Range<usize>> = Vec::new();
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         let range = start..start + line.trim_end().len();
         start += line.len();
+        match change(line) {
+            Some('+') => signs.push(range.start..range.start + 1),
+            // What a change took away is the line before it.
+            Some(_) => signs.push(range.clone()),
+            None => {}
+        }
         if line.starts_with(FENCE) {
             fences.push(range);
         } else if line.starts_with(OURS) {
@@ -49,6 +59,19 @@ pub(super) fn blank<'a>(
             conflict.clear();
         }
     }
+    if let Some(first) = signs.first() {
+        let sign = Span::new(file, first.start, first.start + 1);
+        let message = "the signs of a list of changes (a diff) stand in the file";
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(
+                sign,
+                "a `+` at the beginning of a line that was added, a `-` of one that was taken out",
+            )
+            .help("leave the signs out, and the lines with a `-`");
+        let diagnostic = signs.iter().fold(diagnostic, |d, sign| d.fix(span(sign), ""));
+        diagnostics.push(diagnostic);
+    }
+    gone.append(&mut signs);
     if let Some(first) = fences.first() {
         let message = "this is a mark of Markdown, not of the language";
         let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
@@ -66,4 +89,24 @@ pub(super) fn blank<'a>(
         }
     }
     Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+}
+
+/// The sign at the beginning of a line of a diff, if it is one: behind it something begins that no value is.
+fn change(line: &str) -> Option<char> {
+    let sign = line.chars().next().filter(|sign| "+-".contains(*sign))?;
+    let rest = line[1..].trim_start();
+    let word =
+        &rest[..rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len())];
+    let begins = Word::from_name(word).is_some_and(|word| {
+        word.role() == Role::Statement
+            && (matches!(
+                word.family(),
+                Family::Shape | Family::Csg | Family::Camera | Family::Texture
+            ) || word.family() == Family::Transform
+                || matches!(word, Word::Object | Word::LightSource | Word::Background))
+    });
+    let directive = rest.strip_prefix('#').is_some_and(|word| {
+        word.starts_with("declare") || word.starts_with("include") || word.starts_with("local")
+    });
+    (begins || directive).then_some(sign)
 }

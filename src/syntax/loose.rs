@@ -158,8 +158,11 @@ fn loose_braces(tokens: &[Token]) -> Option<Vec<usize>> {
 /// Which way each open directive's present branch is on.
 struct Branch {
     head: Head,
+    /// Of a `#switch`: the way from its first case to the first `#break`.
     first: bool,
     otherwise: bool,
+    /// A `#break` stood in it.
+    broken: bool,
 }
 
 /// The directives that are open, and the ways through them: always the first branch, or always `#else`.
@@ -171,16 +174,25 @@ impl Branches {
         match (turn(token.kind), token.kind) {
             (Some(Turn::Open(Opener::Directive)), TokenKind::Directive(head)) => {
                 // Loops turn once or not at all; an inner macro is not run here.
-                self.0.push(Branch { head, first: head != Head::Macro, otherwise: false });
+                let first = head != Head::Macro;
+                self.0.push(Branch { head, first, otherwise: false, broken: false });
             }
             (Some(Turn::Divide), TokenKind::Directive(head)) => {
                 if let Some(branch) = self.0.last_mut() {
-                    // The first `#case` of a `#switch` is its first branch.
-                    let first = branch.head == Head::Switch && head != Head::Else;
-                    *branch = Branch { head, first, otherwise: head == Head::Else };
+                    // A case runs on into the next one up to a `#break`.
+                    let of_switch = matches!(branch.head, Head::Switch | Head::Case | Head::Range);
+                    let first = of_switch && branch.first && !branch.broken;
+                    let otherwise = head == Head::Else;
+                    *branch = Branch { head, first, otherwise, broken: branch.broken };
                 }
             }
             (Some(Turn::Close(Opener::Directive)), _) => drop(self.0.pop()),
+            (None, TokenKind::Directive(Head::Break)) => {
+                if let Some(branch) = self.0.last_mut() {
+                    branch.broken = true;
+                    branch.first &= !matches!(branch.head, Head::Case | Head::Range);
+                }
+            }
             _ => {}
         }
     }

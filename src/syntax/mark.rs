@@ -15,9 +15,13 @@ const LONGEST_VECTOR: usize = 40;
 impl<'a> Nest<'a> {
     pub(super) fn mark(&mut self, mark: Mark, token: Token) {
         let span = self.span(token);
-        let (state, full) = (self.top().state, self.top().full);
+        let (state, full) = (self.top().state, self.top().full || self.top().of_color);
         let holding = matches!(state, State::Holding { .. });
         match mark {
+            // `rgb 1 <0, 1, 0>` is two values, and `rgb A < 1 ? B : C` is one.
+            Mark::Less if holding && self.top().of_color && !self.compares() => {
+                self.open_vector(span);
+            }
             Mark::Open(bracket) => self.open_bracket(bracket, span),
             Mark::Close(bracket) => {
                 self.leave_vectors(span);
@@ -73,6 +77,20 @@ impl<'a> Nest<'a> {
         }
     }
 
+    /// Whether a `?` follows before anything that no comparison has in it.
+    fn compares(&self) -> bool {
+        let ahead = self.tokens.iter().skip(self.at + 1).take(LONGEST_VECTOR);
+        let mut ahead = ahead.map(|token| token.kind).skip_while(|kind| match kind {
+            TokenKind::Number | TokenKind::Name => true,
+            TokenKind::Word(word) => word.role() == Role::Value,
+            TokenKind::Mark(mark) => {
+                matches!(mark, Mark::Dot | Mark::Plus | Mark::Minus | Mark::Star | Mark::Slash)
+            }
+            _ => false,
+        });
+        ahead.next() == Some(TokenKind::Mark(Mark::Question))
+    }
+
     /// An operator that needs an operand before it.
     pub(super) fn before_operator(&mut self, span: Span) {
         if matches!(self.top().state, State::Holding { .. }) {
@@ -117,7 +135,7 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn conditional(&mut self, mark: Mark, span: Span) {
-        let (base, full) = (self.top().operators, self.top().full);
+        let (base, full) = (self.top().operators, self.top().full || self.top().of_color);
         if mark == Mark::Question {
             if self.stacks.operators.len() - base > self.nesting_limit {
                 return self.too_deep(span, "conditions");

@@ -31,6 +31,7 @@ mod operand;
 mod print;
 mod prose;
 mod repair;
+mod skipped;
 mod spelling;
 mod tally;
 mod target;
@@ -53,11 +54,22 @@ pub struct ParseOptions {
     pub dialect: Dialect,
     /// How deep brackets, vectors and directives may nest, together.
     pub nesting_limit: usize,
+    /// No name comes from outside the text, but by what it includes.
+    pub alone: bool,
+    /// Branches that are never run are no part of the text where they cannot be read.
+    pub skips: bool,
 }
 
 impl Default for ParseOptions {
     fn default() -> Self {
-        Self { dialect: Dialect::Scene, nesting_limit: 1000 }
+        Self { dialect: Dialect::Scene, nesting_limit: 1000, alone: false, skips: true }
+    }
+}
+
+impl ParseOptions {
+    /// How a piece is read, for its mistakes alone.
+    fn inside(&self) -> Self {
+        Self { skips: false, ..*self }
     }
 }
 
@@ -78,6 +90,9 @@ pub fn parse(
     }
     let mut found = Diagnostics::new(true);
     let mut quiet = comment::quiet(&source.text, file, &mut found);
+    if options.skips {
+        skipped::blank(&mut quiet, file, options);
+    }
     quiet.text = control::blank(quiet.text, file, &mut found);
     quiet.text = entity::translate(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);

@@ -37,6 +37,8 @@ pub(super) struct Frame {
     /// The next block is the body of a function.
     pub function_ahead: bool,
     pub after_contextual: bool,
+    /// Its expression is the value of `rgb` and its like, which may be a full one.
+    pub of_color: bool,
     /// That its expression needs parentheses has been told.
     pub level_told: bool,
 }
@@ -216,6 +218,7 @@ impl<'a> Nest<'a> {
             block,
             function_ahead: false,
             after_contextual: false,
+            of_color: false,
             level_told: false,
         });
     }
@@ -312,7 +315,7 @@ impl<'a> Nest<'a> {
         }
         let top = self.top();
         let told = std::mem::take(&mut top.level_told);
-        top.state = State::Idle;
+        (top.state, top.of_color) = (State::Idle, false);
         let Some(mut id) = self.stacks.finish(base, &mut self.ast.expressions) else { return };
         if told {
             id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);
@@ -379,12 +382,14 @@ impl<'a> Nest<'a> {
     fn curly_string(&mut self, open: Span, close: usize, quote: char) {
         let close = Span::new(self.file, close, close + quote.len_utf8());
         let opening = self.slice(open);
+        let inside = self.slice(Span { start: open.end, end: close.start, ..open });
         let label = format!("expected a straight quote instead of `{opening}`");
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
                 .at(open, label)
                 .also(close, format!("and instead of `{quote}`"))
                 .help("strings stand between straight quotes: `\"…\"`")
+                .help(format!("write `\"{inside}\"`"))
                 .fix(open, "\"")
                 .fix(close, "\""),
         );

@@ -81,6 +81,7 @@ impl<'a> Nest<'a> {
             Role::Statement => {
                 self.leave_vectors(span);
                 self.item(ItemKind::Word(word), span);
+                self.top().of_color = is_color_vector(word);
                 if word == Word::Function {
                     self.top().function_ahead = true;
                 }
@@ -257,4 +258,15 @@ impl<'a> Nest<'a> {
         }
         text.len()
     }
+}
+
+/// The words whose value is a full expression: `rgb A > B ? C : D`.
+///
+/// **Source:** POV-Ray 3.7 reads one there, and nowhere else outside parentheses (measured).
+fn is_color_vector(word: Word) -> bool {
+    use Word as W;
+    matches!(
+        word,
+        W::Rgb | W::Rgbf | W::Rgbt | W::Rgbft | W::Srgb | W::Srgbf | W::Srgbt | W::Srgbft
+    )
 }

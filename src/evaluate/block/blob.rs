@@ -49,7 +49,9 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::MissingPart, "this blob has no component")
                 .at(token.span, "nothing to melt together")
                 .help("a component is written `sphere { <center>, radius, strength }`");
-            return Err(self.report(&token.here, diagnostic));
+            // Unless its components stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
+            return Err(Reported);
         }
         if blob.is_weak() {
             let message = format!(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::ColorMap;
-use crate::source::Site;
+use crate::source::{Site, Span};
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Word};
 
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
     /// `[value color]`, or the old `[from, to color a color b]`, and of that `to color a` where it can go.
     fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
         let given = self.number_after(token, "a number and a colour")?;
-        let from = given.value;
+        let (from, first_number) = (given.value, given.span);
         rise.entry(given, self.sources);
         self.skip_commas();
         let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
@@ -120,6 +120,9 @@ impl Evaluator<'_> {
         if let Some(reported) = self.misspelt_color(token) {
             return Err(reported);
         }
+        if let Some(reported) = self.pigment_in_color_map() {
+            return Err(reported);
+        }
         let second = self.given(token, "a colour")?;
         let entries = match second.value {
             Value::Number(to) => {
@@ -127,6 +130,11 @@ impl Evaluator<'_> {
                 rise.entry(second.with(to), self.sources);
                 let first = self.written_color_after(token, "a colour")?.value;
                 let piece = self.joined(number, self.taken.unwrap_or(number));
+                if let Some(diagnostic) = self.decimal_comma(first_number)
+                    && self.peek().is_none()
+                {
+                    return Err(self.report(&token.here, diagnostic));
+                }
                 let last = self.written_color_after(token, "a second colour")?.value;
                 // POV-Ray's manual has it as a form of today.
                 if self.options.dialect == Dialect::Scene {
@@ -149,6 +157,45 @@ impl Evaluator<'_> {
         Ok(entries)
     }
 
+    /// `[0 P_Wood]`: a pigment stands in a `pigment_map`.
+    fn pigment_in_color_map(&mut self) -> Option<Reported> {
+        let token = self.peek()?.clone();
+        let word = match self.peek_declared()? {
+            Value::Pigment(_) => Word::Pigment,
+            Value::Texture(_) => Word::Texture,
+            Value::Poison(poison) => poison.of.filter(|of| {
+                matches!(of, Word::Pigment | Word::Texture | Word::Normal | Word::Density)
+            })?,
+            _ => return None,
+        };
+        let (text, name) = (self.sources.text(token.span).to_owned(), word.name());
+        let message = format!("a `color_map` holds colours, and `{text}` is a `{name}`");
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(token.span, "expected a colour")
+            .help(format!("a map of these is a `{name}_map`"));
+        let opener = self.openers.last().copied();
+        let diagnostic = match opener.filter(|opener| self.sources.text(*opener).ends_with("_map"))
+        {
+            Some(opener) => diagnostic.also(opener, "a map of colours"),
+            None => diagnostic,
+        };
+        self.next();
+        self.skip_values();
+        Some(self.report(&token.here, diagnostic))
+    }
+
+    /// `[1 rgbt <1, 0, 0>, 0.5]`: a number that belongs in the vector before it.
+    fn outside_of_vector(&self, extra: &Token) -> Option<(Span, String)> {
+        let text = &self.sources.get(extra.span.file).text;
+        let number = self.sources.text(extra.span);
+        number.parse::<f64>().ok()?;
+        let before = text.get(..extra.span.start as usize)?.trim_end().strip_suffix(',')?;
+        let open = before.trim_end().strip_suffix('>')?.rfind('<')?;
+        let inside = &before.trim_end()[open + 1..before.trim_end().len() - 1];
+        let whole = Span { start: open as u32, ..extra.span };
+        (inside.matches(',').count() < 4).then(|| (whole, format!("<{inside}, {number}>")))
+    }
+
     fn end_of_entry(&mut self, entry: &Token) -> Outcome<()> {
         self.skip_commas();
         match self.next() {
@@ -160,6 +207,12 @@ impl Evaluator<'_> {
                 )
                 .at(extra.span_head(), "this is more")
                 .also(entry.span_head(), "in this entry");
+                let diagnostic = match self.outside_of_vector(&extra) {
+                    Some((whole, right)) => diagnostic
+                        .help(format!("all numbers of a colour stand in its vector: `{right}`"))
+                        .fix(whole, right),
+                    None => diagnostic,
+                };
                 Err(self.report(&extra.here, diagnostic))
             }
         }

@@ -8,6 +8,7 @@ use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Reported};
 use super::{Place, opens_value};
 
@@ -28,6 +29,26 @@ impl Evaluator<'_> {
         let fraction = Span { start, end: start + length, ..span };
         self.decimal(fraction, text.get(..span.end as usize + 1)?)
             .filter(|(whole, _)| whole.start == span.start)
+    }
+
+    /// What to say of `0,5`, whose `0` stands at `span`.
+    pub(in crate::evaluate) fn decimal_comma(&self, span: Span) -> Option<Diagnostic> {
+        let (whole, number) = self.comma_after(span)?;
+        Some(told_comma(self.sources.text(whole), whole, number))
+    }
+
+    /// `#declare R = 0,5;`: the name has the number that was meant from here on, so that nothing else is told of it.
+    pub(super) fn declare_with_point(&mut self, number: Span, meant: &str) {
+        let text = &self.sources.get(number.file).text;
+        let before = text.get(..number.start as usize).unwrap_or("").trim_end();
+        let Some(before) = before.strip_suffix('=').map(str::trim_end) else { return };
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let name = &before[before.trim_end_matches(is_name).len()..];
+        if let (Some(symbol), Ok(meant)) = (self.scopes.symbol(name), meant.parse())
+            && let Some(Value::Number(_)) = self.scopes.look(symbol)
+        {
+            self.scopes.assign(symbol, Value::Number(meant));
+        }
     }
 
     /// The number whose fraction stands at `span`, after a comma that ends the text `before`.
@@ -51,6 +72,67 @@ impl Evaluator<'_> {
         };
         let numbers: Option<Vec<String>> = parts.iter().map(|part| number(part)).collect();
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
+    }
+
+    /// `rotate z, A`: an axis and an angle, as other tools have it.
+    pub(super) fn angle_behind_axis(&self, token: &Token, value: &Value) -> Option<Diagnostic> {
+        value.as_number()?;
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize)?.trim_end().strip_suffix(',')?;
+        let statement = before.rfind("rotate")?;
+        let axis = before[statement + "rotate".len()..].trim();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_<>., -".contains(c);
+        let is_word =
+            before[..statement].ends_with(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        if axis.is_empty() || !is_word || !axis.chars().all(plain) || axis.contains("  ") {
+            return None;
+        }
+        let angle = self.sources.text(token.span);
+        let right = format!("rotate {angle}*{axis}");
+        let (start, file) = (statement as u32, token.span.file);
+        let whole = Span { file, start, end: token.span.end };
+        let message = "`rotate` takes one vector: degrees about x, y and z";
+        Some(
+            Diagnostic::new(Code::ExtraPart, message)
+                .at(Span { end: start + 6, ..whole }, "an axis and an angle stand behind it")
+                .also(token.span, "expected no number after the vector")
+                .help(format!("write `{right}`"))
+                .fix(whole, right),
+        )
+    }
+
+    /// `rotate 45 degrees`.
+    pub(super) fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
+        let name = word.name();
+        let text = &self.sources.get(token.span.file).text;
+        let before = text.get(..token.span.start as usize)?.trim_end();
+        if !before.ends_with(|c: char| c.is_ascii_alphanumeric() || ")>*".contains(c)) {
+            return None;
+        }
+        let message = format!("`{name}` has no meaning behind a number");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "angles of the language are in degrees");
+        Some(match word {
+            Word::Degrees => diagnostic
+                .help("leave it out: `rotate 45*y`")
+                .fix(Span { start: before.len() as u32, ..token.span }, ""),
+            _ => {
+                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
+            }
+        })
+    }
+
+    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
+    pub(super) fn color_meant(&mut self, near: &str) -> Option<String> {
+        let has_value = matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        if has_value || !matches!(near, "red" | "green" | "blue") {
+            return None;
+        }
+        let mut visible = self.scopes.visible();
+        visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
     }
 
     /// `0 -2`, where a sign without a blank behind it rather begins a number of its own: where a comma is
@@ -264,6 +346,14 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+/// `0,5` where a number stands.
+pub(super) fn told_comma(text: &str, span: Span, number: String) -> Diagnostic {
+    Diagnostic::new(Code::ExtraPart, format!("`{text}` is no number"))
+        .at(span, "expected a point, not a comma")
+        .help(format!("a fraction is written with a point: `{number}`"))
+        .fix(span, number)
 }
 
 fn digits(text: &str) -> Option<&str> {

@@ -6,6 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::function::Closed;
 use crate::math::Vector;
 use crate::scene::{Container, Solid};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -142,6 +143,23 @@ impl Evaluator<'_> {
 
     /// `contained_by { sphere { … } }` or `contained_by { box { … } }`.
     pub(super) fn contained_by(&mut self, token: &Token) -> Outcome<Container> {
+        if let Some(
+            inner @ Token { kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), .. },
+        ) = self.peek().cloned()
+        {
+            self.next();
+            self.skip_arguments(word);
+            let whole = self.whole(&inner).span;
+            let text = self.sources.text(whole).lines().next().unwrap_or("").to_owned();
+            let diagnostic =
+                Diagnostic::new(Code::MissingPart, "expected `{` after `contained_by`")
+                    .at(token.span, "its block is missing")
+                    .also(inner.span, "this stands in it")
+                    .help(format!("write `contained_by {{ {text} }}`"))
+                    .fix(Span { end: whole.start, ..whole }, "{ ")
+                    .fix(whole.after(), " }");
+            return Err(self.report(&token.here, diagnostic));
+        }
         self.block(token, Word::ContainedBy, |evaluator| {
             let inner = evaluator.next();
             let (inner, word) = match inner {

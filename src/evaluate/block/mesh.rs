@@ -214,7 +214,8 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
                 .at(token.span, "nothing is left of it");
             self.scene.sizeless.push((word.name(), token.here.site(token.span)));
-            self.report(&token.here, diagnostic);
+            // Unless its triangles stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
         } else if degenerate > 0 {
             let message = match degenerate {
                 1 => "a triangle of this mesh is a line or a point".to_owned(),

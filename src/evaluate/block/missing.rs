@@ -33,6 +33,14 @@ impl Evaluator<'_> {
             TokenKind::Word(word) => diagnostic.help(self.form_of(word)),
             _ => diagnostic,
         };
+        let diagnostic = match self.announced.take() {
+            Some((count, found)) if found > 0 && count.file == after.span.file => {
+                let text = self.sources.text(count).to_owned();
+                let help = format!("if these are all, write `{found}` instead of `{text}`");
+                diagnostic.also(count, "so many were announced").help(help)
+            }
+            _ => diagnostic,
+        };
         let diagnostic = match place.filter(|_| next.is_none()) {
             Some(end) if self.has_lost_comma(Span { start: after.span.end, ..end }) => {
                 diagnostic.help("`a -b` is one value, and `a, -b` are two: is a comma missing?")

@@ -132,17 +132,16 @@ impl Evaluator<'_> {
 
     /// `Ball`, as POV-Ray takes it for `object { Ball }`; nothing may follow that belongs to it.
     fn lone_object(&mut self, token: &Token, id: ExpressionId) -> Option<ObjectId> {
-        let follows = match self.peek_on().map(|next| &next.kind) {
-            Some(TokenKind::Block(_)) => true,
-            Some(TokenKind::Word(word)) => !place::is_at_top_level(*word),
-            _ => false,
-        };
+        // Before anything behind it is run, which may declare it.
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return None };
         let symbol = token.here.symbol(name);
-        match self.scopes.read(symbol) {
-            Some(Value::Object(object)) if !follows => Some(*object),
-            _ => None,
-        }
+        let Some(&Value::Object(object)) = self.scopes.read(symbol) else { return None };
+        let follows = match self.peek_on().map(|next| &next.kind) {
+            Some(TokenKind::Block(_)) => true,
+            Some(TokenKind::Word(word)) => !place::is_at_top_level(*word) && !is_object_word(*word),
+            _ => false,
+        };
+        (!follows).then_some(object)
     }
 
     /// Poison that stands in the scene itself has reached it.

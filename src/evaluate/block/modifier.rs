@@ -1,12 +1,21 @@
 //! What follows an object's parts: its transforms, textures, interior and flags, in written order.
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
-use crate::source::Site;
+use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::place::is_before_modifiers;
+
+/// The first part behind the modifiers of its block, and how many others follow.
+struct Late {
+    token: Token,
+    diagnostic: Diagnostic,
+    others: u32,
+}
 
 impl Evaluator<'_> {
     /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
@@ -25,8 +34,22 @@ impl Evaluator<'_> {
             _ => Place::shape(word),
         };
         let (mut failed, mut painted): (bool, Option<Site>) = (false, None);
+        let mut first: Option<Site> = None;
+        let mut late: Option<Late> = None;
         while let Some(token) = self.next() {
             let before = self.poison;
+            if let TokenKind::Word(item) = token.kind
+                && let Some(first) = first
+                && used.is_none()
+                && is_before_modifiers(word, item)
+            {
+                self.too_late(&token, word, first, &mut late);
+                failed = true;
+                continue;
+            }
+            if matches!(token.kind, TokenKind::Word(item) if place().holds(item)) {
+                first.get_or_insert(token.here.site(token.span));
+            }
             match token.kind {
                 TokenKind::Word(Word::Pigment) => {
                     let site = token.here.site(token.span);
@@ -74,7 +97,75 @@ impl Evaluator<'_> {
                 },
             }
         }
+        if let Some(Late { token, diagnostic, others }) = late {
+            let diagnostic = match others {
+                0 => diagnostic,
+                1 => diagnostic.help("so does one more part behind it"),
+                others => diagnostic.help(format!("so do {others} more parts behind it")),
+            };
+            self.report(&token.here, diagnostic);
+        }
         if failed { Err(Reported) } else { Ok(()) }
+    }
+
+    /// `union { sphere { 0, 1 } pigment { rgb 1 } box { … } }`: one message for all of them.
+    fn late_part(
+        &mut self,
+        token: &Token,
+        [item, of]: [Word; 2],
+        first: Site,
+        late: &mut Option<Late>,
+    ) {
+        match of.family() {
+            // Each may have mistakes of its own.
+            Family::Csg => drop(self.object(token, item)),
+            _ => self.skip_arguments(item),
+        }
+        if let Some(late) = late {
+            late.others += 1;
+            return;
+        }
+        let (name, of) = (item.name(), of.name());
+        let modifier = self.sources.text(first.span).to_owned();
+        let message = format!("this `{name}` stands after the modifiers of `{of}`");
+        let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+            .at(token.span, format!("the parts of `{of}` come first"))
+            .also(first.span, "its modifiers begin here");
+        let diagnostic = match self.openers.last() {
+            Some(&opener) => diagnostic.also(opener, "inside this block"),
+            None => diagnostic,
+        };
+        let diagnostic =
+            diagnostic.help(format!("move `{modifier}` behind the last part of `{of}`"));
+        *late = Some(Late { token: token.clone(), diagnostic, others: 0 });
+    }
+
+    /// `cylinder { 0, y, 1 pigment { … } open }`: a part of the shape behind the first of its modifiers.
+    fn too_late(&mut self, token: &Token, shape: Word, first: Site, late: &mut Option<Late>) {
+        let TokenKind::Word(item) = token.kind else { return };
+        if matches!(item.family(), Family::Shape | Family::Csg)
+            || matches!(item, Word::Object | Word::LightSource | Word::LightGroup | Word::Component)
+        {
+            return self.late_part(token, [item, shape], first, late);
+        }
+        self.skip_arguments(item);
+        let whole = self.whole(token);
+        let text = self.sources.text(whole.span).to_owned();
+        let (name, shape) = (item.name(), shape.name());
+        let modifier = self.sources.text(first.span).to_owned();
+        let diagnostic =
+            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` stands too late in `{shape}`"))
+                .at(token.span, format!("a part of `{shape}`: parts stand before what modifies it"))
+                .also(first.span, "its modifiers begin here")
+                .help(format!("move it before `{modifier}`"));
+        let near = whole.expansion == first.expansion && whole.span.file == first.span.file;
+        let diagnostic = match near {
+            true => diagnostic
+                .fix(Span { end: first.span.start, ..first.span }, format!("{text} "))
+                .fix(whole.span, ""),
+            false => diagnostic,
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// The finish that another one after these modifiers starts from, as in POV-Ray (measured).

@@ -99,7 +99,14 @@ impl Evaluator<'_> {
                 Ok(ObjectKind::Use(used)) => Some(used),
                 _ => None,
             };
-            evaluator.modifiers(word, used, &mut modifiers)?;
+            let (owed, before) = (evaluator.owed.take(), evaluator.reports);
+            let modified = evaluator.modifiers(word, used, &mut modifiers);
+            if let Some((here, diagnostic)) = owed
+                && evaluator.reports == before
+            {
+                evaluator.report(&here, diagnostic);
+            }
+            modified?;
             kind
         })?;
         self.add_object(Object { kind, modifiers, site, item: None })
@@ -220,7 +227,9 @@ impl Evaluator<'_> {
 
     fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {
         self.shape(token, word, |evaluator, _| {
-            Ok(ObjectKind::Csg { operation, children: evaluator.children() })
+            let children = evaluator.children();
+            evaluator.lint_light_of_csg(word, operation, &children);
+            Ok(ObjectKind::Csg { operation, children })
         })
     }
 

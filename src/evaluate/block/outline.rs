@@ -184,7 +184,10 @@ impl Evaluator<'_> {
             if !self.has_memory(size_of_val(&points[..]) as u64) {
                 return Err(self.too_much_memory(&token.here, token.span));
             }
-            let given = self.given(token, &format!("{wanted} points"))?;
+            self.announced = Some((count.span, points.len()));
+            let given = self.given(token, &format!("{wanted} points"));
+            self.announced = None;
+            let given = given?;
             let point = match &given.value {
                 Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
                     [numbers.as_slice()[0], numbers.as_slice()[1]]

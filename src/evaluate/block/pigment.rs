@@ -1,5 +1,7 @@
 //! `pigment`.
 
+mod second;
+
 use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
@@ -16,12 +18,15 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::finish::list_once;
 use super::pieces::{WrittenColor, WrittenMap};
 use super::{Given, Place};
+use second::First;
+pub(super) use second::colors_of;
 
 /// What was written in one block: its last pattern, with what gave the pigment one before, and its last map.
 #[derive(Default)]
 struct Written {
     pattern: Option<(Site, Vec<Site>)>,
     map: Option<(Arc<WrittenMap>, Token, Site)>,
+    first: Option<First>,
 }
 
 /// What gave a pigment its pattern, if that has more than one colour.
@@ -34,7 +39,7 @@ fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
     }
 }
 
-/// The colours of `checker`, what makes them clear, and what makes them two, if that is not all of it.
+/// The colours of `checker`, what makes them clear, and without what one is left, if not without all of it.
 struct Pair {
     colors: [Color; 2],
     clear: Vec<Site>,
@@ -58,6 +63,7 @@ impl Evaluator<'_> {
             while let Some(token) = evaluator.next() {
                 if evaluator.pigment_item(&token, &mut pigment, &mut written) == Err(Reported) {
                     failed = true;
+                    written.mistaken(&token);
                     evaluator.skip_values();
                 }
             }
@@ -76,6 +82,13 @@ impl Evaluator<'_> {
     /// Puts the colours of a map over the values of the pigment's pattern.
     fn paint(&mut self, pigment: &mut Pigment, given: ColorMap, token: &Token) -> Outcome<()> {
         match &mut pigment.kind {
+            PigmentKind::Patterned { pattern: Pattern::Checker, .. } => {
+                let message = "`checker` takes two colours, and no `color_map`";
+                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                    .at(token.span, "its values are two, with nothing between them")
+                    .help("write the colours behind it: `checker rgb 0, rgb 1`");
+                Err(self.report(&token.here, diagnostic))
+            }
             PigmentKind::Patterned { map, .. } => {
                 *map = given;
                 Ok(())
@@ -177,6 +190,7 @@ impl Evaluator<'_> {
         match &token.kind {
             TokenKind::Word(Word::Checker) => {
                 let Pair { colors: [first, second], clear, pattern } = self.color_pair(token)?;
+                self.alone_in_pigment(token, Some(Word::Checker), written)?;
                 let pattern = pattern.filter(|_| first != second);
                 self.pattern_of(pigment, written, token, pattern);
                 let map = ColorMap(vec![(0.0, first), (1.0, second)]);
@@ -185,6 +199,7 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::Gradient) => {
                 let direction = self.direction_after(token, "the gradient's direction")?.value;
+                self.alone_in_pigment(token, Some(Word::Gradient), written)?;
                 self.pattern_of(pigment, written, token, None);
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
                 pigment.kind =
@@ -197,6 +212,7 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 let color = self.color_from(token)?;
+                self.alone_in_pigment(token, None, written)?;
                 self.color_of(pigment, &color, token);
             }
             TokenKind::Expression(id) => {
@@ -215,6 +231,7 @@ impl Evaluator<'_> {
                 };
                 match value {
                     Value::Pigment(id) => {
+                        self.first_in_pigment(token, written)?;
                         let site = pigment.site;
                         *pigment = self.scene.pigments[id.index()].clone();
                         pigment.site = site;
@@ -228,6 +245,7 @@ impl Evaluator<'_> {
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
                         let color = self.color_components(color, given.site())?;
+                        self.alone_in_pigment(token, None, written)?;
                         self.color_of(pigment, &color, token);
                     }
                     // Not an error: what it lacks is told where it is needed.
@@ -242,12 +260,20 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            // Of a colour too many, which is told.
+            TokenKind::Comma if written.first.is_some() && self.at_color() => {}
             _ => {
                 if let Some(outcome) = self.inert(token, Place::PIGMENT) {
                     return outcome;
                 }
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::PIGMENT);
+                if let TokenKind::Word(word) = token.kind
+                    && word.family() == Family::Pattern
+                    && self.poison.is_some()
+                {
+                    self.alone_in_pigment(token, Some(word), written)?;
+                }
                 if !poisoned
                     && self.poison.is_none()
                     && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon)
@@ -277,9 +303,13 @@ impl Evaluator<'_> {
         let mut clear = Vec::new();
         let mut said: Vec<WrittenColor> = Vec::new();
         let mut given = 0;
+        // All before the last colour.
+        let mut lead = self.whole(token);
         for color in &mut colors {
+            let before = self.whole(token);
             self.skip_commas();
             if self.at_color() {
+                lead = before;
                 let first = self.peek().cloned();
                 let written = self.written_color_after(token, "a colour")?.value;
                 *color = written.color();
@@ -319,17 +349,16 @@ impl Evaluator<'_> {
         if given == 1 && self.poison.is_none() {
             self.lint_missing_color(token);
         }
-        let pattern = match said.as_slice() {
-            // They are pigments by themselves.
-            [_, ..] if said.len() == given && !said.iter().any(|color| color.bare) => {
-                Some(vec![token.here.site(token.span)])
-            }
+        let alike = match said.as_slice() {
             [first, second] => {
                 let like = |color: Color| move |other: Color| other == color;
                 second.without(like(colors[0])).or_else(|| first.without(like(colors[1])))
             }
             _ => None,
         };
+        // A colour is a pigment by itself.
+        let last = said.last().filter(|last| said.len() == given && !last.bare);
+        let pattern = alike.or(last.map(|_| vec![lead]));
         Ok(Pair { colors, clear, pattern })
     }
 }

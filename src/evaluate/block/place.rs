@@ -270,3 +270,55 @@ pub(super) fn home(word: Word) -> Option<Word> {
         },
     })
 }
+
+/// Whether an item is one of the parts of a shape, which stand before its transforms and textures.
+///
+/// **Source:** POV-Ray 3.7 refuses each behind a modifier (measured).
+pub(super) fn is_before_modifiers(shape: Word, item: Word) -> bool {
+    use Word as W;
+    match shape {
+        W::Cylinder | W::Cone | W::Sor => item == W::Open,
+        W::Prism => matches!(
+            item,
+            W::Open | W::LinearSweep | W::ConicSweep | W::LinearSpline | W::CubicSpline
+        ),
+        W::Lathe => matches!(item, W::LinearSpline | W::CubicSpline | W::QuadraticSpline),
+        W::SphereSweep => {
+            matches!(item, W::Tolerance | W::LinearSpline | W::BSpline | W::CubicSpline)
+        }
+        W::Blob => matches!(item, W::Threshold | W::Component | W::Sphere | W::Cylinder),
+        W::Mesh if matches!(item, W::Triangle | W::SmoothTriangle) => true,
+        W::Union | W::Merge | W::Difference | W::Intersection => {
+            matches!(item.family(), Family::Shape | Family::Csg)
+                || matches!(item, W::Object | W::LightSource | W::LightGroup)
+        }
+        W::Isosurface | W::Parametric => matches!(
+            item,
+            W::ContainedBy
+                | W::Threshold
+                | W::Accuracy
+                | W::MaxGradient
+                | W::Evaluate
+                | W::Open
+                | W::MaxTrace
+                | W::AllIntersections
+                | W::Precompute
+        ),
+        W::Mesh | W::Mesh2 => {
+            matches!(
+                item,
+                W::InsideVector
+                    | W::VertexVectors
+                    | W::NormalVectors
+                    | W::UvVectors
+                    | W::FaceIndices
+                    | W::NormalIndices
+                    | W::UvIndices
+                    | W::TextureList
+            ) && (shape == W::Mesh2 || item == W::InsideVector)
+        }
+        W::HeightField => matches!(item, W::Smooth | W::WaterLevel),
+        W::BicubicPatch => matches!(item, W::Type | W::Flatness | W::USteps | W::VSteps),
+        _ => false,
+    }
+}

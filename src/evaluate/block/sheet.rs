@@ -29,11 +29,14 @@ impl Evaluator<'_> {
         let wanted = count.value as u32;
         let mut polygon = Polygon::default();
         let mut line: Vec<Vector> = Vec::new();
+        let announced = count.span;
         let (mut last, mut points) = (count.with(Vector::ZERO), 0u64);
         for number in 1..=wanted {
             let name = format!("a vector for point {number} of {wanted}");
-            let given = self.given(token, &name)?;
-            let point = self.as_vector(given, &name)?;
+            self.announced = Some((announced, points as usize));
+            let given = self.given(token, &name);
+            self.announced = None;
+            let point = self.as_vector(given?, &name)?;
             if line.first() == Some(&point.value) {
                 polygon.lines.push(std::mem::take(&mut line));
             } else {

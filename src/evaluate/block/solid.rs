@@ -66,6 +66,17 @@ impl Evaluator<'_> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
+        // `0,5`: the rest of the number comes next, and is told.
+        let number = |kind: &TokenKind| {
+            matches!(kind, TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
+        };
+        let fraction = diagnostic.primary().and_then(|label| self.comma_after(label.span));
+        if self.options.dialect == Dialect::Pov
+            && fraction.is_some()
+            && self.peek().is_some_and(|next| number(&next.kind))
+        {
+            return Ok(());
+        }
         let reported = self.report(here, diagnostic);
         match self.options.dialect {
             Dialect::Scene => Err(reported),
@@ -137,8 +148,9 @@ impl Evaluator<'_> {
         let base = self.point(token, "a vector for the middle of the base");
         let cap = self.point(token, "a vector for the middle of the cap");
         let radius = self.number_after(token, "a number for the radius");
-        let (base, cap, radius) = (base?, cap?, radius?);
+        let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cylinder", &base, &cap)?;
+        let radius = radius?;
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
@@ -161,10 +173,15 @@ impl Evaluator<'_> {
         }
         let message =
             format!("a {name} whose ends are the same point has no length, and is nothing");
-        let diagnostic = Diagnostic::new(self.sizeless(), message)
+        // POV-Ray refuses it, too.
+        let diagnostic = Diagnostic::new(Code::ZeroSize, message)
             .at(cap.span, "expected another place")
-            .also(base.span, "the base");
-        self.nothing(shape, &cap.here, diagnostic)
+            .also(base.span, "the base")
+            .also(shape.span, "of this");
+        if let TokenKind::Word(word) = shape.kind {
+            self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
+        }
+        Err(self.report(&cap.here, diagnostic))
     }
 
     fn cone(&mut self, token: &Token) -> Outcome<Solid> {
@@ -172,8 +189,9 @@ impl Evaluator<'_> {
         let base_radius = self.number_after(token, "a number for the radius at the base");
         let cap = self.vector_after(token, "a vector for the middle of the cap");
         let cap_radius = self.number_after(token, "a number for the radius at the cap");
-        let (base, base_radius, cap, cap_radius) = (base?, base_radius?, cap?, cap_radius?);
+        let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cone", &base, &cap)?;
+        let (base_radius, cap_radius) = (base_radius?, cap_radius?);
         let radii = [base_radius.value, cap_radius.value];
         if radii == [0.0; 2] {
             let diagnostic =
@@ -289,6 +307,7 @@ impl Evaluator<'_> {
             Some(&[both]) if !is_bare => [both; 2],
             Some(&[east, north]) => [east, north],
             Some(numbers) => {
+                let second = self.peek().filter(|_| is_bare).map(|next| next.span);
                 let (found, what) = match numbers.len() {
                     1 => (Code::WrongType, "bare numbers".to_owned()),
                     count => (Code::WrongArity, format!("a vector of {count}")),
@@ -296,6 +315,16 @@ impl Evaluator<'_> {
                 let diagnostic = Diagnostic::new(found, format!("expected {WANTED}, found {what}"))
                     .at(given.span, "expected `<e, n>`")
                     .help("east-west first, then north-south: `<1, 0.2>` is a round tin");
+                let diagnostic = match second.filter(|second| second.file == given.span.file) {
+                    Some(second) => {
+                        let [a, b] = [given.span, second].map(|span| self.sources.text(span));
+                        let right = format!("<{a}, {b}>");
+                        diagnostic
+                            .help(format!("write `{right}`"))
+                            .fix(given.span.to(second), right)
+                    }
+                    None => diagnostic,
+                };
                 return Err(self.report(&given.here, diagnostic));
             }
             None => return Err(self.wrong_type(&given.here, given.span, WANTED, &given.value)),

@@ -36,7 +36,10 @@ impl Evaluator<'_> {
         let mut sweep = Sweep { kind, spheres: Vec::new() };
         while sweep.spheres.len() < wanted {
             let nth = sweep.spheres.len() + 1;
-            let centre = self.point(token, &format!("a vector for the centre of sphere {nth}"))?;
+            self.announced = Some((count.span, nth - 1));
+            let centre = self.point(token, &format!("a vector for the centre of sphere {nth}"));
+            self.announced = None;
+            let centre = centre?;
             let radius =
                 self.number_after(token, &format!("a number for the radius of sphere {nth}"))?;
             if radius.value < 0.0 {

@@ -7,13 +7,14 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::font::{BUILT_IN, Font, POV_RAYS};
 use crate::scene::Solid;
 use crate::scene::text::Text;
-use crate::source::{FileError, FileId};
+use crate::source::{FileError, FileId, Span};
 use crate::vocabulary::Word;
 
 use super::super::include::missing_file;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
+use super::Given;
 use super::named::NamedFile;
 
 /// Fonts that were read, by their names and the files that named them.
@@ -33,11 +34,18 @@ impl Evaluator<'_> {
             self.next();
             return Err(reported);
         }
-        let given = self.given(token, wanted)?;
+        let is_written = self.is_before_value();
+        let given = self.given(token, wanted);
+        if given.is_err() && is_written && !self.is_before_value() {
+            // A mistake in the string hides none behind it.
+            self.number_after(token, "a number for the thickness")?;
+        }
+        let given = given?;
         let Value::String(string) = &given.value else {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
         };
         let string = string.to_string();
+        self.names_font(&given, &string)?;
         let thickness = self.number_after(token, "a number for the thickness")?;
         let wanted = "a vector for the offset of each letter";
         let offset = self.given(token, wanted)?;
@@ -59,6 +67,30 @@ impl Evaluator<'_> {
             self.nothing(token, &given.here, diagnostic)?;
         }
         Ok(Solid::Text { text: Arc::new(text) })
+    }
+
+    /// `text { "timrom.ttf" "string" … }`: the file of a font, without `ttf` before it.
+    fn names_font(&mut self, given: &Given<Value>, string: &str) -> Outcome<()> {
+        let ending = string.rsplit('.').next().unwrap_or("").to_ascii_lowercase();
+        let is_string = match self.peek().cloned() {
+            Some(Token { kind: TokenKind::Expression(id), here, span }) => {
+                self.sources.text(span).starts_with('"')
+                    || matches!(self.named(&here, id), Some(Value::String(_)))
+            }
+            Some(Token { kind: TokenKind::Literal(value), .. }) => {
+                matches!(*value, Value::String(_))
+            }
+            _ => false,
+        };
+        if !matches!(ending.as_str(), "ttf" | "otf" | "ttc") || !is_string {
+            return Ok(());
+        }
+        let text = self.sources.text(given.span).to_owned();
+        let diagnostic = Diagnostic::new(Code::MissingPart, "the kind of this font is not said")
+            .at(given.span, "expected `ttf` before the name of a font's file")
+            .help(format!("write `ttf {text}`"))
+            .fix(Span { end: given.span.start, ..given.span }, "ttf ");
+        Err(self.report(&given.here, diagnostic))
     }
 
     /// The bytes of the font that a text is written in: of one that can be parsed.
@@ -104,7 +136,11 @@ impl Evaluator<'_> {
                 BUILT_IN.into()
             }
             Err(error) => {
-                let diagnostic = missing_file(name, *span, error);
+                let fonts: Vec<String> = POV_RAYS.iter().map(|font| format!("`{font}`")).collect();
+                let diagnostic = missing_file(name, *span, error).help(format!(
+                    "with POV-Ray come {}; without `ttf \"…\"` it is the font that is built in",
+                    fonts.join(", ")
+                ));
                 return Err(self.report(here, diagnostic));
             }
         };

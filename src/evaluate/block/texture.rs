@@ -56,8 +56,8 @@ impl Evaluator<'_> {
             }
             // A texture of a pattern of textures.
             TokenKind::Word(word) if word.family() == Family::Pattern => {
+                self.pass_not_built(token, word);
                 self.set_poison(Poison::new(word, token.here.site(token.span)));
-                self.skip_arguments(word);
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** it is poison, whatever is found in it.
 
+mod items;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
@@ -30,6 +32,7 @@ fn values_not_built(word: Word) -> &'static [&'static str] {
             "a number of lights along the second side",
         ],
         Word::Adaptive | Word::Aperture | Word::MajorRadius => &["a number"],
+        Word::BrickSize => &["a vector for the size of a brick"],
         _ => &[],
     }
 }
@@ -40,8 +43,14 @@ impl Evaluator<'_> {
         let outer = self.poison.take();
         for wanted in values_not_built(word) {
             if self.unbuilt_part(token, wanted).is_err() {
+                self.skip_values();
                 break;
             }
+        }
+        if word == Word::Function && self.is_before_block() {
+            let _: Outcome<Value> = self.function(token);
+            self.poison = outer;
+            return;
         }
         self.poison = outer;
         if let Word::TextureMap
@@ -54,8 +63,11 @@ impl Evaluator<'_> {
                 self.peek().cloned()
         {
             self.next();
-            self.inside_block(&here, contents, span, Self::map_not_built);
+            self.inside_block(&here, contents, span, |evaluator| evaluator.map_not_built(word));
             return;
+        }
+        if word.family() == Family::Pattern {
+            return self.pattern_not_built(token, word);
         }
         if let Word::Normal = word
             && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
@@ -67,7 +79,65 @@ impl Evaluator<'_> {
             self.openers.pop();
             return;
         }
+        if Self::knows_items(word)
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.openers.push(token.span);
+            self.inside_block(&here, contents, span, |evaluator| {
+                evaluator.items_not_built(token, word);
+            });
+            self.openers.pop();
+            return;
+        }
+        self.block_is_missing(token, word);
         self.skip_arguments(word);
+    }
+
+    /// `looks_like sphere { … }`, `radiosity` alone: a word that is not built and has a block, without it.
+    fn block_is_missing(&mut self, token: &Token, word: Word) {
+        let has_block = matches!(
+            word,
+            Word::LooksLike
+                | Word::ProjectedThrough
+                | Word::Radiosity
+                | Word::Photons
+                | Word::InteriorTexture
+                | Word::Warp
+        );
+        if !has_block || self.is_before_block() {
+            return;
+        }
+        let name = word.name();
+        let message = format!("expected `{{` after `{name}`");
+        let diagnostic =
+            Diagnostic::new(Code::MissingPart, message).at(token.span, "its block is missing");
+        let wrapped = self.peek_on().cloned().filter(|next| {
+            matches!(next.kind, TokenKind::Word(of) if matches!(of.family(), Family::Shape | Family::Csg)
+                || of == Word::Object)
+        });
+        let diagnostic = match wrapped {
+            Some(object) => {
+                let before = self.told();
+                self.next();
+                if let TokenKind::Word(of) = object.kind {
+                    self.skip_arguments(of);
+                }
+                self.take_back(before);
+                let whole = self.whole(&object);
+                let text = self.sources.text(whole.span).lines().next().unwrap_or("").to_owned();
+                let (start, end) = (Span { end: whole.span.start, ..whole.span }, whole.span.after());
+                diagnostic
+                    .help(format!("write `{name} {{ {text} }}`"))
+                    .fix(start, "{ ")
+                    .fix(end, " }")
+            }
+            None if word == Word::Radiosity => diagnostic
+                .help("`radiosity { … }` belongs in `global_settings`; `no_radiosity` leaves an object out of it"),
+            None => diagnostic.help(format!("write `{name} {{ … }}`")),
+        };
+        self.report(&token.here, diagnostic);
     }
 
     /// Whether a pattern stands before a map in its block, and none is `average`, whose entries need no number.
@@ -106,7 +176,7 @@ impl Evaluator<'_> {
     }
 
     /// The entries of a map that is not built: each begins with a number.
-    fn map_not_built(&mut self) {
+    fn map_not_built(&mut self, map: Word) {
         while let Some(token) = self.peek().cloned() {
             let TokenKind::Entry(items) = token.kind else {
                 self.next();
@@ -126,6 +196,9 @@ impl Evaluator<'_> {
                         .at(span, "an entry of a map begins with a number")
                         .help(format!("write `[0.5 {} …]`", word.name()));
                     evaluator.report(&here, diagnostic);
+                }
+                if map == Word::TextureMap {
+                    evaluator.entry_of_textures();
                 }
                 evaluator.run_items();
             });
@@ -176,6 +249,11 @@ impl Evaluator<'_> {
     }
 
     fn unbuilt_part(&mut self, token: &Token, wanted: &str) -> Outcome<()> {
+        if wanted.starts_with("a vector")
+            && let Some(reported) = self.bare_points(1, 0)
+        {
+            return Err(reported);
+        }
         let given = self.given(token, wanted)?;
         match &given.value {
             Value::Poison(_) | Value::Broken => Ok(()),

@@ -11,6 +11,7 @@ use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Reported};
 use super::Place;
+use super::habit::told_comma;
 use super::place::{home, is_at_top_level, stands_alone};
 use super::unknown::{is_transform, told_directive};
 
@@ -18,11 +19,12 @@ impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
         // What stands behind a word that is not built may belong to it.
-        let (of_poison, has_block) = (self.poison.is_some(), self.is_before_block());
+        let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
-            TokenKind::Word(word) if of_poison && has_block && stands_alone(*word) => {
+            // What comes next is looked at for no name: it may declare it.
+            TokenKind::Word(word) if of_poison && stands_alone(*word) && self.is_before_block() => {
                 self.unexpected_word(token, *word, place);
             }
             TokenKind::Word(word) if of_poison => {
@@ -147,6 +149,12 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
+        // An argument of a macro that was told, or two that changed places.
+        if let TokenKind::Expression(_) = token.kind
+            && self.is_refused_again(&token.here, token.span, value)
+        {
+            return self.skip_values();
+        }
         let kind = value.kind();
         let mut diagnostic = Diagnostic::new(
             Code::ExtraPart,
@@ -196,11 +204,11 @@ impl Evaluator<'_> {
                 return;
             }
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+        } else if let Some(told) = self.angle_behind_axis(token, value) {
+            diagnostic = told;
         } else if let Some((span, number)) = self.comma_before(token.span) {
-            diagnostic.labels.iter_mut().for_each(|label| label.span = span);
-            diagnostic = diagnostic
-                .help(format!("a fraction is written with a point: `{number}`"))
-                .fix(span, number);
+            self.declare_with_point(span, &number);
+            diagnostic = told_comma(self.sources.text(span), span, number);
         } else if let (Some(word), Value::Texture(_)) = (place.word, value)
             && matches!(word, Word::Pigment | Word::Finish)
         {
@@ -373,27 +381,6 @@ impl Evaluator<'_> {
         let before = self.told();
         self.inside_block(&here, contents, span, Self::run_items);
         self.take_back(before);
-    }
-
-    /// `rotate 45 degrees`.
-    fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
-        let name = word.name();
-        let text = &self.sources.get(token.span.file).text;
-        let before = text.get(..token.span.start as usize)?.trim_end();
-        if !before.ends_with(|c: char| c.is_ascii_alphanumeric() || ")>*".contains(c)) {
-            return None;
-        }
-        let message = format!("`{name}` has no meaning behind a number");
-        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-            .at(token.span, "angles of the language are in degrees");
-        Some(match word {
-            Word::Degrees => diagnostic
-                .help("leave it out: `rotate 45*y`")
-                .fix(Span { start: before.len() as u32, ..token.span }, ""),
-            _ => {
-                diagnostic.help("write `degrees(…)` around the angle: it turns radians to degrees")
-            }
-        })
     }
 
     /// `composite { … }`, `alpha 0.5`: the word of today is meant.

@@ -91,12 +91,25 @@ impl Evaluator<'_> {
         }
         let dialect = self.options.dialect;
         let words = || place.words(dialect);
+        if let Some((word, value)) = name.rsplit_once('_')
+            && matches!(value, "on" | "off" | "yes" | "no" | "true" | "false")
+            && words().any(|other| other == word)
+        {
+            let right = format!("{word} {value}");
+            let told = Diagnostic::new(Code::UnknownWord, format!("`{name}` is two words"))
+                .at(span, format!("did you mean `{right}`?"))
+                .help(format!("replace it with `{right}`"))
+                .fix(span, right);
+            return Unknown::Word { told, near: None };
+        }
         // A word that another tool has is meant as there, whatever it resembles.
+        let is_known = suggest::foreign(&name).any(is_built);
         let here = suggest::foreign(&name)
             .find(|word| *word == "transmit" || words().any(|other| other == *word))
-            .or_else(|| suggest::closest(&name, words()))
+            .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
             .or_else(|| suggest::reworded(&name, words()))
-            .or_else(|| suggest::abridged(&name, words()));
+            .or_else(|| suggest::abridged(&name, words()))
+            .or_else(|| suggest::begun(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)
@@ -162,19 +175,6 @@ impl Evaluator<'_> {
             },
         };
         Unknown::Word { told: diagnostic, near }
-    }
-
-    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
-    fn color_meant(&mut self, near: &str) -> Option<String> {
-        let has_value = matches!(
-            self.peek().map(|next| &next.kind),
-            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
-        );
-        if has_value || !matches!(near, "red" | "green" | "blue") {
-            return None;
-        }
-        let mut visible = self.scopes.visible();
-        visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
     }
 
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`

@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
 use crate::evaluate::block::Given;
 use crate::evaluate::stream::Token;
-use crate::scene::{Beam, LightKind};
+use crate::scene::{Beam, LightKind, ObjectId, ObjectKind, Operation};
 use crate::vocabulary::Word;
 
 /// A typed `radius` or `falloff` of a beam in radians: from 6° to a right angle. Narrower ones in degrees are
@@ -60,6 +60,31 @@ impl Evaluator<'_> {
             }
             LightKind::Cylinder { beam, .. } => self.lint_inside_out(cone, beam, "wide"),
             LightKind::Parallel { .. } | LightKind::Direction { .. } => {}
+        }
+    }
+
+    /// A light in a `difference` or an `intersection`: it has no inside that could be cut.
+    pub(in crate::evaluate) fn lint_light_of_csg(
+        &mut self,
+        word: Word,
+        operation: Operation,
+        children: &[ObjectId],
+    ) {
+        if operation == Operation::Merge {
+            return;
+        }
+        for &child in children {
+            let object = &self.scene.objects[child.index()];
+            if !matches!(object.kind, ObjectKind::LightSource(_)) {
+                continue;
+            }
+            let site = object.site;
+            let name = word.name();
+            let message = format!("a `light_source` has no inside that a `{name}` could cut");
+            let diagnostic = Diagnostic::new(Code::UnlikelyLight, message)
+                .at(site.span, "it shines as if it stood beside the solid")
+                .help(format!("write it outside of this `{name}`, or in a `union` with it"));
+            self.report_in(site.expansion, diagnostic);
         }
     }
 

@@ -11,7 +11,7 @@ mod rows;
 mod space;
 
 use self::atom::Atom;
-use super::{ParseOptions, balance, comment, control, parse, token};
+use super::{ParseOptions, balance, comment, control, parse, skipped, token};
 use crate::diagnostic::Diagnostics;
 use crate::source::{FileId, Source};
 use crate::syntax::comment::Quiet;
@@ -40,22 +40,23 @@ pub fn format(
     if broken {
         return Err(Unformatted::Broken);
     }
-    let (quiet, tokens) = tokens(&source.text, file);
+    let (quiet, tokens) = tokens(&source.text, file, options);
     let quiet = &quiet.text;
     let (tokens, _) = balance::balance(tokens, &source.text, file, options, &mut found);
     let mut atoms = atom::atoms(source, quiet, &tokens, &ast);
     let groups = group::Groups::of(&mut atoms);
     let end = end_of_line(&source.text, &atoms);
     let formatted = rows::write(&flow::rows(&atoms, &groups, end), end);
-    match same_but_blanks(&source.text, &formatted) {
+    match same_but_blanks(&source.text, &formatted, options) {
         true => Ok(formatted),
         false => Err(Unformatted::Unsafe),
     }
 }
 
-fn tokens(text: &str, file: FileId) -> (Quiet<'_>, Vec<Token>) {
+fn tokens<'a>(text: &'a str, file: FileId, options: &ParseOptions) -> (Quiet<'a>, Vec<Token>) {
     let mut unheard = Diagnostics::new(false);
     let mut quiet = comment::quiet(text, file, &mut unheard);
+    skipped::blank(&mut quiet, file, options);
     quiet.text = control::blank(quiet.text, file, &mut unheard);
     let tokens = token::tokens(&quiet.text);
     (quiet, tokens)
@@ -72,13 +73,13 @@ fn end_of_line(text: &str, atoms: &[Atom]) -> &'static str {
 }
 
 /// True if two texts have the same tokens and comments in the same order.
-fn same_but_blanks(one: &str, other: &str) -> bool {
-    pieces(one) == pieces(other)
+fn same_but_blanks(one: &str, other: &str, options: &ParseOptions) -> bool {
+    pieces(one, options) == pieces(other, options)
 }
 
 /// Each token and each comment of a text.
-fn pieces(text: &str) -> Vec<String> {
-    let (quiet, tokens) = tokens(text, FileId(0));
+fn pieces(text: &str, options: &ParseOptions) -> Vec<String> {
+    let (quiet, tokens) = tokens(text, FileId(0), options);
     let mut pieces = Vec::with_capacity(tokens.len());
     let mut comments = quiet.comments.iter().peekable();
     let mut comment = |pieces: &mut Vec<String>, up_to: u32| {

@@ -4,7 +4,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 /// What declares a name elsewhere.
 const DECLARERS: &[&str] = &[
@@ -12,20 +12,32 @@ const DECLARERS: &[&str] = &[
     "color3",
 ];
 
+/// What may stand before one of them.
+const QUALIFIERS: &[&str] =
+    &["const", "static", "final", "let", "var", "uniform", "in", "public", "constexpr", "auto"];
+
 /// How many tokens behind `+=` the end of its statement is looked for.
 const LONGEST_CHANGE: usize = 40;
 
 impl Reader<'_> {
     /// `let A = 1`.
     pub(super) fn declarer(&mut self, meant: &mut Vec<Token>) -> bool {
-        let fits = DECLARERS.contains(&self.slice(0))
+        // `const float A = 1`
+        let last = usize::from(
+            QUALIFIERS.contains(&self.slice(0))
+                && self.kind(1).is_some()
+                && DECLARERS.contains(&self.slice(1))
+                && matches!(self.kind(2), Some(TokenKind::Name | TokenKind::Word(_))),
+        );
+        let fits = DECLARERS.contains(&self.slice(last))
             // A word of the language is told as that.
-            && matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)))
-            && self.is(2, Mark::Equal)
-            && !(self.is(3, Mark::Equal) && self.touches(3));
+            && matches!(self.kind(last + 1), Some(TokenKind::Name | TokenKind::Word(_)))
+            && self.is(last + 2, Mark::Equal)
+            && !(self.is(last + 3, Mark::Equal) && self.touches(last + 3));
         if fits {
-            let word = self.slice(0).to_owned();
-            let span = self.span(0, 0);
+            let span = self.span(0, last);
+            let word = self.text.get(span.range()).unwrap_or("").to_owned();
+            self.at += last;
             let diagnostic = Diagnostic::new(
                 Code::UnknownWord,
                 format!("a name is declared by `#declare`, not by `{word}`"),
@@ -47,6 +59,69 @@ impl Reader<'_> {
             self.at += 1;
         }
         fits
+    }
+
+    /// `background = rgb 1;`: what stands in a block is given by an `=`.
+    pub(super) fn assigned_block(&mut self, word: Word, meant: &mut Vec<Token>) -> bool {
+        let declared = matches!(
+            meant.last().map(|token| token.kind),
+            Some(TokenKind::Directive(_) | TokenKind::Mark(_))
+        ) && !matches!(
+            meant.last().map(|token| token.kind),
+            Some(TokenKind::Mark(Mark::Semicolon | Mark::Close(_)))
+        );
+        let opens = word.role() == Role::Statement
+            && matches!(
+                word.family(),
+                Family::Shape | Family::Csg | Family::Camera | Family::Atmosphere | Family::Light
+            )
+            || word == Word::GlobalSettings;
+        let assigns = self.is(1, Mark::Equal) && !(self.is(2, Mark::Equal) && self.touches(2));
+        if declared || !opens || !assigns || !self.inside.is_empty() {
+            return false;
+        }
+        let (name, sign) = (word.name(), self.span(1, 1));
+        let diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            format!("`{name}` takes what is in it in braces, and no `=`"),
+        )
+        .at(sign, "expected `{` here");
+        if self.is(2, Mark::Open(Bracket::Brace)) {
+            self.diagnostics.push(diagnostic.help(format!("write `{name} {{ … }}`")).fix(sign, ""));
+            meant.push(self.tokens[self.at]);
+            self.at += 2;
+            return true;
+        }
+        let mut end = 2;
+        while let Some(token) = self.tokens.get(self.at + end) {
+            let before = self.tokens[self.at + end - 1].end as usize;
+            let gap = self.text.get(before..token.start as usize).unwrap_or("");
+            if gap.contains('\n') || self.is(end, Mark::Semicolon) {
+                break;
+            }
+            end += 1;
+        }
+        if end == 2 {
+            return false;
+        }
+        let value = self.span(2, end - 1);
+        let text = self.text.get(value.range()).unwrap_or("").to_owned();
+        let semicolon = usize::from(self.is(end, Mark::Semicolon));
+        let whole = sign.to(self.span(end - 1 + semicolon, end - 1 + semicolon));
+        let right = format!("{{ {text} }}");
+        self.diagnostics.push(diagnostic.help(format!("write `{name} {right}`")).fix(whole, right));
+        let place = self.tokens[self.at + 1];
+        let mark = |mark| Token { kind: TokenKind::Mark(mark), ..place };
+        meant.extend([self.tokens[self.at], mark(Mark::Open(Bracket::Brace))]);
+        meant.extend(&self.tokens[self.at + 2..self.at + end]);
+        let last = self.tokens[self.at + end - 1];
+        meant.push(Token {
+            kind: TokenKind::Mark(Mark::Close(Bracket::Brace)),
+            start: last.end,
+            end: last.end,
+        });
+        self.at += end + semicolon;
+        true
     }
 
     /// `return a*2`: a body is its value.

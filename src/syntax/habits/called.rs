@@ -26,7 +26,9 @@ impl Reader<'_> {
         };
         let (colon, brace) =
             (self.is(close + 1, Mark::Colon), self.is(close + 1, Mark::Open(Bracket::Brace)));
-        if !(3..close).all(is_parameter) || !(colon || brace) {
+        // Its `#end` is there already.
+        let ended = !(colon || brace) && self.surplus_ends();
+        if !(3..close).all(is_parameter) || !(colon || brace || ended) {
             return false;
         }
         let (word, span) = (self.slice(0).to_owned(), self.span(0, 0));
@@ -37,7 +39,7 @@ impl Reader<'_> {
             .fix(span, "#macro");
         if brace {
             diagnostic = self.braces(close + 1, diagnostic).0;
-        } else {
+        } else if colon {
             let end = self.body_end(close + 2);
             let last = self.span(end - 1, end - 1);
             diagnostic =

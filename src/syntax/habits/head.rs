@@ -284,7 +284,8 @@ impl Reader<'_> {
         };
         let colon = self.is(2, Mark::Colon);
         let assigns = colon && self.is(3, Mark::Equal) && self.touches(3);
-        let misses = colon || starts(self.kind(2));
+        // `#declare Mat.001 = …` is no name.
+        let misses = colon || (starts(self.kind(2)) && !self.is_hyphen_name(1));
         let word = head.word();
         let theirs = directive_word(self.slice(0)).to_owned();
         if !misses && theirs == word {

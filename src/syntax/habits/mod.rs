@@ -14,10 +14,13 @@ mod counting;
 mod head;
 mod letter;
 mod map;
+mod number;
 mod part;
 mod sample;
+mod scad;
 mod sign;
 mod template;
+mod vector;
 mod web;
 
 use self::letter::Foreign;
@@ -162,15 +165,20 @@ impl Reader<'_> {
         }
         match kind {
             TokenKind::Word(word) => {
-                self.parted_word(meant)
+                self.times(meant)
+                    || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
                     || self.head_without_hash(word, meant)
+                    || self.scad(meant)
                     || self.empty_parentheses(word, meant)
+                    || self.assigned_block(word, meant)
                     || self.part(meant)
             }
             TokenKind::Name => {
                 self.suffix(meant)
+                    || self.letter_in_number(meant)
+                    || self.times(meant)
                     || self.space_of_names()
                     || self.parted_word(meant)
                     || self.declarer(meant)
@@ -179,6 +187,7 @@ impl Reader<'_> {
                     || self.returns()
                     || self.changes(meant)
                     || self.logic(meant)
+                    || self.scad(meant)
                     || self.vector(meant)
                     || self.part(meant)
             }
@@ -197,8 +206,11 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
                 self.template(meant) || self.vector(meant)
             }
+            TokenKind::String => self.part(meant),
             TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
-            TokenKind::Mark(Mark::Open(Bracket::Round)) => self.map(meant) || self.vector(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Round)) => {
+                self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
+            }
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,

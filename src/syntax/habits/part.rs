@@ -4,7 +4,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 /// A bracket around the place reached.
 pub(super) struct Inside {
@@ -21,6 +21,12 @@ impl Inside {
     /// The brace after a word.
     pub(super) fn opens(&self, word: Word) -> bool {
         self.bracket == Bracket::Brace && self.word == Some(word)
+    }
+
+    /// The brace of a word that holds objects, or of no word.
+    pub(super) fn holds_objects(&self) -> bool {
+        self.is(Bracket::Brace)
+            && self.word.is_none_or(|word| word.family() == Family::Csg || word == Word::Object)
     }
 
     pub(super) fn is(&self, bracket: Bracket) -> bool {
@@ -68,6 +74,12 @@ impl Reader<'_> {
     pub(super) fn enter(&mut self, bracket: Bracket, before: Option<&Token>) {
         let word = match before.map(|token| token.kind) {
             Some(TokenKind::Word(word)) if bracket == Bracket::Brace => Some(word),
+            // `light { position: … }`: as what it is meant.
+            Some(TokenKind::Name) if bracket == Bracket::Brace => before
+                .and_then(|name| self.text.get(name.start as usize..name.end as usize))
+                .and_then(|name| suggest::foreign(name).next())
+                .and_then(Word::from_name)
+                .filter(|word| parts(*word).is_some()),
             _ => None,
         };
         self.inside.push(Inside { bracket, word, parts: 0, told: None });
@@ -108,7 +120,12 @@ impl Reader<'_> {
         if !(signed || bare) {
             return false;
         }
-        let name = self.slice(0).to_owned();
+        let quoted = self.kind(0) == Some(TokenKind::String);
+        let name = self.slice(0).trim_matches('"').to_owned();
+        // `"radius": 1`, as in JSON.
+        if quoted && !(signed && self.is(1, Mark::Colon)) {
+            return false;
+        }
         let lower = name.to_lowercase();
         let position = parts(opener)
             .and_then(|(_, parts)| parts.iter().position(|part| part.contains(&lower.as_str())));
@@ -123,6 +140,7 @@ impl Reader<'_> {
     fn means_word(&self, name: &str) -> bool {
         match self.kind(0) {
             Some(TokenKind::Word(word)) => word.role() == Role::Statement,
+            Some(TokenKind::String) => Word::from_name(name).is_some(),
             _ => {
                 suggest::foreign(name).next().is_some()
                     || Word::from_name(&name.to_lowercase()).is_some()
@@ -188,7 +206,11 @@ impl Reader<'_> {
             Some(inside) => inside.told = Some(diagnostic),
             None => {}
         }
-        meant.push(self.tokens[self.at]);
+        let token = self.tokens[self.at];
+        meant.push(match (token.kind, Word::from_name(name)) {
+            (TokenKind::String, Some(word)) => Token { kind: TokenKind::Word(word), ..token },
+            _ => token,
+        });
         self.at += 2;
         true
     }

@@ -1,138 +1,15 @@
-//! Signs of other languages: `(1, 0, 0)` for a vector, `and`, `'strings'`, `# comments`, names with hyphens.
+//! Signs of other languages: `and`, `'strings'`, `# comments`, names with hyphens.
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Family, Role, Word};
-
-/// What makes a vector elsewhere.
-const MAKERS: &[&str] = &["vec2", "vec3", "vec4", "float3", "vector3", "Vector", "Vec3", "Color"];
+use crate::vocabulary::{Role, Word};
 
 /// No word of the language is longer.
 const LONGEST_WORD: usize = 30;
 
 impl Reader<'_> {
-    /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
-    pub(super) fn vector(&mut self, meant: &mut Vec<Token>) -> bool {
-        let made = self.kind(0) == Some(TokenKind::Name);
-        if made && !MAKERS.contains(&self.slice(0)) {
-            return false;
-        }
-        let open = usize::from(made);
-        let bracket = match self.kind(open) {
-            Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
-            _ => return false,
-        };
-        let before = |back: usize| {
-            let token = meant.len().checked_sub(back).and_then(|at| meant.get(at));
-            token.map(|token| token.kind)
-        };
-        // `translate([2, 0, 0])`
-        let argument = bracket == Bracket::Square
-            && before(1) == Some(TokenKind::Mark(Mark::Open(Bracket::Round)))
-            && matches!(before(2), Some(TokenKind::Word(_) | TokenKind::Name));
-        let fits = match before(1) {
-            _ if argument => true,
-            // `rgb {1, 0, 0}`; other braces hold parts, or rows of an array.
-            Some(TokenKind::Word(word)) if bracket == Bracket::Brace => {
-                word.role() == Role::Statement
-                    && matches!(word.family(), Family::Transform | Family::Color)
-            }
-            _ if bracket == Bracket::Brace => false,
-            Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
-            // `= [1, 2, 3]` is rather an array.
-            Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
-            Some(TokenKind::Word(word)) => {
-                word.role() == Role::Statement
-                    && matches!(
-                        word.family(),
-                        Family::Transform | Family::Color | Family::Camera | Family::Pattern
-                    )
-            }
-            _ => false,
-        };
-        let inside_brace = self.inside.last().is_none_or(|inside| inside.is(Bracket::Brace));
-        if !fits || !(inside_brace || made || argument) || (made && bracket != Bracket::Round) {
-            return false;
-        }
-        let Some(close) = self.row(open, bracket) else { return false };
-        let (first, last) = (self.span(0, open), self.span(close, close));
-        let before = meant.len().checked_sub(2).map(|word| meant[word]);
-        let moved = before.filter(|word| {
-            argument
-                && self.inside.len() == 1
-                && matches!(word.kind, TokenKind::Word(word) if word.family() == Family::Transform)
-        });
-        let diagnostic = if let Some(word) = moved {
-            // `translate([0, 2, 0]) sphere(…)`
-            let word = Span::new(self.file, word.start as usize, word.end as usize);
-            let name = self.text.get(word.range()).unwrap_or("");
-            let inside = Span { start: first.end, end: last.start, ..first };
-            let numbers = self.text.get(inside.range()).unwrap_or("").trim();
-            let message =
-                format!("`{name}` stands inside the object that it moves, behind its parts");
-            Diagnostic::new(Code::MisplacedBlock, message)
-                .at(word, "not before an object, as in other languages")
-                .help(format!("write `sphere {{ … {name} <{numbers}> }}`"))
-        } else {
-            Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
-                .at(self.span(0, close), "expected a vector")
-                .help("write `<x, y, z>`")
-                .fix(first, "<")
-                .fix(last, ">")
-        };
-        if self.made != Some(self.at) || !made {
-            self.diagnostics.push(diagnostic);
-        }
-        if moved.is_some() {
-            self.drop_moved(close + 2);
-        }
-        let sign =
-            |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };
-        meant.push(sign(open, Mark::Less));
-        meant.extend(&self.tokens[self.at + open + 1..self.at + close]);
-        meant.push(sign(close, Mark::Greater));
-        self.at += close + 1;
-        true
-    }
-
-    /// `cube([1, 2, 3]);` behind `translate([0, 0, 1])`: it belongs to that mistake.
-    fn drop_moved(&mut self, name: usize) {
-        let named = matches!(self.kind(name), Some(TokenKind::Name | TokenKind::Word(_)));
-        let Some(mut last) = self.closed(name + 1, Bracket::Round).filter(|_| named) else {
-            return;
-        };
-        last += usize::from(self.is(last + 1, Mark::Semicolon));
-        self.dropped.extend((name..=last).map(|ahead| (self.at + ahead, false)));
-    }
-
-    /// Where `vec3(1, 0, 0)` ends, if one stands at `ahead`.
-    pub(super) fn makes_vector(&self, ahead: usize) -> Option<usize> {
-        let made = self.kind(ahead) == Some(TokenKind::Name) && MAKERS.contains(&self.slice(ahead));
-        let open = made && self.is(ahead + 1, Mark::Open(Bracket::Round));
-        self.row(ahead + 1, Bracket::Round).filter(|_| open)
-    }
-
-    /// Where the bracket that opens at `open` closes, with two to five numbers in it and nothing else.
-    fn row(&self, open: usize, bracket: Bracket) -> Option<usize> {
-        let (mut close, mut commas, mut number) = (open + 1, 0, false);
-        loop {
-            match self.kind(close) {
-                Some(TokenKind::Number) if !number => number = true,
-                Some(TokenKind::Mark(Mark::Minus | Mark::Plus)) if !number => {}
-                Some(TokenKind::Mark(Mark::Comma)) if number => {
-                    commas += 1;
-                    number = false;
-                }
-                Some(TokenKind::Mark(Mark::Close(other))) if other == bracket && number => break,
-                _ => return None,
-            }
-            close += 1;
-        }
-        (1..=4).contains(&commas).then_some(close)
-    }
-
     /// `and`, `or`, `not` inside parentheses.
     pub(super) fn logic(&mut self, meant: &mut Vec<Token>) -> bool {
         // `#declare A = not B;`
@@ -332,15 +209,20 @@ impl Reader<'_> {
 
     /// `look at`, `light source { … }`: a word of the language in two parts.
     pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
-        if !matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_))) {
+        let is_part = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+        // `look-at`
+        let hyphen = self.is(1, Mark::Minus) && self.touches(1) && self.kind(2).is_some();
+        let last = if hyphen && self.touches(2) { 2 } else { 1 };
+        if !is_part(self.kind(last)) {
             return false;
         }
-        let span = self.span(0, 1);
+        let span = self.span(0, last);
         let text = self.text.get(span.range()).unwrap_or("");
-        let Some(blank) = text.find([' ', '\t']).filter(|_| text.len() <= LONGEST_WORD) else {
+        let part = [' ', '\t', '-'];
+        let Some(blank) = text.find(part).filter(|_| text.len() <= LONGEST_WORD) else {
             return false;
         };
-        let rest = text[blank..].trim_start_matches([' ', '\t']);
+        let rest = text[blank..].trim_start_matches(part);
         let whole = format!("{}_{rest}", text[..blank].trim_end_matches('_'));
         let Some(word) = Word::from_name(&whole).filter(|word| word.role() == Role::Statement)
         else {
@@ -353,7 +235,7 @@ impl Reader<'_> {
                 .fix(span, whole),
         );
         meant.push(Token { kind: TokenKind::Word(word), end: span.end, ..self.tokens[self.at] });
-        self.at += 2;
+        self.at += last + 1;
         true
     }
 
@@ -390,7 +272,8 @@ impl Reader<'_> {
             let plain = if digit { format!("_{plain}") } else { plain };
             let why = match digit {
                 true => "a name begins with a letter or `_`",
-                false => "a name has no hyphen in it",
+                false if name.contains('-') => "a name has no hyphen in it",
+                false => "a name has no dot in it: letters, digits and `_` alone",
             };
             let told = Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is no name"))
                 .at(span, why)
@@ -398,6 +281,13 @@ impl Reader<'_> {
             self.hyphens.entry(name).or_insert((told, plain));
         }
         self.at = 0;
+    }
+
+    /// Whether the name at `ahead` is the beginning of one that `find_hyphens` has found.
+    pub(super) fn is_hyphen_name(&self, ahead: usize) -> bool {
+        let start = self.tokens.get(self.at + ahead).map_or(0, |token| token.start as usize);
+        let rest = self.text.get(start..).unwrap_or("");
+        self.hyphens.keys().any(|name| rest.starts_with(name.as_str()))
     }
 
     /// A name that `find_hyphens` has found.

@@ -16,7 +16,7 @@ const SUFFIXES: &[(&[&str], &str)] = &[
 ];
 
 /// The number 1: a value that fits nearly everywhere. Nothing is drawn after a mistake.
-const STAND_IN: TokenKind = TokenKind::Word(Word::Yes);
+pub(super) const STAND_IN: TokenKind = TokenKind::Word(Word::Yes);
 
 impl Reader<'_> {
     /// `${radius}`, `$radius`, `{{ radius }}`, `%f`, `%.3f`.
@@ -118,7 +118,7 @@ impl Reader<'_> {
     }
 
     /// The number that this token touches.
-    fn number_before(&self, meant: &[Token]) -> Option<Token> {
+    pub(super) fn number_before(&self, meant: &[Token]) -> Option<Token> {
         let here = self.tokens[self.at].start;
         let last = meant.last().copied()?;
         (last.kind == TokenKind::Number && last.end == here).then_some(last)

@@ -58,6 +58,14 @@ impl Repair<'_> {
                 let brace = TokenKind::Mark(Mark::Close(Bracket::Brace));
                 (beside && self.tokens[at - 1].kind == brace).then_some(false)
             }
+            // `[0 rgb 0` and an entry below it.
+            Opener::Bracket(Bracket::Square)
+                if place.first
+                    && place.indent == open.indent
+                    && self.tokens[at].kind == TokenKind::Mark(Mark::Open(Bracket::Square)) =>
+            {
+                Some(true)
+            }
             Opener::Bracket(Bracket::Round | Bracket::Square) => {
                 let ends = self.tokens[at].kind == TokenKind::Mark(Mark::Semicolon);
                 // `#macro G(a, b sphere {`: parameters are names.

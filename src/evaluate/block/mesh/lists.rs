@@ -65,6 +65,11 @@ impl Evaluator<'_> {
                 let _: Outcome<_> =
                     self.as_indices(of_faces, faces, lists.announced, "vertex_vectors");
             }
+            if let (Some((_, vertices)), Some((of_faces, faces))) = (&lists.vertices, &lists.faces)
+            {
+                let _: Outcome<_> =
+                    self.as_indices(of_faces, faces, vertices.len(), "vertex_vectors");
+            }
             return Err(Reported);
         }
         let Lists { vertices, normals, uv_vectors, faces, face_normals, face_uv, .. } = lists;
@@ -78,7 +83,9 @@ impl Evaluator<'_> {
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
-            return Err(self.report(&token.here, diagnostic));
+            // Unless they stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
+            return Err(Reported);
         };
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
@@ -194,7 +201,10 @@ impl Evaluator<'_> {
                 if entries.len() == wanted {
                     break;
                 }
-                let given = evaluator.given(list, &format!("{wanted} vectors"))?;
+                evaluator.announced = Some((count.span, entries.len()));
+                let given = evaluator.given(list, &format!("{wanted} vectors"));
+                evaluator.announced = None;
+                let given = given?;
                 entries.push(match given.value.numbers() {
                     Some(numbers) if matches!(given.value, Value::Vector(_)) => {
                         let mut entry = [0.0; 3];

@@ -126,3 +126,26 @@ fn fifteen_roots_are_found() {
     let roots: Vec<f64> = (-7..=7).map(|i| f64::from(i) * 0.5).collect();
     assert_eq!(assert_finds(&roots, &[], 1.0), 15);
 }
+
+#[test]
+fn a_polynomial_turns_where_its_derivative_is_zero_whichever_orders_are_left_out() {
+    let mut random = Random(72);
+    let (mut turned, mut even) = (0, 0);
+    for _ in 0..tries_in(5) {
+        let count = random.below(5);
+        let apart = |i: usize, random: &mut Random| i as f64 - 1.0 + random.number(0.0, 0.5);
+        let turns: Vec<f64> = (0..count).map(|i| apart(i, &mut random)).collect();
+        let pairs = [(random.number(-1.0, 2.0), random.number(0.1, 2.0))];
+        let derivative = product(&turns, &pairs[..random.below(2)]);
+        let term = |k: usize| if k == 0 { 0.0 } else { derivative.values[k - 1] / k as f64 };
+        let values: Vec<f64> = (0..=derivative.degree + 1).map(term).collect();
+        let found = turning_points(&values, -0.75, 0.75);
+        let expected: Vec<f64> = turns.into_iter().filter(|turn| turn.abs() < 0.75).collect();
+        assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-10;
+        assert!(found.iter().zip(&expected).all(near), "{found:?} {expected:?}");
+        turned += found.len();
+        even += usize::from(order_without_roots(&values, -0.75, 0.75) == 1);
+    }
+    assert!(turned > 1000 && even > 100, "{turned} {even}");
+}

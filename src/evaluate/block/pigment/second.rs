@@ -1,0 +1,199 @@
+//! What to say of a second colour or pattern: a pigment is one colour or one pattern.
+//!
+//! **Source:** POV-Ray 3.7 refuses each of these; only a declared pigment may be followed by what replaces it
+//! (measured).
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{Site, Span};
+use crate::vocabulary::Word;
+
+use super::super::super::stream::Token;
+use super::super::super::{Evaluator, Outcome, Reported};
+use super::Written;
+
+/// What a pigment was given before, in the same block.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct First {
+    /// A pattern, or one colour.
+    pattern: Option<Word>,
+    site: Site,
+    /// A second one has been told: a third is the same mistake.
+    told: bool,
+}
+
+impl Written {
+    /// What `token` began was told to be wrong: what it was meant as is not known, nor what it stands beside.
+    pub(super) fn mistaken(&mut self, token: &Token) {
+        let site = token.here.site(token.span);
+        self.first = Some(First { pattern: None, site, told: true });
+    }
+}
+
+/// How many colours stand behind a pattern, where it takes them without a map.
+pub(in crate::evaluate::block) fn colors_of(pattern: Word) -> Option<usize> {
+    Some(match pattern {
+        Word::Checker | Word::Brick | Word::Object => 2,
+        Word::Hexagon => 3,
+        Word::Square => 4,
+        Word::Cubic | Word::Triangular => 6,
+        _ => return None,
+    })
+}
+
+impl Evaluator<'_> {
+    /// The item that `token` began gives the pigment a `pattern`, or a colour: if nothing did before.
+    pub(super) fn alone_in_pigment(
+        &mut self,
+        token: &Token,
+        pattern: Option<Word>,
+        written: &mut Written,
+    ) -> Outcome<()> {
+        let item = self.whole(token);
+        match &mut written.first {
+            // `magnet 1 mandel 50` is one pattern.
+            Some(First { pattern: Some(Word::Magnet), .. })
+                if matches!(pattern, Some(Word::Mandel | Word::Julia)) =>
+            {
+                Ok(())
+            }
+            None => {
+                written.first = Some(First { pattern, site: item, told: false });
+                Ok(())
+            }
+            Some(First { told: true, .. }) => Err(Reported),
+            Some(first) => {
+                first.told = true;
+                let first = *first;
+                Err(self.second_in_pigment(token, item, first, pattern, written))
+            }
+        }
+    }
+
+    /// A declared pigment: it stands before what replaces its colour or pattern.
+    pub(super) fn first_in_pigment(&mut self, token: &Token, written: &Written) -> Outcome<()> {
+        let Some(first) = written.first else { return Ok(()) };
+        let text = self.sources.text(token.span).to_owned();
+        let diagnostic = Diagnostic::new(
+            Code::ExtraPart,
+            format!("the declared pigment `{text}` stands behind another"),
+        )
+        .at(token.span, "it would replace what stands before it")
+        .also(first.site.span, "the pigment has this already")
+        .help(format!("a declared pigment comes first: `pigment {{ {text} … }}`"));
+        Err(self.report(&token.here, diagnostic))
+    }
+
+    fn second_in_pigment(
+        &mut self,
+        token: &Token,
+        item: Site,
+        first: First,
+        pattern: Option<Word>,
+        written: &Written,
+    ) -> Reported {
+        let text = |site: Site| self.sources.text(site.span).to_owned();
+        let (shown, before) = (text(item), text(first.site));
+        let diagnostic = |message: String, label: &str| {
+            Diagnostic::new(Code::ExtraPart, message)
+                .at(item.span, label)
+                .also(first.site.span, "the pigment has this already")
+        };
+        let diagnostic = match (first.pattern, pattern) {
+            (Some(list), None) if colors_of(list).is_some() => {
+                let (name, count) = (list.name(), colors_of(list).unwrap_or_default());
+                let message = format!("`{name}` takes {count} colours, and here is one more");
+                let told = diagnostic(message, "one colour too many").help("leave it out");
+                self.gone_from(told, first.site, item)
+            }
+            (Some(of), None) if written.map.is_none() => {
+                let name = of.name();
+                let message = format!("the colours of `{name}` stand in a `color_map`");
+                let told =
+                    diagnostic(message, "a colour by itself has no meaning behind a pattern");
+                return self.colors_meant(token, item, told);
+            }
+            (Some(_), None) => {
+                let message = "a pigment is one pattern or one colour, and this is a colour more";
+                let told = diagnostic(message.to_owned(), "a second one").help("leave it out");
+                self.gone_from(told, item, item)
+            }
+            (None, None) => {
+                let message = "a pigment has one colour, and this is a second";
+                diagnostic(message.to_owned(), "expected a word of this block, or its end").help(
+                    format!(
+                        "leave one of the two out, or name a pattern: `checker {before}, {shown}`"
+                    ),
+                )
+            }
+            (None, Some(_)) => {
+                let message = "a pigment is one colour or one pattern, and not both";
+                let told = diagnostic(message.to_owned(), "a pattern behind a colour")
+                    .help(format!("leave `{before}` out"));
+                match self.side_by_side(first.site, item) {
+                    true => told.fix(Span { end: item.span.start, ..first.site.span }, ""),
+                    false => told,
+                }
+            }
+            (Some(_), Some(other)) => {
+                let (other, map) = (other.name(), "pigment_map { [0 …] [1 …] }");
+                let message = format!("a pigment has one pattern, and `{other}` is a second");
+                diagnostic(message, "expected a word of this block, or its end")
+                    .help(format!("patterns lie in each other by a map: `gradient y {map}`"))
+            }
+        };
+        self.report(&token.here, diagnostic)
+    }
+
+    /// Whether nothing but blanks and a comma stand between two pieces of a text.
+    fn side_by_side(&self, a: Site, b: Site) -> bool {
+        let between = Span { start: a.span.end, end: b.span.start, ..a.span };
+        a.expansion == b.expansion
+            && a.span.file == b.span.file
+            && a.span.end <= b.span.start
+            && matches!(self.sources.text(between).trim(), "" | ",")
+    }
+
+    /// With the fix that takes `item` out, and the comma between it and `before`.
+    fn gone_from(&self, told: Diagnostic, before: Site, item: Site) -> Diagnostic {
+        match self.side_by_side(before, item) {
+            true => told.fix(Span { start: before.span.end, ..item.span }, ""),
+            false => told.fix(item.span, ""),
+        }
+    }
+
+    /// `gradient y rgb 1, rgb x`: takes the colours that follow, too, and says how they make a map.
+    fn colors_meant(&mut self, token: &Token, item: Site, told: Diagnostic) -> Reported {
+        let (mut colors, mut last) = (vec![self.sources.text(item.span).to_owned()], item);
+        loop {
+            self.skip_commas();
+            let Some(next) = self.peek().cloned().filter(|_| self.at_color()) else { break };
+            let before = self.told();
+            let read = self.color_after(token, "a colour");
+            self.take_back(before);
+            let site = self.whole(&next);
+            if read.is_err() || !self.side_by_side(last, site) {
+                break;
+            }
+            colors.push(self.sources.text(site.span).to_owned());
+            last = site;
+        }
+        let steps = colors.len() - 1;
+        let entries: Vec<String> = colors
+            .iter()
+            .enumerate()
+            .map(|(step, color)| match step {
+                0 => format!("[0 {color}]"),
+                _ if step == steps => format!("[1 {color}]"),
+                _ => format!("[{step}/{steps} {color}]"),
+            })
+            .collect();
+        let diagnostic = match steps {
+            0 => told.help(format!("write `color_map {{ [0 rgb 0] [1 {}] }}`", colors[0])),
+            _ => {
+                let map = format!("color_map {{ {} }}", entries.join(" "));
+                told.help(format!("write `{map}`")).fix(item.span.to(last.span), map)
+            }
+        };
+        self.report(&token.here, diagnostic)
+    }
+}

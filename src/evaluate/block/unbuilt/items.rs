@@ -1,0 +1,391 @@
+//! The items of blocks that are not built: how many values each takes, for the mistakes in them.
+//!
+//! **Source:** POV-Ray 3.7 manual, 3.4.3.3 "Radiosity", 3.4.7 "Patterns", 3.4.8.1 "Media", 3.4.8.2 "Photons", and what the
+//! program refuses.
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::{FileError, Span};
+use crate::syntax::ast::ExpressionId;
+use crate::vocabulary::{Family, Word};
+
+use super::super::super::include::missing_file;
+use super::super::super::stream::{Token, TokenKind};
+use super::super::super::value::Value;
+use super::super::super::{Evaluator, Outcome};
+use super::super::pigment::colors_of;
+use super::super::place::home;
+
+/// The endings that may be left out of a picture's name.
+const ENDINGS: &[&str] =
+    &[".png", ".jpg", ".jpeg", ".gif", ".tga", ".ppm", ".pgm", ".tiff", ".hdr"];
+
+/// How many numbers stand behind an item of `block`: at least, and at most.
+fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
+    use Word as W;
+    Some(match (block, item) {
+        (W::Radiosity, W::Count | W::NearestCount) => (1, 2),
+        (W::Radiosity, W::AlwaysSample | W::Subsurface) => (0, 1),
+        (W::Radiosity, item) if home(item) == Some(W::Radiosity) => (1, 1),
+        (W::Radiosity, W::AdcBailout | W::MaxTraceLevel) => (1, 1),
+        (W::Photons, W::Gather | W::ExpandThresholds) => (2, 2),
+        (W::Photons, W::Spacing | W::Count | W::Autostop) => (1, 1),
+        (W::Photons, W::Jitter | W::MaxTraceLevel | W::AdcBailout) => (1, 1),
+        (W::Photons, W::Media) => (1, 2),
+        (W::Photons, W::Radius) => (0, 4),
+        (W::Photons, W::Target | W::Refraction | W::Reflection) => (0, 1),
+        (W::Photons, W::Collect | W::PassThrough | W::AreaLight) => (0, 1),
+        (W::Media, W::Intervals | W::Confidence | W::Variance | W::Ratio | W::Method) => (1, 1),
+        (W::Media, W::Jitter | W::AaLevel | W::AaThreshold) => (1, 1),
+        (W::Media, W::Samples) => (1, 2),
+        (W::Scattering, W::Eccentricity | W::Extinction) => (1, 1),
+        (W::Fog, W::Distance | W::FogType | W::FogOffset | W::FogAlt) => (1, 1),
+        (W::Rainbow, W::ArcAngle | W::FalloffAngle | W::Width | W::Angle | W::Distance) => (1, 1),
+        (W::Irid, W::Thickness | W::Turbulence) => (1, 1),
+        _ => return None,
+    })
+}
+
+/// How many ways of tiling there are; the manual has 24 of them.
+const TILINGS: f64 = 27.0;
+
+/// Whether a colour stands behind an item of `block`.
+fn takes_color(item: Word, block: Word) -> bool {
+    block == Word::Media && matches!(item, Word::Absorption | Word::Emission)
+}
+
+impl Evaluator<'_> {
+    /// Whether the items of a block are known though it is not built.
+    pub(in crate::evaluate::block) fn knows_items(block: Word) -> bool {
+        matches!(
+            block,
+            Word::Radiosity
+                | Word::Photons
+                | Word::Media
+                | Word::Scattering
+                | Word::Fog
+                | Word::Rainbow
+                | Word::Irid
+        )
+    }
+
+    /// The items of a block that is not built.
+    pub(in crate::evaluate::block) fn items_not_built(&mut self, opener: &Token, block: Word) {
+        if block == Word::Scattering {
+            self.scattering(opener);
+        }
+        while let Some(token) = self.next() {
+            match token.kind {
+                TokenKind::Word(item) => self.item_not_built(&token, item, block),
+                TokenKind::Expression(id) => {
+                    if !self.misspelt_item(&token, id, block) {
+                        self.run_expression(&token.here, id);
+                    }
+                }
+                TokenKind::Block(contents) => {
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
+                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+            }
+        }
+    }
+
+    fn item_not_built(&mut self, token: &Token, item: Word, block: Word) {
+        if takes_color(item, block) {
+            let outer = self.poison.take();
+            let read: Outcome<()> = self.color_after(token, "a colour").map(drop);
+            self.poison = outer;
+            if read.is_err() {
+                self.skip_values();
+            }
+            return;
+        }
+        if item == Word::ColorMap {
+            let outer = self.poison.take();
+            let read = self.color_map(token).map(drop);
+            self.poison = outer;
+            return read.unwrap_or(());
+        }
+        let Some((least, most)) = numbers(item, block).filter(|_| !self.is_before_block()) else {
+            return self.pass_not_built(token, item);
+        };
+        self.numbers_not_built(token, item, least, most);
+    }
+
+    /// The numbers behind an item that is not built.
+    fn numbers_not_built(&mut self, token: &Token, item: Word, least: usize, most: usize) {
+        let outer = self.poison.take();
+        for count in 0..most {
+            if count >= least && !self.is_before_value() {
+                break;
+            }
+            if self.unbuilt_part(token, "a number").is_err() {
+                self.poison = outer;
+                return;
+            }
+        }
+        self.poison = outer;
+        if !self.is_before_value() {
+            return;
+        }
+        let Some(extra) = self.next() else { return };
+        // `fog { distance 200 White }`: a colour is an item of its own.
+        let value = match &extra.kind {
+            TokenKind::Expression(id) => self.expression(&extra.here, *id).ok(),
+            TokenKind::Literal(value) => Some(value.as_ref().clone()),
+            _ => None,
+        };
+        if value.is_none_or(|value| value.as_number().is_none()) {
+            return;
+        }
+        let name = item.name();
+        let takes = match most {
+            1 => "one number".to_owned(),
+            most => format!("{most} numbers"),
+        };
+        let message = format!("`{name}` takes {takes}, and here is one more");
+        let diagnostic = Diagnostic::new(Code::WrongArity, message);
+        let diagnostic = match self.comma_before(extra.span) {
+            Some((span, number)) => diagnostic
+                .at(span, "two numbers, and not one with a fraction")
+                .help(format!("a fraction is written with a point: `{number}`"))
+                .fix(span, number),
+            None => diagnostic.at(extra.span, "one too many").also(token.span, "for this"),
+        };
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+    }
+
+    /// `[0.5 color Red]` in a `texture_map`: a colour by itself is no texture.
+    pub(super) fn entry_of_textures(&mut self) {
+        if self.is_before_value() {
+            let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() else {
+                return;
+            };
+            self.run_expression(&here, id);
+        }
+        self.skip_commas();
+        let Some(first) = self.peek().cloned() else { return };
+        let is_color = match first.kind {
+            TokenKind::Word(word) => word.family() == Family::Color,
+            TokenKind::Expression(id) => {
+                matches!(self.named(&first.here, id), Some(Value::Color(_)))
+            }
+            _ => false,
+        };
+        if !is_color {
+            return;
+        }
+        let outer = self.poison.take();
+        let read: Outcome<()> = self.color_after(&first, "a colour").map(drop);
+        self.poison = outer;
+        if read.is_err() {
+            return;
+        }
+        let whole = self.whole(&first);
+        let text = self.sources.text(whole.span).to_owned();
+        let right = format!("pigment {{ {text} }}");
+        let message = "an entry of a `texture_map` is a texture, and no colour";
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(whole.span, "expected a texture, or what is in one")
+            .help(format!("write `{right}`"))
+            .fix(whole.span, right);
+        self.report(&first.here, diagnostic);
+    }
+
+    /// `image_map { png "file" … }`: whether there is such a file.
+    fn picture_not_built(&mut self) {
+        while let Some(token) = self.next() {
+            match token.kind {
+                TokenKind::Word(word) if word.family() == Family::FileKind => {
+                    self.picture_of(&token);
+                }
+                TokenKind::Expression(id) => {
+                    if !self.misspelt_kind(&token, id) {
+                        self.run_expression(&token.here, id);
+                    }
+                }
+                TokenKind::Word(word) => self.skip_arguments(word),
+                TokenKind::Block(contents) => {
+                    self.inside_block(&token.here, contents, token.span, Self::run_items);
+                }
+                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
+                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
+            }
+        }
+    }
+
+    /// `jpg "file"`: the kind of a picture as others call it.
+    fn misspelt_kind(&mut self, token: &Token, id: ExpressionId) -> bool {
+        if self.unknown_name(&token.here, id).is_none() {
+            return false;
+        }
+        let name = self.sources.text(token.span).to_owned();
+        let kinds = Word::ALL.iter().filter(|word| word.family() == Family::FileKind);
+        let near = suggest::closest(&name, kinds.map(|word| word.name()));
+        let Some(near) = near else { return false };
+        let message = format!("`{name}` is not a kind of picture");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `{near}`?"))
+            .help(format!("replace it with `{near}`"))
+            .fix(token.span, near);
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+        true
+    }
+
+    fn picture_of(&mut self, token: &Token) {
+        if !matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Expression(_))) {
+            return;
+        }
+        let Ok(file) = self.named_file(token, "the name of a picture's file") else { return };
+        if let Err(error @ FileError::NotFound { .. }) = self.read_named(&file, ENDINGS) {
+            let diagnostic = missing_file(&file.name, file.span, error);
+            self.report(&file.here, diagnostic);
+        }
+    }
+
+    /// Whether a value comes next, behind a comma or not; a name that is not declared is none.
+    pub(in crate::evaluate::block) fn is_before_value(&mut self) -> bool {
+        self.skip_commas();
+        match self.peek().cloned() {
+            Some(Token { kind: TokenKind::Expression(id), here, .. }) => {
+                self.unknown_name(&here, id).is_none()
+            }
+            Some(Token { kind: TokenKind::Literal(_), .. }) => true,
+            _ => false,
+        }
+    }
+
+    /// `scattering { 1, rgb 0.5 … }`: a kind, and a colour.
+    fn scattering(&mut self, opener: &Token) {
+        let lacks_kind = match self.peek().cloned() {
+            Some(Token { kind: TokenKind::Word(word), here, span })
+                if word.family() == Family::Color =>
+            {
+                Some((here, span))
+            }
+            _ => None,
+        };
+        let outer = self.poison.take();
+        if let Some((here, span)) = lacks_kind {
+            let message = "`scattering` begins with its kind, a number from 1 to 5";
+            let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                .at(opener.span, "the kind of this is not said")
+                .also(span, "expected a number before the colour")
+                .help("1 scatters alike to all sides: `scattering { 1, rgb … }`")
+                .fix(Span { end: span.start, ..span }, "1, ");
+            self.report(&here, diagnostic);
+        } else if let Ok(kind) = self.number_after(opener, "a number from 1 to 5 for the kind")
+            && !(1.0..6.0).contains(&kind.value)
+        {
+            self.out_of_range(&kind, Word::Scattering, "a kind from 1 to 5");
+        }
+        let read: Outcome<()> = self.color_after(opener, "a colour").map(drop);
+        if read.is_err() {
+            self.skip_values();
+        }
+        self.poison = outer;
+    }
+
+    /// `extinct 0.9`: a name that is not declared, where a word of the block is close.
+    fn misspelt_item(&mut self, token: &Token, id: ExpressionId, block: Word) -> bool {
+        if self.unknown_name(&token.here, id).is_none() {
+            return false;
+        }
+        let name = self.sources.text(token.span).to_owned();
+        let of_block =
+            |word: &&Word| home(**word) == Some(block) || numbers(**word, block).is_some();
+        let words = || Word::ALL.iter().filter(of_block).map(|word| word.name());
+        let near = suggest::closest(&name, words())
+            .or_else(|| suggest::reworded(&name, words()))
+            .or_else(|| suggest::abridged(&name, words()))
+            .or_else(|| suggest::begun(&name, words()));
+        let Some(near) = near else { return false };
+        let message = format!("`{name}` is not a word in `{}`", block.name());
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `{near}`?"))
+            .help(format!("replace it with `{near}`"))
+            .fix(token.span, near);
+        self.report(&token.here, diagnostic);
+        match Word::from_name(near) {
+            Some(word) => {
+                let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+                self.item_not_built(&token, word, block);
+            }
+            None => self.skip_values(),
+        }
+        true
+    }
+
+    /// What stands behind a pattern that is not built: its numbers, or its colours.
+    pub(super) fn pattern_not_built(&mut self, token: &Token, pattern: Word) {
+        let outer = self.poison.take();
+        if pattern == Word::Tiling {
+            if let Ok(given) = self.number_after(token, "a number")
+                && !(1.0..=TILINGS).contains(&given.value)
+            {
+                let wanted = format!("a number from 1 to {TILINGS}");
+                self.out_of_range(&given, pattern, &wanted);
+            }
+        } else if let Word::ImageMap | Word::ImagePattern | Word::BumpMap = pattern
+            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.peek().cloned()
+        {
+            self.next();
+            self.inside_block(&here, contents, span, Self::picture_not_built);
+        } else if let Some(most) = colors_of(pattern).filter(|_| pattern != Word::Object) {
+            self.colors_not_built(token, pattern, most);
+        } else {
+            self.poison = outer;
+            return match self.is_before_block() {
+                true => self.skip_arguments(pattern),
+                false => self.skip_values(),
+            };
+        }
+        self.poison = outer;
+    }
+
+    /// `hexagon rgb 1, rgb 0, rgb x, rgb z`: one more than it takes.
+    fn colors_not_built(&mut self, token: &Token, pattern: Word, most: usize) {
+        for _ in 0..most {
+            self.skip_commas();
+            match self.peek().map(|next| next.kind.clone()) {
+                Some(TokenKind::Word(
+                    word @ (Word::Pigment | Word::Texture | Word::Normal | Word::Density),
+                )) => {
+                    self.next();
+                    self.skip_arguments(word);
+                }
+                Some(TokenKind::Word(word)) if word.family() != Family::Color => return,
+                _ if self.is_before_value() || self.at_color() => {
+                    if self.color_after(token, "a colour").is_err() {
+                        self.skip_values();
+                        return;
+                    }
+                }
+                _ => return,
+            }
+        }
+        let is_color = |token: &Token| matches!(token.kind, TokenKind::Word(word) if word.family() == Family::Color);
+        let is_value = self.is_before_value();
+        let extra = self.peek().cloned();
+        let Some(extra) = extra.filter(|extra| is_value || is_color(extra)) else { return };
+        let name = pattern.name();
+        let message = format!("`{name}` takes {most} colours, and here is one more");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(extra.span, "one colour too many")
+            .also(token.span, "for this")
+            .help("leave it out");
+        self.report(&token.here, diagnostic);
+        let before = self.told();
+        while self.at_color() {
+            if self.color_after(token, "a colour").is_err() {
+                self.skip_values();
+                break;
+            }
+            self.skip_commas();
+        }
+        self.take_back(before);
+    }
+}

@@ -1,0 +1,33 @@
+//! Functions whose body was not understood: how many parameters they have is known all the same.
+
+use crate::source::Span;
+use crate::syntax::ast::Arguments;
+
+use super::super::scope::Symbol;
+use super::super::{Evaluator, Here, Reported};
+
+impl Evaluator<'_> {
+    /// After a `#declare` of `symbol`: what is known of it if it was to be a function.
+    pub(in crate::evaluate) fn note_broken(&mut self, symbol: Symbol, failed: bool) {
+        match self.broken_function.take().filter(|_| failed) {
+            Some(parameters) => self.broken_functions.insert(symbol, parameters),
+            None if self.broken_functions.is_empty() => None,
+            None => self.broken_functions.remove(&symbol),
+        };
+    }
+
+    /// A call of what was told to be wrong: its arguments may still be too many.
+    pub(in crate::evaluate) fn broken_call(
+        &mut self,
+        here: &Here,
+        symbol: Symbol,
+        arguments: Arguments,
+        span: Span,
+    ) -> Reported {
+        if let Some(&wanted) = self.broken_functions.get(&symbol) {
+            let found = here.unit.ast.arguments(arguments).len();
+            let _ = self.check_count(here, wanted, found, span);
+        }
+        Reported
+    }
+}

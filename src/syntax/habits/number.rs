@@ -1,0 +1,112 @@
+//! Numbers with more in them than digits: `0.1O`, `2.445(7)`, and `2pi`, where a `*` is missing.
+
+use super::Reader;
+use super::template::STAND_IN;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::Role;
+
+impl Reader<'_> {
+    /// `0.1O`, `1O.5`, `l0`: letters that look like digits.
+    pub(super) fn letter_in_number(&mut self, meant: &mut [Token]) -> bool {
+        let Some(number) = self.number_before(meant) else { return false };
+        let alike = |text: &str| text.chars().all(|c| "OoIl".contains(c) || c.is_ascii_digit());
+        if !alike(self.slice(0)) {
+            return false;
+        }
+        let goes_on = self.kind(1) == Some(TokenKind::Number)
+            && self.touches(1)
+            && self.slice(1).starts_with('.');
+        let span = Span { start: number.start, ..self.span(0, usize::from(goes_on)) };
+        let text = self.text.get(span.range()).unwrap_or("").to_owned();
+        let digits = text.replace(['O', 'o'], "0").replace(['I', 'l'], "1");
+        if digits.parse::<f64>().is_err() {
+            return false;
+        }
+        let letter = text.chars().find(|c| "OoIl".contains(*c)).unwrap_or('O');
+        let digit = if "Oo".contains(letter) { '0' } else { '1' };
+        let message = format!("`{text}` is not a number");
+        let label =
+            format!("the letter `{letter}` stands in it: did you mean the digit `{digit}`?");
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, message)
+                .at(self.span(0, 0), label)
+                .help(format!("write `{digits}`"))
+                .fix(span, digits),
+        );
+        if let Some(number) = meant.last_mut() {
+            (number.kind, number.end) = (STAND_IN, span.end);
+        }
+        self.at += 1 + usize::from(goes_on);
+        true
+    }
+
+    /// `2.445(7)`: the last digit's uncertainty, as crystallographers write it.
+    pub(super) fn uncertain_number(&mut self, meant: &[Token]) -> bool {
+        let Some(number) = self.number_before(meant) else { return false };
+        let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let fits = self.kind(1) == Some(TokenKind::Number)
+            && digits(self.slice(1))
+            && self.is(2, Mark::Close(Bracket::Round))
+            && self.touches(1)
+            && self.touches(2);
+        if !fits {
+            return false;
+        }
+        let plain = self.text.get(number.start as usize..number.end as usize).unwrap_or("");
+        let plain = plain.to_owned();
+        let behind = self.span(0, 2);
+        let text = self.text.get(behind.range()).unwrap_or("");
+        let message = format!("`{plain}{text}` is not a number");
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, message)
+                .at(
+                    Span { start: number.start, ..behind },
+                    "the uncertainty of a number is not written",
+                )
+                .help(format!("write `{plain}`"))
+                .fix(behind, ""),
+        );
+        self.at += 3;
+        true
+    }
+
+    /// `2pi`, `90y`, `2R`, `2sin(a)`: a number and what it multiplies.
+    pub(super) fn times(&mut self, meant: &mut Vec<Token>) -> bool {
+        let Some(number) = self.number_before(meant) else { return false };
+        let fits = match self.kind(0) {
+            Some(TokenKind::Word(word)) => word.role() != Role::Statement,
+            Some(TokenKind::Name) => self.has_declared(self.slice(0)),
+            _ => false,
+        };
+        if !fits {
+            return false;
+        }
+        let left = self.text.get(number.start as usize..number.end as usize).unwrap_or("");
+        let (left, right) = (left.to_owned(), self.slice(0).to_owned());
+        let span = self.span(0, 0);
+        let between = Span { end: span.start, ..span };
+        let message = format!("a `*` is missing between `{left}` and `{right}`");
+        self.diagnostics.push(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(Span { start: number.start, ..span }, "a number, and what it multiplies")
+                .help(format!("write `{left}*{right}`"))
+                .fix(between, "*"),
+        );
+        let star = TokenKind::Mark(Mark::Star);
+        meant.push(Token { kind: star, start: number.end, end: number.end });
+        meant.push(self.tokens[self.at]);
+        self.at += 1;
+        true
+    }
+
+    /// Whether a name is declared in this text before here.
+    fn has_declared(&self, name: &str) -> bool {
+        self.tokens[..self.at].windows(2).any(|pair| {
+            let text = self.text.get(pair[1].start as usize..pair[1].end as usize);
+            let head = matches!(pair[0].kind, TokenKind::Directive(Head::Declare | Head::Local));
+            head && text == Some(name)
+        })
+    }
+}

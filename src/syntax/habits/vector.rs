@@ -1,0 +1,189 @@
+//! Vectors as other languages write them: `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)`, `translate([2, 0, 0])`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
+use crate::vocabulary::{Family, Role, Word};
+
+/// What makes a vector elsewhere.
+const MAKERS: &[&str] = &["vec2", "vec3", "vec4", "float3", "vector3", "Vector", "Vec3", "Color"];
+
+impl Reader<'_> {
+    /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
+    pub(super) fn vector(&mut self, meant: &mut Vec<Token>) -> bool {
+        let made = self.kind(0) == Some(TokenKind::Name);
+        if made && !MAKERS.contains(&self.slice(0)) {
+            return false;
+        }
+        let open = usize::from(made);
+        let bracket = match self.kind(open) {
+            Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
+            _ => return false,
+        };
+        let before = |back: usize| {
+            let token = meant.len().checked_sub(back).and_then(|at| meant.get(at));
+            token.map(|token| token.kind)
+        };
+        // `translate([2, 0, 0])`
+        let argument = bracket == Bracket::Square
+            && before(1) == Some(TokenKind::Mark(Mark::Open(Bracket::Round)))
+            && matches!(before(2), Some(TokenKind::Word(_) | TokenKind::Name));
+        let fits = match before(1) {
+            _ if argument => true,
+            // `A + (1, 2, 3)`, `M(A, (1, 2, 3))`: a group has no commas.
+            Some(TokenKind::Mark(mark))
+                if bracket == Bracket::Round && stands_before_value(mark) =>
+            {
+                true
+            }
+            // `rgb {1, 0, 0}`; other braces hold parts, or rows of an array.
+            Some(TokenKind::Word(word)) if bracket == Bracket::Brace => {
+                word.role() == Role::Statement
+                    && matches!(word.family(), Family::Transform | Family::Color)
+            }
+            _ if bracket == Bracket::Brace => false,
+            Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
+            // `= [1, 2, 3]` is rather an array.
+            Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
+            Some(TokenKind::Word(word)) => {
+                word.role() == Role::Statement
+                    && matches!(
+                        word.family(),
+                        Family::Transform | Family::Color | Family::Camera | Family::Pattern
+                    )
+            }
+            _ => false,
+        };
+        let inside_brace = self.inside.last().is_none_or(|inside| inside.is(Bracket::Brace));
+        let group = matches!(before(1), Some(TokenKind::Mark(mark)) if stands_before_value(mark))
+            && bracket == Bracket::Round;
+        let anywhere = inside_brace || made || argument || group;
+        if !fits || !anywhere || (made && bracket != Bracket::Round) {
+            return false;
+        }
+        let formula = self.inside.last().is_some_and(|inside| inside.opens(Word::Function));
+        let plain = !(made || argument || group) || formula;
+        let Some(close) = self.row(open, bracket, plain) else { return false };
+        let (first, last) = (self.span(0, open), self.span(close, close));
+        let before = meant.len().checked_sub(2).map(|word| meant[word]);
+        let moved = before.filter(|word| {
+            argument
+                && (self.inside.len() == 1 || self.begins_object(close + 2))
+                && matches!(word.kind, TokenKind::Word(word) if word.family() == Family::Transform)
+        });
+        let diagnostic = if let Some(word) = moved {
+            // `translate([0, 2, 0]) sphere(…)`
+            let word = Span::new(self.file, word.start as usize, word.end as usize);
+            let name = self.text.get(word.range()).unwrap_or("");
+            let inside = Span { start: first.end, end: last.start, ..first };
+            let numbers = self.text.get(inside.range()).unwrap_or("").trim();
+            let message =
+                format!("`{name}` stands inside the object that it moves, behind its parts");
+            Diagnostic::new(Code::MisplacedBlock, message)
+                .at(word, "not before an object, as in other languages")
+                .help(format!("write `sphere {{ … {name} <{numbers}> }}`"))
+        } else {
+            let inside = Span { start: first.end, end: last.start, ..first };
+            let numbers = self.text.get(inside.range()).unwrap_or("x, y, z").trim();
+            Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
+                .at(self.span(0, close), "expected a vector")
+                .help(format!("write `<{numbers}>`"))
+                .fix(first, "<")
+                .fix(last, ">")
+        };
+        if self.made != Some(self.at) || !made {
+            self.diagnostics.push(diagnostic);
+        }
+        if moved.is_some() && self.inside.len() > 1 {
+            // What stands before an object inside a block goes, with its parentheses.
+            meant.truncate(meant.len() - 2);
+            self.inside.pop();
+            self.at += close + 2;
+            return true;
+        }
+        if moved.is_some() {
+            self.drop_moved(close + 2);
+        }
+        let sign =
+            |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };
+        meant.push(sign(open, Mark::Less));
+        meant.extend(&self.tokens[self.at + open + 1..self.at + close]);
+        meant.push(sign(close, Mark::Greater));
+        self.at += close + 1;
+        true
+    }
+
+    /// `cube([1, 2, 3]);` behind `translate([0, 0, 1])`: it belongs to that mistake.
+    fn drop_moved(&mut self, name: usize) {
+        let named = matches!(self.kind(name), Some(TokenKind::Name | TokenKind::Word(_)));
+        let Some(mut last) = self.closed(name + 1, Bracket::Round).filter(|_| named) else {
+            return;
+        };
+        last += usize::from(self.is(last + 1, Mark::Semicolon));
+        self.dropped.extend((name..=last).map(|ahead| (self.at + ahead, false)));
+    }
+
+    /// Whether an object begins at `ahead`.
+    fn begins_object(&self, ahead: usize) -> bool {
+        match self.kind(ahead) {
+            Some(TokenKind::Word(word)) => matches!(word.family(), Family::Shape | Family::Csg),
+            Some(TokenKind::Name) => self.is(ahead + 1, Mark::Open(Bracket::Round)),
+            _ => false,
+        }
+    }
+
+    /// Where `vec3(1, 0, 0)` ends, if one stands at `ahead`.
+    pub(super) fn makes_vector(&self, ahead: usize) -> Option<usize> {
+        let made = self.kind(ahead) == Some(TokenKind::Name) && MAKERS.contains(&self.slice(ahead));
+        let open = made && self.is(ahead + 1, Mark::Open(Bracket::Round));
+        self.row(ahead + 1, Bracket::Round, false).filter(|_| open)
+    }
+
+    /// Where the bracket that opens at `open` closes, with two to five values in it and nothing else: plain
+    /// numbers, or names and sums as well.
+    fn row(&self, open: usize, bracket: Bracket, plain: bool) -> Option<usize> {
+        let (mut close, mut commas, mut number) = (open + 1, 0, false);
+        loop {
+            match self.kind(close) {
+                Some(TokenKind::Number) if !number => number = true,
+                Some(TokenKind::Name) if !number && !plain => number = true,
+                // `A.x`
+                Some(TokenKind::Mark(Mark::Dot)) if number && !plain => close += 1,
+                Some(TokenKind::Word(word)) if !number && !plain && word.role() == Role::Value => {
+                    number = true;
+                }
+                Some(TokenKind::Mark(Mark::Minus | Mark::Plus | Mark::Star | Mark::Slash))
+                    if number && !plain =>
+                {
+                    number = false;
+                }
+                Some(TokenKind::Mark(Mark::Minus | Mark::Plus)) if !number => {}
+                Some(TokenKind::Mark(Mark::Comma)) if number => {
+                    commas += 1;
+                    number = false;
+                }
+                Some(TokenKind::Mark(Mark::Close(other))) if other == bracket && number => break,
+                _ => return None,
+            }
+            close += 1;
+        }
+        (1..=4).contains(&commas).then_some(close)
+    }
+}
+
+/// Whether a value follows a mark in an expression.
+fn stands_before_value(mark: Mark) -> bool {
+    matches!(
+        mark,
+        Mark::Plus
+            | Mark::Minus
+            | Mark::Star
+            | Mark::Slash
+            | Mark::Comma
+            | Mark::Open(Bracket::Round)
+            | Mark::Equal
+            | Mark::Question
+            | Mark::Colon
+    )
+}

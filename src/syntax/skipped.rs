@@ -1,0 +1,306 @@
+//! What a condition skips whatever happens: where that cannot be read, it is a comment.
+//!
+//! **In:** a text without comments. **Out:** the same text, with blanks in place of each branch that is never
+//! run and could not be, which is among the comments then.
+//! **Invariant:** a branch that reads without mistakes stays, and so does one that may be run. POV-Ray 3.7
+//! skips such a branch word by word, whatever stands there (measured).
+
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+
+use super::comment::Quiet;
+use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
+use super::{ParseOptions, parse};
+use crate::diagnostic::Diagnostics;
+use crate::source::{FileId, Source, Span};
+use crate::vocabulary::{Word, is_standard_include, standard_include_of};
+
+pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
+    if !may_skip(&quiet.text) {
+        return;
+    }
+    let tokens = tokens(&quiet.text);
+    let branches = Reader { tokens: &tokens, text: &quiet.text, options }.branches();
+    let unreadable = |branch: &Range<usize>| {
+        let text = quiet.text.get(branch.clone()).unwrap_or("");
+        // `#elif` is rather a branch of its own.
+        let unknown = |token: &Token| token.kind == TokenKind::Directive(Head::Unknown);
+        if super::token::tokens(text).iter().any(unknown) {
+            return false;
+        }
+        let mut told = Diagnostics::new(true);
+        // What is skipped in it would be with it.
+        parse(&Source::new("", text.to_owned()), file, &options.inside(), &mut told);
+        !told.is_empty()
+    };
+    // Where the other branch cannot be read either, what both open may go on behind them.
+    let skips = |(branch, other): &(Range<usize>, Option<Range<usize>>)| {
+        unreadable(branch) && !other.as_ref().is_some_and(&unreadable)
+    };
+    let branches: Vec<Range<usize>> =
+        branches.into_iter().filter(skips).map(|(branch, _)| branch).collect();
+    if branches.is_empty() {
+        return;
+    }
+    let mut bytes = std::mem::take(&mut quiet.text).into_owned().into_bytes();
+    for branch in branches {
+        quiet.comments.retain(|comment| !branch.contains(&(comment.start as usize)));
+        let after = quiet.comments.partition_point(|c| (c.start as usize) < branch.start);
+        quiet.comments.insert(after, Span::new(file, branch.start, branch.end));
+        for byte in bytes[branch].iter_mut().filter(|byte| !matches!(**byte, b'\n' | b'\r')) {
+            // Each byte of a character becomes one blank: still UTF-8.
+            *byte = b' ';
+        }
+    }
+    quiet.text = Cow::Owned(String::from_utf8(bytes).unwrap_or_default());
+}
+
+/// What a name stands for at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Declared {
+    Nothing,
+    Truth(bool),
+    Something,
+}
+
+/// What the names of a text stand for, of those that are declared outside of all directives alone.
+struct Known<'a> {
+    names: HashMap<&'a str, Declared>,
+    /// Names that a loop, a macro or a branch declares.
+    moving: HashSet<&'a str>,
+    depth: usize,
+}
+
+impl<'a> Known<'a> {
+    fn of(reader: &Reader<'a>) -> Self {
+        let mut known = Self { names: HashMap::new(), moving: HashSet::new(), depth: 0 };
+        let includes = (0..reader.tokens.len()).any(|at| {
+            reader.tokens[at].kind == TokenKind::Directive(Head::Include)
+                && !is_standard_include(reader.slice(at + 1).trim_matches('"'))
+        });
+        if includes {
+            // Another text may declare anything.
+            known.depth = usize::MAX / 2;
+            return known;
+        }
+        let mut moving = HashSet::new();
+        for (at, token) in reader.tokens.iter().enumerate() {
+            known.turn(token);
+            let depth = known.depth;
+            let target = match token.kind {
+                TokenKind::Directive(Head::For) => Some(reader.slice(at + 2)),
+                TokenKind::Directive(Head::Declare | Head::Local | Head::Undef | Head::Macro) => {
+                    let plain = depth == 0 && token.kind != TokenKind::Directive(Head::Macro);
+                    (!plain).then(|| reader.slice(at + 1))
+                }
+                // `#read (File, A, B)`, `M(A)`: names that something may be done to.
+                TokenKind::Name => {
+                    let before = at.checked_sub(1).map(|before| reader.tokens[before].kind);
+                    let behind = reader.tokens.get(at + 1).map(|behind| behind.kind);
+                    let comma = TokenKind::Mark(Mark::Comma);
+                    (before == Some(comma) || behind == Some(comma)).then(|| reader.slice(at))
+                }
+                _ => None,
+            };
+            moving.extend(target);
+        }
+        Self { names: HashMap::new(), moving, depth: 0 }
+    }
+
+    fn turn(&mut self, token: &Token) {
+        match token.kind {
+            TokenKind::Directive(head) if head.opens() => self.depth += 1,
+            TokenKind::Directive(Head::End) => self.depth = self.depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+
+    /// Takes notice of a token.
+    fn pass(&mut self, reader: &Reader<'a>, at: usize) {
+        let token = &reader.tokens[at];
+        self.turn(token);
+        if self.depth > 0 {
+            return;
+        }
+        let name = reader.slice(at + 1);
+        let declared = match token.kind {
+            TokenKind::Directive(Head::Undef) => Declared::Nothing,
+            TokenKind::Directive(Head::Declare | Head::Local) => {
+                let text = reader.slice(at + 3);
+                let constant = CONSTANTS.iter().find(|(word, _)| *word == text);
+                let ends = reader.is(at + 2, Mark::Equal) && reader.is(at + 4, Mark::Semicolon);
+                constant.filter(|_| ends).map_or(Declared::Something, |c| Declared::Truth(c.1))
+            }
+            _ => return,
+        };
+        self.names.insert(name, declared);
+    }
+
+    fn value(&self, name: &str) -> Option<Declared> {
+        self.names.get(name).copied().filter(|_| !self.moving.contains(name))
+    }
+}
+
+/// Whether a text may hold a condition that is plain.
+fn may_skip(text: &str) -> bool {
+    text.match_indices('#').any(|(at, _)| {
+        let rest = text[at + 1..].trim_start();
+        let Some(rest) = rest.strip_prefix("if") else { return false };
+        let Some(open) = rest.find('(').filter(|open| *open < 12) else { return false };
+        let inside = rest[open + 1..].trim_start().trim_start_matches('!').trim_start();
+        let name = inside.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        rest.starts_with("def")
+            || inside.starts_with("defined")
+            || name.trim_start().starts_with(')')
+    })
+}
+
+const CONSTANTS: &[(&str, bool)] = &[
+    ("0", false),
+    ("false", false),
+    ("no", false),
+    ("off", false),
+    ("1", true),
+    ("true", true),
+    ("yes", true),
+    ("on", true),
+];
+
+struct Reader<'a> {
+    tokens: &'a [Token],
+    text: &'a str,
+    options: &'a ParseOptions,
+}
+
+impl<'a> Reader<'a> {
+    fn slice(&self, at: usize) -> &'a str {
+        self.tokens
+            .get(at)
+            .and_then(|token| self.text.get(token.start as usize..token.end as usize))
+            .unwrap_or("")
+    }
+
+    /// The branches that are never run, each with the one that is run instead; without those inside others, and
+    /// without the blanks around them.
+    fn branches(&self) -> Vec<(Range<usize>, Option<Range<usize>>)> {
+        let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
+        let mut known = Known::of(self);
+        let (mut found, mut at) = (Vec::new(), 0);
+        while at < self.tokens.len() {
+            known.pass(self, at);
+            let condition = self.condition(at, &unknown, &known);
+            at += 1;
+            let Some((condition, first)) = condition else { continue };
+            let Some(end) = self.end_of_branch(first) else { continue };
+            let is_else = self.tokens[end].kind == TokenKind::Directive(Head::Else);
+            let last = if is_else { self.end_of_branch(end + 1) } else { None };
+            let (own, other) = ((first, end), last.map(|last| (end + 1, last)));
+            let branches = if condition { (other, Some(own)) } else { (Some(own), other) };
+            let text = |&(first, end): &(usize, usize)| {
+                self.tokens[first].start as usize..self.tokens[end - 1].end as usize
+            };
+            let whole = |branch: Option<(usize, usize)>| branch.filter(|(first, end)| first < end);
+            if let (Some(branch), other) = (whole(branches.0), whole(branches.1)) {
+                let end = branch.1;
+                found.push((text(&branch), other.as_ref().map(text)));
+                // What is declared in between is declared as before.
+                (at..end).for_each(|at| known.pass(self, at));
+                at = end;
+            }
+        }
+        found
+    }
+
+    fn is(&self, at: usize, mark: Mark) -> bool {
+        self.tokens.get(at).is_some_and(|token| token.kind == TokenKind::Mark(mark))
+    }
+
+    /// Whether the condition that begins at `at` holds, if that is plain, and where its branch begins.
+    fn condition(
+        &self,
+        at: usize,
+        unknown: &HashSet<&str>,
+        known: &Known,
+    ) -> Option<(bool, usize)> {
+        let TokenKind::Directive(head) = self.tokens[at].kind else { return None };
+        let [open, close] = [Mark::Open(Bracket::Round), Mark::Close(Bracket::Round)];
+        let is_known = |name: &str| match known.value(name) {
+            Some(value) => Some(value != Declared::Nothing),
+            None => unknown.contains(name).then_some(false),
+        };
+        let (value, end) = match head {
+            Head::Ifdef | Head::Ifndef => {
+                (is_known(self.slice(at + 2))? == (head == Head::Ifdef), at + 3)
+            }
+            Head::If => {
+                let not = self.is(at + 2, Mark::Not);
+                let first = if not { at + 3 } else { at + 2 };
+                let constant = || CONSTANTS.iter().find(|(word, _)| *word == self.slice(first));
+                let (value, end) = match self.tokens.get(first)?.kind {
+                    TokenKind::Word(Word::Defined)
+                        if self.is(first + 1, open) && self.is(first + 3, close) =>
+                    {
+                        (is_known(self.slice(first + 2))?, first + 4)
+                    }
+                    TokenKind::Name => match known.value(self.slice(first))? {
+                        Declared::Truth(truth) => (truth, first + 1),
+                        Declared::Nothing | Declared::Something => return None,
+                    },
+                    _ => (constant()?.1, first + 1),
+                };
+                (value != not, end)
+            }
+            _ => return None,
+        };
+        (self.is(at + 1, open) && self.is(end, close)).then_some((value, end + 1))
+    }
+
+    /// The `#else`, `#elseif` or `#end` that a branch which begins at `at` ends with.
+    fn end_of_branch(&self, at: usize) -> Option<usize> {
+        let mut depth = 0_usize;
+        let ends = |token: &Token| {
+            let TokenKind::Directive(head) = token.kind else { return false };
+            match head {
+                _ if head.opens() => depth += 1,
+                Head::End if depth > 0 => depth -= 1,
+                Head::End | Head::Else | Head::Elseif => return depth == 0,
+                _ => {}
+            }
+            false
+        };
+        self.tokens.get(at..)?.iter().position(ends).map(|behind| at + behind)
+    }
+
+    /// Names that this text only asks for, and that nothing it includes may declare.
+    fn unknown_names(&self) -> HashSet<&str> {
+        let (mut asked, mut used) = (HashSet::new(), HashSet::new());
+        for (at, token) in self.tokens.iter().enumerate() {
+            match token.kind {
+                TokenKind::Directive(Head::Include) => {
+                    let name = self.slice(at + 1).trim_matches('"');
+                    if !is_standard_include(name) {
+                        return HashSet::new();
+                    }
+                }
+                TokenKind::Name => {
+                    let asks = at.checked_sub(2).is_some_and(|head| {
+                        matches!(
+                            self.tokens[head].kind,
+                            TokenKind::Directive(Head::Ifdef | Head::Ifndef)
+                        )
+                    });
+                    let name = self.slice(at);
+                    if asks {
+                        asked.insert(name)
+                    } else {
+                        used.insert(name)
+                    };
+                }
+                _ => {}
+            }
+        }
+        asked.retain(|name| !used.contains(name) && standard_include_of(name).is_none());
+        asked
+    }
+}
