@@ -253,11 +253,17 @@ impl Evaluator<'_> {
             return Ok(poison);
         }
         let what = if last { "value" } else { "row" };
-        let (wanted, found) = (count(&(size..=size), what), count(&(found..=found), what));
-        let message = format!("the array has {wanted} here, and is given {found}");
+        let (wanted, given) = (count(&(size..=size), what), count(&(found..=found), what));
+        let message = format!("the array has {wanted} here, and is given {given}");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
             .at(surplus.unwrap_or(span), format!("expected {wanted}"))
-            .help("without braces the elements may be set one by one");
+            .help(match surplus {
+                Some(_) if array.dimensions.len() == 1 => {
+                    format!("write `array[{found}]`, or leave out what is too many")
+                }
+                Some(_) => "leave out what is too many".to_owned(),
+                None => "without braces the elements may be set one by one".to_owned(),
+            });
         Err(self.report(here, diagnostic))
     }
 

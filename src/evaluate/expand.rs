@@ -69,6 +69,18 @@ impl Bound {
     const NOTHING: Self = Self { slot: Slot::NONE, own: false };
 }
 
+/// Where arguments stand that are too many.
+fn surplus(here: &Here, more: &[Argument]) -> Option<Span> {
+    let place = |argument: &Argument| match argument {
+        Argument::Expression(id) => Some(here.unit.expression(*id).span),
+        Argument::Items(items) => {
+            let items = here.unit.ast.items(*items);
+            Some(items.first()?.span.to(items.last()?.span))
+        }
+    };
+    Some(place(more.first()?)?.to(place(more.last()?)?))
+}
+
 impl Evaluator<'_> {
     pub(super) fn define_macro(
         &mut self,
@@ -268,7 +280,9 @@ impl Evaluator<'_> {
             let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
-            Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"))
+            let surplus = list.get(parameters.len()..).and_then(|more| surplus(here, more));
+            Diagnostic::new(Code::WrongArity, message)
+                .at(surplus.unwrap_or(span), format!("expected {wanted}"))
         } else if let Some(empty) =
             list.iter().zip(parameters).position(|(argument, (_, optional))| {
                 !optional && matches!(argument, Argument::Items(items) if items.is_empty())
