@@ -50,6 +50,26 @@ fn main() {
     row("a function called", &turns(function, "#declare Y = F(I, 2);"), "");
     let inline: String = (0..100_000).map(|i| format!("sphere {{ <{i}, 0, 9>, 0.5 }}\n")).collect();
     row("100,000 objects as text", &inline, "");
+    row("5 MB of mesh2 text", &surface(), "   promised: 1");
+}
+
+/// About 5 MB of a `mesh2`: a wavy sheet of 210 × 210 vertices, as a program writes it, with more digits than are needed.
+fn surface() -> String {
+    const SIDE: usize = 210;
+    let corners = (0..SIDE * SIDE).map(|i| ((i % SIDE) as f64, (i / SIDE) as f64));
+    let vertex = |(x, y): (f64, f64)| {
+        format!("<{:.12}, {:.12}, {:.12}>", x / 7.0, y / 7.0, (x * y / 99.0).sin())
+    };
+    let normal = |(x, y): (f64, f64)| format!("<0, {:.6}, -1>", (x * y / 99.0).cos());
+    let faces = (0..SIDE * SIDE).filter(|i| i % SIDE + 1 < SIDE && i / SIDE + 1 < SIDE);
+    let faces = faces.flat_map(|i| [[i, i + 1, i + SIDE], [i + 1, i + SIDE + 1, i + SIDE]]);
+    let block = |word: &str, items: Vec<String>| {
+        format!("{word} {{ {},\n{}\n}}\n", items.len(), items.join(",\n"))
+    };
+    let vertices = block("vertex_vectors", corners.clone().map(vertex).collect());
+    let normals = block("normal_vectors", corners.map(normal).collect());
+    let faces = block("face_indices", faces.map(|[a, b, c]| format!("<{a}, {b}, {c}>")).collect());
+    format!("mesh2 {{\n{vertices}{normals}{faces}}}\n")
 }
 
 /// What comes before, then 200,000 turns of a `#while`.
