@@ -103,7 +103,7 @@ pub fn ovus(bottom: f64, top: f64) -> (Body, Affine) {
 
 /// As it is written.
 pub fn superellipsoid([east, north]: [f64; 2]) -> (Body, Affine) {
-    (Body::Superellipsoid(Superellipsoid { east, north }), Affine::IDENTITY)
+    (Body::Superellipsoid(Superellipsoid::new(east, north)), Affine::IDENTITY)
 }
 
 /// As it is written.

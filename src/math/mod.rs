@@ -8,6 +8,7 @@ pub mod double;
 pub mod elementary;
 pub mod interval;
 pub mod placement;
+pub mod power;
 pub(crate) mod random;
 pub mod roots;
 pub mod singular;

@@ -3,16 +3,18 @@
 //! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
 //! however far away. It may have no end, and begin inside.
 
+mod along;
 mod closed;
 
 use std::fmt::Write;
 
+use along::Line;
 use closed::Closed;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
-use crate::math::roots::polynomial::{Coefficients, MOST, Polynomial};
+use crate::math::roots::polynomial::{MOST, Polynomial};
 use crate::math::terms::{count_of_terms, exponents};
 
 /// A polynomial in x, y and z.
@@ -24,6 +26,8 @@ pub struct Algebraic {
     terms: Vec<f64>,
     /// Their absolute values.
     sizes: Vec<f64>,
+    /// How many zeros come first of each row: of the terms of one power of x and one of y.
+    zeros: Vec<u8>,
     /// Where it ends, if that is known.
     closed: Option<Closed>,
 }
@@ -34,7 +38,8 @@ impl Algebraic {
         let fits = degree <= MOST && terms.len() == count_of_terms(degree);
         let sizes = terms.iter().map(|term| term.abs()).collect();
         let closed = if degree == 2 { Closed::of(&terms) } else { None };
-        fits.then_some(Self { degree, terms, sizes, closed })
+        let zeros = if fits { along::zeros(degree, &terms) } else { Vec::new() };
+        fits.then_some(Self { degree, terms, sizes, zeros, closed })
     }
 
     /// What the language calls it.
@@ -44,17 +49,6 @@ impl Algebraic {
             3 => "cubic",
             4 => "quartic",
             _ => "poly",
-        }
-    }
-
-    /// Its value at `start + s · step` as a polynomial in s, for the polynomial of these terms.
-    fn along(&self, terms: &[f64], start: Vector, step: Vector) -> Coefficients {
-        // Most have few terms: their loops end where the compiler knows.
-        match self.degree {
-            2 => along_all::<3>(terms, start, step),
-            3 => along_all::<4>(terms, start, step),
-            4 => along_all::<5>(terms, start, step),
-            degree => along_in::<{ MOST + 1 }>(degree, terms, start, step),
         }
     }
 
@@ -94,64 +88,13 @@ impl Algebraic {
     fn along_ray(&self, ray: &LocalRay) -> Polynomial {
         let LocalRay { nearest, direction, blur, turn, .. } = *ray;
         let (place, way) = (nearest.abs(), direction.abs());
-        let values = self.along(&self.terms, nearest, direction);
-        let least = self.along(&self.sizes, place, way);
-        let wide = |v: Vector, by: f64| v + Vector::splat(by);
-        let mut errors = self.along(&self.sizes, wide(place, blur), wide(way, turn));
+        let line =
+            Line { starts: [nearest, place, place + blur], steps: [direction, way, way + turn] };
+        let [values, least, mut errors] = self.along(&line);
         for (most, least) in errors.iter_mut().zip(least) {
             *most = (*most - least).max(0.0) + 3.0 * self.rounding() * *most;
         }
         Polynomial::new(values, errors)
-    }
-}
-
-/// As [`along_in`], of a degree of one less than there is room for.
-#[inline(never)]
-fn along_all<const ROOM: usize>(terms: &[f64], start: Vector, step: Vector) -> Coefficients {
-    along_in::<ROOM>(ROOM - 1, terms, start, step)
-}
-
-#[inline(always)]
-fn along_in<const ROOM: usize>(
-    degree: usize,
-    terms: &[f64],
-    start: Vector,
-    step: Vector,
-) -> Coefficients {
-    let mut terms = terms.iter();
-    let mut all = [0.0; ROOM];
-    for i in 0..=degree {
-        let mut plane = [0.0; ROOM];
-        for j in 0..=i {
-            let mut row = [0.0; ROOM];
-            for k in 0..=j {
-                multiply(&mut row, k, start.z, step.z);
-                row[0] += terms.next().copied().unwrap_or(0.0);
-            }
-            multiply(&mut plane, j, start.y, step.y);
-            add(&mut plane, &row, j);
-        }
-        multiply(&mut all, i, start.x, step.x);
-        add(&mut all, &plane, i);
-    }
-    let mut coefficients = [0.0; MOST + 1];
-    coefficients[..ROOM].copy_from_slice(&all);
-    coefficients
-}
-
-/// A polynomial of degree `before` − 1 times (start + s · step).
-#[inline(always)]
-fn multiply(values: &mut [f64], before: usize, start: f64, step: f64) {
-    for k in (1..=before).rev() {
-        values[k] = values[k] * start + values[k - 1] * step;
-    }
-    values[0] *= start;
-}
-
-#[inline(always)]
-fn add(values: &mut [f64], more: &[f64], degree: usize) {
-    for (value, more) in values.iter_mut().zip(&more[..=degree]) {
-        *value += more;
     }
 }
 

@@ -8,8 +8,8 @@
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
-use crate::math::elementary::pow;
 use crate::math::interval::Interval;
+use crate::math::power::Power;
 use crate::math::roots::bracket::{Root, Sample};
 use crate::math::roots::convex::{Tangent, chord};
 use crate::math::roots::monotone::Walk;
@@ -20,24 +20,52 @@ const AROUND: f64 = 1.25;
 /// A greater gauge is as good as this.
 const MOST: f64 = 1e100;
 
+/// Exponents that its equation does not name but its slope takes: p − 1, q − 1 and q − p.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Superellipsoid {
-    /// More than 0.
-    pub east: f64,
-    /// More than 0.
-    pub north: f64,
+struct Slopes {
+    round: Power,
+    tall: Power,
+    tall_over_round: Power,
 }
 
-/// (aᵖ + bᵖ)^1/p for a, b ≥ 0 and 1/p = `share`, and what part of the sum each of the two is.
-fn norm(a: f64, b: f64, share: f64) -> (f64, [f64; 2]) {
-    let (most, least) = if a > b { (a, b) } else { (b, a) };
-    if most == 0.0 {
-        return (0.0, [0.5, 0.5]);
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Superellipsoid {
+    east: f64,
+    north: f64,
+    /// Of x and y, with p = 2/e.
+    round: Norm,
+    /// Of that and z, with q = 2/n.
+    tall: Norm,
+    slopes: Slopes,
+}
+
+/// (aᵖ + bᵖ)^1/p for a, b ≥ 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Norm {
+    /// p
+    exponent: f64,
+    power: Power,
+    root: Power,
+}
+
+impl Norm {
+    /// With 1/p = `share`.
+    fn new(share: f64) -> Self {
+        let exponent = 1.0 / share;
+        Self { exponent, power: Power::new(exponent), root: Power::new(share) }
     }
-    let part = pow(least / most, 1.0 / share);
-    let size = (most * pow(1.0 + part, share)).min(MOST);
-    let (greater, lesser) = (1.0 / (1.0 + part), part / (1.0 + part));
-    (size, if a > b { [greater, lesser] } else { [lesser, greater] })
+
+    /// The norm, and what part of the sum each of the two is.
+    fn of(self, a: f64, b: f64) -> (f64, [f64; 2]) {
+        let (most, least) = if a > b { (a, b) } else { (b, a) };
+        if most == 0.0 {
+            return (0.0, [0.5, 0.5]);
+        }
+        let part = self.power.of(least / most);
+        let size = (most * self.root.of(1.0 + part)).min(MOST);
+        let (greater, lesser) = (1.0 / (1.0 + part), part / (1.0 + part));
+        (size, if a > b { [greater, lesser] } else { [lesser, greater] })
+    }
 }
 
 /// The gauge at a point of no negative coordinate, and what part of it each coordinate makes.
@@ -47,26 +75,46 @@ struct Gauge {
 }
 
 impl Superellipsoid {
+    /// Both exponents are more than 0.
+    pub fn new(east: f64, north: f64) -> Self {
+        let (round, tall) = (Norm::new(0.5 * east), Norm::new(0.5 * north));
+        let (p, q) = (round.exponent, tall.exponent);
+        let slopes = Slopes {
+            round: Power::new(p - 1.0),
+            tall: Power::new(q - 1.0),
+            tall_over_round: Power::new(q - p),
+        };
+        Self { east, north, round, tall, slopes }
+    }
+
     fn is_convex(&self) -> bool {
         self.east.max(self.north) <= 2.0
     }
 
     fn gauge(&self, Vector { x, y, z }: Vector) -> Gauge {
-        let (round, [of_x, of_y]) = norm(x, y, 0.5 * self.east);
-        let (value, [of_round, of_z]) = norm(round, z, 0.5 * self.north);
+        let (round, [of_x, of_y]) = self.round.of(x, y);
+        let (value, [of_round, of_z]) = self.tall.of(round, z);
         Gauge { value, parts: Vector::new(of_round * of_x, of_round * of_y, of_z) }
     }
 
-    /// How far rounding may move a gauge, over its value: with 1/p = e/2, the sum of two powers is off by 3
-    /// roundings and its root by e/2 as many and 1; of the second root likewise.
+    /// How far rounding may move a gauge, over its value. With 1/p = e/2, the ratio's power is off by 2p + 5
+    /// roundings and makes half of the sum at most; the root of the sum by e/2 as many and 1, and by 5 + e/2
+    /// of its own; of the second norm likewise.
     fn rounding(&self) -> f64 {
-        U * (12.0 + 4.0 * self.east + 4.0 * self.north)
+        U * (16.0 + 4.0 * self.east + 4.0 * self.north)
     }
 
     /// How far the line's blur may move a gauge. A norm of vectors of length `blur` is √3 of it at most.
-    fn blurred(&self, place: Vector, value: f64, blur: f64) -> f64 {
+    fn blurred(&self, place: Vector, Gauge { value, parts }: Gauge, blur: f64) -> f64 {
         if self.is_convex() {
             return 2.0 * blur;
+        }
+        // Its logarithm's slope along the logarithm of a coordinate is that one's part of it. While none is
+        // moved by much, no part changes by as much as half, and this is less than twice too much.
+        let moved = Vector::splat(blur) / place;
+        let changed = moved.max_element() * (self.round.exponent + self.tall.exponent);
+        if moved.is_finite() && changed < 0.0625 {
+            return 2.0 * value * parts.dot(moved);
         }
         let more = self.gauge(place + blur).value;
         let less = self.gauge((place - blur).max(Vector::ZERO)).value;
@@ -87,11 +135,12 @@ impl Superellipsoid {
         let point = ray.at(s);
         let (value, gradient, parts) = self.at(point);
         let blur = ray.blur_at(s) + 2.0 * U * s.abs();
-        let error = self.rounding() * value + self.blurred(point.abs(), value, blur);
+        let error =
+            self.rounding() * value + self.blurred(point.abs(), Gauge { value, parts }, blur);
         let slope = gradient.dot(ray.direction);
         // A power with the exponent p is off by p roundings of its base, and there are no two parts that
         // are both of some size but near an edge.
-        let (p, q) = (2.0 / self.east, 2.0 / self.north);
+        let (p, q) = (self.round.exponent, self.tall.exponent);
         let edges = p * parts.x.min(parts.y) + q * parts.z.min(1.0 - parts.z);
         let slope_error = (U * (32.0 + 16.0 * edges) + 2.0 * ray.turn).min(4.0);
         Tangent { at: Sample { value: value - 1.0, slope, error }, slope_error }
@@ -115,18 +164,23 @@ impl Superellipsoid {
     /// What has the sign of the gauge's slope: with N = (xᵖ + yᵖ)^1/p,
     /// N^(q−p)·(xᵖ⁻¹x′ + yᵖ⁻¹y′) + zᵠ⁻¹z′. `ways` are the signs of the coordinates.
     fn slopes(&self, ray: &LocalRay, ways: Vector, [least, most]: [Vector; 2]) -> Interval {
-        let (p, q) = (2.0 / self.east, 2.0 / self.north);
-        let power = |of: Interval, exponent: f64| of.rising(|x| pow(x.max(0.0), exponent));
-        let slope = |axis: usize, exponent: f64| {
+        // As much as a product of `Power` is rounded at most.
+        let wide = |Interval { low, high }: Interval| Interval {
+            low: low * (1.0 - 21.0 * U),
+            high: high * (1.0 + 21.0 * U),
+        };
+        let power = |of: Interval, power: Power| wide(of.rising(|x| power.of(x.max(0.0))));
+        let slope = |axis: usize, exponent: Power| {
             let way = ray.direction[axis] * ways[axis];
             let speed = Interval { low: way - ray.turn, high: way + ray.turn };
-            power(Interval { low: least[axis], high: most[axis] }, exponent - 1.0) * speed
+            power(Interval { low: least[axis], high: most[axis] }, exponent) * speed
         };
         let rounding = self.rounding();
-        let round = |v: Vector| norm(v.x, v.y, 0.5 * self.east).0;
+        let round = |v: Vector| self.round.of(v.x, v.y).0;
         let round =
             Interval { low: round(least) * (1.0 - rounding), high: round(most) * (1.0 + rounding) };
-        power(round, q - p) * (slope(0, p) + slope(1, p)) + slope(2, q)
+        let Slopes { round: across, tall, tall_over_round } = self.slopes;
+        power(round, tall_over_round) * (slope(0, across) + slope(1, across)) + slope(2, tall)
     }
 
     /// Where the line is in the box around the body.
@@ -225,7 +279,7 @@ impl Local for Superellipsoid {
 
 /// (aᵖ + bᵖ)^1/p for 1/p = `share`; the greater of the two where that is 0.
 fn largest(a: f64, b: f64, share: f64) -> f64 {
-    if share > 0.0 { norm(a, b, share).0 } else { a.max(b) }
+    if share > 0.0 { Norm::new(share).of(a, b).0 } else { a.max(b) }
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@
 //! **Source:** POV-Ray 3.7 manual, sections "Spotlights", "Cylindrical Lights" and "Light Fading"; where
 //! they leave something open, the program's behaviour, measured to 1/65,535.
 
-use super::power::power;
 use super::shadow::Aim;
 use crate::color::Rgb;
 use crate::math::Vector;
+use crate::math::power::power;
 use crate::world::{Attenuation, Beam, Fade, LightKind};
 
 /// What is left of `color` at `point`, from where the light is seen by `aim`; `None` where it is dark.

@@ -1,9 +1,9 @@
 //! The gloss a light makes on a surface.
 
 use super::metal;
-use super::power::power;
 use crate::color::Rgb;
 use crate::math::Vector;
+use crate::math::power::power;
 use crate::world::{Finish, LobeKind};
 
 /// What a surface and the directions it is seen and lit from have to do with a highlight; all

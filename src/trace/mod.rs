@@ -15,7 +15,6 @@ mod metal;
 mod path;
 mod pigment;
 mod pixels;
-mod power;
 mod reflection;
 mod refraction;
 mod shade;

@@ -1,10 +1,10 @@
 //! How much of what the mirrored ray sees a surface passes on.
 
 use super::metal;
-use super::power::power;
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::math::elementary::pow;
+use crate::math::power::power;
 use crate::world::Reflection;
 
 /// The factor by which a surface of `color` reflects, seen at the angle of `cosine` to its normal:

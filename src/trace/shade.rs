@@ -5,10 +5,10 @@ use super::Walk;
 use super::attenuation::attenuated;
 use super::highlight::{self, Gloss};
 use super::path::Tracer;
-use super::power::power;
 use super::shadow::{self, Aim};
 use crate::color::Rgb;
 use crate::math::Vector;
+use crate::math::power::power;
 use crate::world::{Finish, Light};
 
 /// A place on a surface, ready to be lit.

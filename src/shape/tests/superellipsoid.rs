@@ -18,7 +18,7 @@ fn convex(random: &mut Random) -> Superellipsoid {
         1 => [0.01, 0.1, 0.5, 1.0, 2.0][random.below(5)],
         _ => random.number(0.0, 2.0).max(1e-3),
     };
-    Superellipsoid { east: exponent(), north: exponent() }
+    Superellipsoid::new(exponent(), exponent())
 }
 
 fn hollow(random: &mut Random) -> Superellipsoid {
@@ -27,7 +27,7 @@ fn hollow(random: &mut Random) -> Superellipsoid {
         1 => [2.5, 3.0, 4.0][random.below(3)],
         _ => random.number(0.05, 4.0),
     };
-    Superellipsoid { east: exponent(), north: exponent() }
+    Superellipsoid::new(exponent(), exponent())
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_superellipsoid_of_exponents_to_100_is_crossed_where_exact_arithmetic_crosse
     let mut crossed = 0;
     for _ in 0..tries_in(50) {
         let mut exponent = || random.size(-2.0, 2.0);
-        let body = Superellipsoid { east: exponent(), north: exponent() };
+        let body = Superellipsoid::new(exponent(), exponent());
         let placed = placed(&mut random, Body::Superellipsoid(body));
         for _ in 0..4 {
             let ray = ray_at_placed(&mut random, &placed);
@@ -78,7 +78,7 @@ fn a_superellipsoid_of_exponents_to_100_is_crossed_where_exact_arithmetic_crosse
 #[test]
 fn of_exponents_1_it_is_a_sphere() {
     let mut random = Random(66);
-    let ball = Superellipsoid { east: 1.0, north: 1.0 };
+    let ball = Superellipsoid::new(1.0, 1.0);
     for _ in 0..tries_in(20) {
         let placed = placed(&mut random, Body::Superellipsoid(ball));
         let ray = ray_at_placed(&mut random, &placed);
@@ -93,7 +93,7 @@ fn of_very_small_exponents_it_is_a_box() {
     let mut random = Random(67);
     for exponent in [1e-6, 1e-30, 1e-300, f64::MIN_POSITIVE, 5e-324] {
         for _ in 0..tries_in(40) {
-            let cube = Superellipsoid { east: exponent, north: exponent };
+            let cube = Superellipsoid::new(exponent, exponent);
             let placed = placed(&mut random, Body::Superellipsoid(cube));
             let ray = ray_at_placed(&mut random, &placed);
             let exactly = |_: &Body, [x, y, z]: Triple| {

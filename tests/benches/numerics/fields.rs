@@ -549,7 +549,7 @@ impl Field for Pillow {
     const REACH: f64 = 1.75;
 
     fn body() -> Option<Body> {
-        Some(Body::Superellipsoid(Superellipsoid { east: 0.5, north: 0.25 }))
+        Some(Body::Superellipsoid(Superellipsoid::new(0.5, 0.25)))
     }
     fn value<N: Number>(p: &[N; 3]) -> N {
         let [x, y, z] = p.each_ref().map(|c| c.clone().square().square());
