@@ -5,6 +5,7 @@ mod color;
 mod finish;
 mod light;
 mod map;
+mod short;
 mod switch;
 mod unit;
 

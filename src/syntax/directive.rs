@@ -141,10 +141,16 @@ impl<'a> Nest<'a> {
         if Head::from_word(word) == Head::Unknown {
             return;
         }
-        self.report(
+        let diagnostic =
             Diagnostic::new(Code::StrayDirective, format!("this `#{word}` belongs to nothing"))
-                .at(span, format!("expected {expected} before it")),
-        );
+                .at(span, format!("expected {expected} before it"));
+        // `# end of frame`, as other languages write a remark.
+        let is_remark = self.slice(span).starts_with("# ");
+        let sign = Span { end: span.start + 1, ..span };
+        self.report(match is_remark {
+            true => diagnostic.help("if it is a comment, that begins with `//`").fix(sign, "//"),
+            false => diagnostic,
+        });
     }
 
     pub(super) fn else_branch(&mut self, span: Span) {

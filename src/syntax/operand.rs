@@ -57,6 +57,12 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn word(&mut self, word: Word, span: Span) {
+        // Where a value is wanted, one that was declared though it cannot be: that has been told.
+        let is_wanted = self.top().state == State::Wanting;
+        if is_wanted && word.role() == Role::Statement && self.names.contains_key(self.slice(span))
+        {
+            return self.named(span, false);
+        }
         match word.role() {
             Role::Value => self.operand(ExpressionKind::Word(word), span, false),
             Role::Function { one_argument } => {

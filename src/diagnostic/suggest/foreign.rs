@@ -142,6 +142,12 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("index_of_refraction", "ior"),
     ("refraction_index", "ior"),
     ("bump", "bumps"),
+    ("freq", "frequency"),
+    // POV-Ray 3.0
+    ("halo", "media"),
+    ("atmosphere", "media_interaction"),
+    ("atmosphere", "media"),
+    ("atmospheric_attenuation", "media_attenuation"),
     ("checkerboard", "checker"),
     ("chessboard", "checker"),
     ("ramp", "color_map"),

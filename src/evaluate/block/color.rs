@@ -104,6 +104,13 @@ impl Evaluator<'_> {
             };
             return Err(self.report(&given.here, diagnostic));
         }
+        if given_numbers.len() == 3 && wanted > 3 {
+            let lacking = match word {
+                Word::Rgbt | Word::Srgbt => "transmit",
+                _ => "filter",
+            };
+            self.lint_short_color(&given, word, lacking);
+        }
         let mut all = match *given_numbers {
             [gray] => [gray; 5],
             _ => {
@@ -209,9 +216,24 @@ impl Evaluator<'_> {
             };
             return Err(self.report(&token.here, diagnostic));
         }
-        let number = self.number_after(token, "a number")?.value;
-        color.set(word, number, self.whole(token));
+        match self.number_after(token, "a number") {
+            Ok(number) => color.set(word, number.value, self.whole(token)),
+            Err(reported) => {
+                self.skip_color_components();
+                return Err(reported);
+            }
+        }
         Ok(())
+    }
+
+    /// What is left of a colour of which a component was told.
+    fn skip_color_components(&mut self) {
+        while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek_on()
+            && is_component(word)
+        {
+            self.next();
+            self.skip_values();
+        }
     }
 
     /// A word of the right family that is not built: poison for the object being read.

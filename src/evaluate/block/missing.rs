@@ -4,8 +4,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
-use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Reported};
 
 impl Evaluator<'_> {
     /// `next` stands where `wanted` should, which belongs to `after`.
@@ -41,22 +41,72 @@ impl Evaluator<'_> {
             }
             _ => diagnostic,
         };
-        let diagnostic = match place.filter(|_| next.is_none()) {
-            Some(end) if self.has_lost_comma(Span { start: after.span.end, ..end }) => {
-                diagnostic.help("`a -b` is one value, and `a, -b` are two: is a comma missing?")
-            }
-            _ => diagnostic,
-        };
+        let diagnostic =
+            match place.and_then(|end| self.lost_comma(Span { start: after.span.end, ..end })) {
+                Some((value, parted)) => diagnostic.help(format!(
+                    "`{}` is one value, and `{parted}` are two: is a comma missing?",
+                    self.sources.text(value)
+                )),
+                None => diagnostic,
+            };
         self.meant_by_word(diagnostic, next, wanted)
     }
 
-    /// `Base() -x`: whether a sign without a blank behind it rather begins a value of its own.
-    fn has_lost_comma(&self, parts: Span) -> bool {
+    /// `green ,5`: a comma right behind the word whose value it stands for.
+    pub(super) fn comma_for_value(&mut self, after: &Token, wanted: &str) -> Option<Reported> {
+        let comma = self.peek()?.clone();
+        let behind = Span { start: after.span.end, end: comma.span.start, ..after.span };
+        let is_beside = matches!(after.kind, TokenKind::Word(_))
+            && comma.span.file == after.span.file
+            && after.span.end <= comma.span.start
+            && self.sources.text(behind).trim().is_empty();
+        if !is_beside {
+            return None;
+        }
+        let message = format!("expected {wanted} after {}, found `,`", self.describe(after));
+        let mut diagnostic = Diagnostic::new(Code::MissingPart, message)
+            .at(comma.span, format!("expected {wanted}"))
+            .also(after.span, "for this");
+        let text = &self.sources.get(comma.span.file).text;
+        let rest = text.get(comma.span.end as usize..).unwrap_or("");
+        if rest.starts_with(|c: char| c.is_ascii_digit()) {
+            diagnostic =
+                diagnostic.help("a fraction is written with a point: `.5`").fix(comma.span, "0.");
+        }
+        let reported = self.report(&after.here, diagnostic);
+        self.skip_values();
+        Some(reported)
+    }
+
+    /// `Base() -x`, where a sign without a blank behind it rather begins a value of its own: the two, and
+    /// how they are parted.
+    pub(in crate::evaluate) fn lost_comma(&self, parts: Span) -> Option<(Span, String)> {
         let text = self.sources.text(parts);
-        text.match_indices(" -").any(|(at, _)| {
-            let ends = |c: char| c.is_ascii_alphanumeric() || matches!(c, ')' | '>' | '_' | '.');
-            let begins = |c: char| c.is_ascii_alphanumeric() || matches!(c, '(' | '<' | '.');
-            text[..at].ends_with(ends) && text[at + 2..].starts_with(begins)
+        let of_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
+        text.match_indices(" -").find_map(|(at, _)| {
+            let (before, behind) = (text[..at].trim_end(), &text[at + 2..]);
+            let ends = before.ends_with(|c: char| of_name(c) || matches!(c, ')' | '>'));
+            let begins = behind.starts_with(|c: char| of_name(c) || matches!(c, '(' | '<'));
+            // Of `Base()` and `<1, 2>` the whole.
+            let opener = match before.chars().last() {
+                Some(')') => before.rfind('('),
+                Some('>') => before.rfind('<'),
+                _ => None,
+            };
+            let start = before[..opener.unwrap_or(before.len())].trim_end_matches(of_name).len();
+            let closer = match behind.chars().next() {
+                Some('(') => behind.find(')').map(|at| at + 1),
+                Some('<') => behind.find('>').map(|at| at + 1),
+                _ => behind.find(|c: char| !of_name(c)),
+            };
+            let length = closer.unwrap_or(behind.len());
+            let place = Span {
+                start: parts.start + start as u32,
+                end: parts.start + (at + 2 + length) as u32,
+                ..parts
+            };
+            (ends && begins)
+                .then(|| (place, format!("{}, -{}", &before[start..], &behind[..length])))
         })
     }
 

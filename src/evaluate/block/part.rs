@@ -77,6 +77,9 @@ impl Evaluator<'_> {
     fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
         let passed = self.silent.is_none() && self.pass(ItemKind::Comma);
         let comma = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
+        if comma && let Some(reported) = self.comma_for_value(after, wanted) {
+            return Err(reported);
+        }
         let silent = self.silent.filter(|_| !passed);
         // A macro that gave nothing may have stood before a comma; for the first part it must have.
         let lost = silent.is_some() && self.taken == self.blocks.last().copied();
@@ -178,6 +181,9 @@ impl Evaluator<'_> {
         if let TokenKind::Expression(id) = token.kind
             && let Some(value) = self.plain_vector(&token.here, id)
         {
+            if value.z == 0.0 {
+                self.lint_short_vector(&token.here, id);
+            }
             return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });
         }
         Err(token)
@@ -239,7 +245,14 @@ impl Evaluator<'_> {
         wanted: &str,
     ) -> Outcome<Given<Vector>> {
         match given.value.as_vector3() {
-            Some(vector) => Ok(given.with(vector)),
+            Some(vector) => {
+                if let (Value::Vector(components), Some(id)) = (&given.value, given.expression)
+                    && components.len() == 2
+                {
+                    self.lint_short_vector(&given.here, id);
+                }
+                Ok(given.with(vector))
+            }
             None => Err(self.wrong_vector(&given, wanted)),
         }
     }

@@ -119,14 +119,10 @@ impl Place {
 
     /// The block of a shape.
     pub fn shape(word: Word) -> Self {
-        const FAMILIES: &[Family] = &[
-            Family::Modifier,
-            Family::Transform,
-            Family::Texture,
-            Family::Interior,
-            Family::ShapeItem,
-        ];
-        Self { word: Some(word), families: FAMILIES, others: &[Word::Photons, Word::Radiosity] }
+        const FAMILIES: &[Family] =
+            &[Family::Modifier, Family::Transform, Family::Texture, Family::ShapeItem];
+        const OTHERS: &[Word] = &[Word::Interior, Word::Photons, Word::Radiosity];
+        Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 
     /// The block of a part of a blob.
@@ -144,9 +140,9 @@ impl Place {
             Family::Modifier,
             Family::Transform,
             Family::Texture,
-            Family::Interior,
         ];
-        const OTHERS: &[Word] = &[Word::Hierarchy, Word::Sturm, Word::Photons, Word::Radiosity];
+        const OTHERS: &[Word] =
+            &[Word::Hierarchy, Word::Interior, Word::Sturm, Word::Photons, Word::Radiosity];
         Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 

@@ -1,0 +1,56 @@
+//! Vectors with fewer numbers than their place has.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::Given;
+use crate::evaluate::value::Value;
+use crate::evaluate::{Evaluator, Here};
+use crate::source::Span;
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::vocabulary::Word;
+
+impl Evaluator<'_> {
+    /// `<1, 2 -3>`, where a comma was lost. Where two are written as two, they may be meant.
+    pub(in crate::evaluate) fn lint_short_vector(&mut self, here: &Here, id: ExpressionId) {
+        let expression = here.unit.expression(id);
+        let ExpressionKind::Vector(components) = expression.kind else { return };
+        let span = expression.span;
+        if here.unit.ast.arguments(components).len() != 2 {
+            return;
+        }
+        let Some((value, parted)) = self.lost_comma(span) else { return };
+        let before = self.sources.text(Span { end: value.start, ..span });
+        let behind = self.sources.text(Span { start: value.end, ..span });
+        let right = format!("{before}{parted}{behind}");
+        let message = "this vector has two components: its z is 0";
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(span, format!("`{}` is one number", self.sources.text(value)))
+            .help(format!("is a comma missing? write `{right}`"))
+            .fix(value, parted);
+        self.report(here, diagnostic);
+    }
+
+    /// `rgbt <1, 1, 1>`: the word promises more than the vector has.
+    pub(in crate::evaluate) fn lint_short_color(
+        &mut self,
+        given: &Given<Value>,
+        word: Word,
+        lacking: &str,
+    ) {
+        let name = word.name();
+        let opaque = name.trim_end_matches(['f', 't']);
+        let text = self.sources.text(given.span);
+        // `rgbt <1, 0, 0>, 0.5` is told as that.
+        let rest = self.sources.get(given.span.file).text.get(given.span.end as usize..);
+        let number = rest.and_then(|rest| rest.trim_start().strip_prefix(',')).map(str::trim_start);
+        let goes_on =
+            number.is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+        if goes_on || !text.starts_with('<') {
+            return;
+        }
+        let message = format!("this `{name}` is given red, green and blue alone");
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(given.span, format!("its `{lacking}` is 0"))
+            .help(format!("add the number, or write `{opaque} {text}`"));
+        self.report(&given.here, diagnostic);
+    }
+}
