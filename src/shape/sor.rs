@@ -103,7 +103,8 @@ impl Sor {
         }
     }
 
-    /// Where ρ² − F may turn along the line, and where a segment ends, in order.
+    /// Where ρ² − F may turn along the line, and where a segment ends, in order. Of a segment that all lies
+    /// on one side of its Bézier points, one place between its ends says as much.
     fn turns(&self, ray: &LocalRay) -> SmallVec<[f64; 16]> {
         let (n, d) = (ray.nearest, ray.direction);
         let across = d.x * d.x + d.y * d.y;
@@ -114,7 +115,20 @@ impl Sor {
             let size = high - low;
             let start = low - n.z;
             let place = |t: f64| (start + t * size) / d.z;
-            turns.extend([place(0.0), place(1.0)]);
+            let ends = [place(0.0), place(1.0)];
+            let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            let square = |s: f64| {
+                let (x, y) = (n.x + s * d.x, n.y + s * d.y);
+                x * x + y * y
+            };
+            let nearest = square((-along / across).max(first).min(last));
+            let farthest = square(first).max(square(last));
+            let squares = [a, b, c, e];
+            if squares.iter().all(|f| nearest > **f) || squares.iter().all(|f| farthest < **f) {
+                turns.push(0.5 * (first + last));
+                continue;
+            }
+            turns.extend(ends);
             // Half of the slope of ρ² − F by t, times dz².
             let bend = d.z * d.z;
             let constant = (across * start + along * d.z) * size - 1.5 * (b - a) * bend;

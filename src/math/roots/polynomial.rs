@@ -5,15 +5,20 @@
 //! opposite ways; whatever polynomial was meant has an odd number of roots within each bound. What could
 //! as well be no root (it touches zero within its bound) is none.
 //!
-//! Between the roots of its derivative a polynomial is monotone, so from the last derivative up each has
-//! one root at most between two neighbours of the one before. The line is followed to its very end: what
+//! Pieces whose Bernstein coefficients change their sign once at most have no more roots than that. In
+//! others, from the last derivative up, each has one root at most between two neighbours of the one before:
+//! between the roots of its derivative a polynomial is monotone. The line is followed to its very end: what
 //! lies beyond ±σ are the roots of the reversed polynomial between −1 and 1.
 //!
 //! **Source:** C. Yuksel, "High-performance polynomial root finding for graphics", Proceedings of the ACM on
 //! Computer Graphics 5 (2022); N. Higham, *Accuracy and Stability of Numerical Algorithms* (2002), ch. 5.
 
-use crate::math::double::{power_of_two, power_of_two_near};
+mod bernstein;
+
 use smallvec::SmallVec;
+
+use crate::math::double::{power_of_two, power_of_two_near};
+use bernstein::{Form, Signs};
 
 /// The greatest degree.
 pub const MOST: usize = 15;
@@ -38,6 +43,12 @@ pub struct Root {
 pub type Roots = SmallVec<[Root; 6]>;
 
 type Brackets = SmallVec<[Bracket; 6]>;
+type Changes = SmallVec<[Change; 6]>;
+/// Places at which it is looked.
+type Marks = SmallVec<[f64; 16]>;
+
+/// How often a piece is halved before it is looked for turning points.
+const HALVED: u32 = 3;
 
 /// A polynomial and the rounding that it carries.
 #[derive(Debug, Clone)]
@@ -160,25 +171,47 @@ impl Polynomial {
         }
     }
 
-    /// The certain changes of sign from `low` to `high`, in order.
+    /// The certain changes of sign from `low` to `high`, in order: −1, 0 or 1.
     fn between(&self, (low, high): (f64, f64), tolerance: f64) -> Brackets {
-        let mut roots = Brackets::new();
-        let values = &self.values[..=self.degree];
-        if certainly_one_sign(&self.values, &self.slack, self.degree, low, high) {
-            return roots;
-        }
-        let turns = turning_points(values, low, high);
-        let (mut before, mut last) = (None, low);
-        self.advance(&mut before, low);
-        for turn in turns.into_iter().chain([high]) {
-            // Also between them, for where the ends of a piece tell nothing.
-            for at in [0.5 * (last + turn), turn] {
-                let change = self.advance(&mut before, at);
-                roots.extend(change.map(|change| self.root(change, tolerance)));
+        let mut marks = Marks::from_slice(&[low]);
+        for (ends, way) in [((-1.0, 0.0), -1.0), ((0.0, 1.0), 1.0)] {
+            if low <= ends.0 && ends.1 <= high {
+                let all = ..=self.degree;
+                let form = Form::of(&self.values[all], &self.slack[all], way);
+                self.mark(&form, ends, HALVED, &mut marks);
             }
-            last = turn;
         }
-        roots
+        let mut before = None;
+        let changes = marks.into_iter().filter_map(|at| self.advance(&mut before, at));
+        changes
+            .collect::<Changes>()
+            .into_iter()
+            .map(|change| self.root(change, tolerance))
+            .collect()
+    }
+
+    /// Adds places of a piece, the last its end, between which there is one root at most.
+    fn mark(&self, form: &Form, (low, high): (f64, f64), halved: u32, marks: &mut Marks) {
+        match form.signs() {
+            Signs::Same | Signs::Change => marks.push(high),
+            Signs::Unknown if halved > 0 => {
+                let middle = 0.5 * (low + high);
+                let [first, second] = form.halves();
+                self.mark(&first, (low, middle), halved - 1, marks);
+                self.mark(&second, (middle, high), halved - 1, marks);
+            }
+            Signs::Unknown => {
+                let mut last = low;
+                for turn in turning_points(&self.values[..=self.degree], low, high)
+                    .into_iter()
+                    .chain([high])
+                {
+                    // Also between them, for where the ends of a piece tell nothing.
+                    marks.extend([0.5 * (last + turn), turn]);
+                    last = turn;
+                }
+            }
+        }
     }
 
     /// Goes on to `at`, if its sign is certain there.
@@ -261,38 +294,6 @@ impl Bracket {
         // The way along the line is the other way along w.
         fine.then_some(Root { s, error, rising: rising == odd })
     }
-}
-
-/// Whether no two of what it may be at `low` … `high` have different signs: those of its Bernstein
-/// coefficients do not, which hold it between them.
-fn certainly_one_sign(
-    values: &Coefficients,
-    slack: &Coefficients,
-    degree: usize,
-    low: f64,
-    high: f64,
-) -> bool {
-    // Of the piece from 0 to ±1, where Bernstein coefficients are plain sums; none else is asked for.
-    let way = match (low == 0.0, high == 0.0) {
-        (true, _) => 1.0,
-        (_, true) => -1.0,
-        _ => return false,
-    };
-    let n = degree as f64;
-    let (mut positive, mut negative) = (true, true);
-    for i in 0..=degree {
-        let (mut sum, mut bound, mut share, mut power) = (0.0, 0.0, 1.0, 1.0);
-        for k in 0..=i {
-            // share = C(i, k) / C(n, k)
-            sum += share * power * values[k];
-            bound += share * (slack[k] + 64.0 * U * values[k].abs());
-            share *= (i - k) as f64 / (n - k as f64).max(1.0);
-            power *= way;
-        }
-        positive &= sum > bound;
-        negative &= sum < -bound;
-    }
-    positive || negative
 }
 
 /// The least order of a derivative that certainly keeps its sign between two places: its coefficients in
