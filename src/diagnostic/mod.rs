@@ -204,6 +204,25 @@ impl Diagnostics {
         !latest.any(|&at| self.list[at].message == message)
     }
 
+    /// Whether a message is one that is kept but for its numbers: another turn of a loop, or another call from
+    /// the same place, says nothing new. Of its author's own each counts.
+    pub fn turns_of(&self, diagnostic: &Diagnostic) -> bool {
+        let place = diagnostic.place();
+        let words = |one: &Diagnostic| -> String {
+            let of_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
+            one.message.chars().filter(|c| !of_number(c)).collect()
+        };
+        let calls = |one: &Diagnostic| one.trace.iter().map(|step| step.span).collect::<Vec<_>>();
+        let own = diagnostic.code == Code::AuthorWarning || place.1.is_none();
+        let kept = self.kept.get(&place).filter(|_| !own);
+        kept.is_some_and(|kept| {
+            kept.iter().any(|&at| {
+                let one = &self.list[at];
+                words(one) == words(diagnostic) && calls(one) == calls(diagnostic)
+            })
+        })
+    }
+
     fn keep(&mut self, diagnostic: Diagnostic) {
         if diagnostic.severity != Severity::Note {
             self.kept.entry(diagnostic.place()).or_default().push(self.list.len());

@@ -59,8 +59,8 @@ impl Array {
 /// Why an element is not there.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NoElement {
-    /// The index at this place of the list is outside of its dimension, which has so many entries.
-    Outside(usize, u32),
+    /// The index at this place of the list, which is this, is outside of its dimension with so many entries.
+    Outside(usize, f64, u32),
     /// There are fewer indices than dimensions, or more.
     Count { wanted: usize },
     /// Nothing was set.
@@ -79,7 +79,7 @@ fn place(array: &Array, indices: &[f64], from: usize) -> Result<usize, NoElement
         // What a calculation leaves over is no reason to miss by one.
         let index = (index + 1e-10).floor();
         if !(0.0..f64::from(*size)).contains(&index) {
-            return Err(NoElement::Outside(from + at, *size));
+            return Err(NoElement::Outside(from + at, index, *size));
         }
         place = place * *size as usize + index as usize;
     }
@@ -255,6 +255,8 @@ impl Evaluator<'_> {
         let what = if last { "value" } else { "row" };
         let (wanted, given) = (count(&(size..=size), what), count(&(found..=found), what));
         let message = format!("the array has {wanted} here, and is given {given}");
+        let text: String = self.sources.text(span).split_whitespace().collect();
+        let layered = text.contains("}texture{");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
             .at(surplus.unwrap_or(span), format!("expected {wanted}"))
             .help(match surplus {
@@ -262,6 +264,11 @@ impl Evaluator<'_> {
                     format!("write `array[{found}]`, or leave out what is too many")
                 }
                 Some(_) => "leave out what is too many".to_owned(),
+                None if layered => {
+                    "textures without a comma between them are layers of one: write \
+                     `texture { … }, texture { … }`"
+                        .to_owned()
+                }
                 None => "without braces the elements may be set one by one".to_owned(),
             });
         Err(self.report(here, diagnostic))

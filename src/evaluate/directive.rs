@@ -106,7 +106,7 @@ impl Evaluator<'_> {
                 Ok(())
             }),
             DirectiveKind::Version(version) => {
-                self.says_version = true;
+                self.says_version |= self.in_main();
                 self.version = self.number(here, *version)?;
                 self.check_version(here, here.unit.expression(*version).span)
             }

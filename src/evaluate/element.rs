@@ -202,9 +202,11 @@ impl Evaluator<'_> {
                 let message = format!("this element of the array is {}, no array", value.kind());
                 Diagnostic::new(Code::WrongType, message).at(index(at), "one index too many")
             }
-            NoElement::Outside(at, size) => {
-                let message =
-                    format!("the array has no such element: its indices go from 0 to {}", size - 1);
+            NoElement::Outside(at, found, size) => {
+                let message = format!(
+                    "the array has no element {found}: its indices go from 0 to {}",
+                    size - 1
+                );
                 Diagnostic::new(Code::OutOfRange, message).at(index(at), "outside of the array")
             }
             NoElement::Count { wanted } => {

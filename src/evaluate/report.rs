@@ -34,7 +34,9 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
         }
         self.reports += 1;
-        self.diagnostics.push(diagnostic);
+        if !self.diagnostics.turns_of(&diagnostic) {
+            self.diagnostics.push(diagnostic);
+        }
         Reported
     }
 

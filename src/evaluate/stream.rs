@@ -6,7 +6,9 @@
 use std::rc::Rc;
 
 use crate::source::{ExpansionId, ExpansionKind, FileId, Site, Span};
-use crate::syntax::ast::{DirectiveId, ExpressionId, ExpressionKind, Item, ItemKind, Items};
+use crate::syntax::ast::{
+    DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
+};
 use crate::vocabulary::Word;
 
 use super::enclosure::Contents;
@@ -387,6 +389,10 @@ impl Evaluator<'_> {
                     // Reported where it happened; the statement is the fault boundary.
                     let _: Outcome<()> = self.directive(&here, id);
                     (self.taken, self.silent) = (taken, silent);
+                    // Its `;` is no part of the block that it stands in.
+                    if let DirectiveKind::Version(_) = here.unit.ast.directive(id).kind {
+                        self.pass(ItemKind::Semicolon);
+                    }
                     continue;
                 }
             };

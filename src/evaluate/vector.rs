@@ -80,7 +80,12 @@ impl Evaluator<'_> {
             return Ok(Value::Poison(poison));
         }
         match (Components::first(count, numbers), numbers.get(..count)) {
-            (Some(components), _) => Ok(Value::Vector(components)),
+            (Some(vector), _) => {
+                if count == 2 {
+                    self.lint_typed_difference(here, components, span);
+                }
+                Ok(Value::Vector(vector))
+            }
             // `<1>` is one number in brackets; POV-Ray takes it so too.
             (None, Some([number])) => Ok(Value::Number(*number)),
             (None, Some([])) => {

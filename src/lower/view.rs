@@ -10,7 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::math::{Matrix, Vector};
 use crate::scene::CameraItemKind;
-use crate::shape::Bounds;
+use crate::shape::{Bounds, Shape};
 use crate::world::{Camera, CameraKind, Light, LightKind, Object};
 
 /// Where objects are that are not in view.
@@ -86,9 +86,14 @@ impl Lowering<'_, '_> {
         };
         let contains =
             |solid: u32, place| world.whole_contains(&world.objects[solid as usize], place);
+        // Under a ground it is as dark as in a room.
+        let is_plane = |solid: u32| {
+            let object = &world.objects[solid as usize];
+            object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
+        };
         let is_shut = |solid: u32| {
             world.parts(solid).iter().all(is_dark)
-                && bounds(world, solid).is_some()
+                && (bounds(world, solid).is_some() || is_plane(solid))
                 && !self.is_inverse(solid)
                 && contains(solid, here)
         };

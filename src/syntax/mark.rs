@@ -67,9 +67,9 @@ impl<'a> Nest<'a> {
             | Mark::Or => {
                 let Some((operator, in_sums)) = expression::binary(mark) else { return };
                 self.before_operator(span);
-                // `==` has been told.
-                self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
                 if !in_sums && !full {
+                    // `==` has been told.
+                    self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
                     self.only_in_parentheses(span);
                 }
                 self.operator(OperatorKind::Binary(operator), span);

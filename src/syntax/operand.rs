@@ -57,10 +57,13 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn word(&mut self, word: Word, span: Span) {
-        // Where a value is wanted, one that was declared though it cannot be: that has been told.
-        let is_wanted = self.top().state == State::Wanting;
-        if is_wanted && word.role() == Role::Statement && self.names.contains_key(self.slice(span))
-        {
+        // One that was declared though it cannot be, where a value is wanted: that has been told.
+        let is_name = match word.role() {
+            Role::Statement => self.top().state == State::Wanting,
+            Role::Value => !matches!(word, Word::X | Word::Y | Word::Z),
+            Role::Function { .. } => false,
+        };
+        if is_name && self.names.contains_key(self.slice(span)) {
             return self.named(span, false);
         }
         match word.role() {

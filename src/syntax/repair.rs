@@ -12,7 +12,7 @@ mod opener;
 mod outside;
 
 use self::ends::match_directives;
-use self::opener::open_missing;
+use self::opener::{open_missing, open_objects};
 use self::outside::Outside;
 use super::balance::{Opener, Turn, turn};
 use super::layout::Layout;
@@ -32,7 +32,7 @@ pub(super) fn repair(
 ) -> Vec<Token> {
     let braces = |tokens: &[Token]| surplus(tokens)[Bracket::Brace as usize];
     let tokens = match braces(&tokens) < 0 {
-        true => open_missing(tokens, file, diagnostics),
+        true => open_missing(open_objects(tokens, text, file, diagnostics), file, diagnostics),
         false => tokens,
     };
     let layout = Layout::of(&tokens, text);

@@ -64,6 +64,9 @@ impl<'a> Nest<'a> {
     /// Reports a word of the language where a new name was wanted, and takes it for a name.
     pub(super) fn reserved(&mut self, span: Span) -> NameId {
         let text = self.slice(span);
+        if self.names.contains_key(text) {
+            return self.name(text);
+        }
         let mut capital = text.to_owned();
         if let Some(first) = capital.get_mut(..1) {
             first.make_ascii_uppercase();

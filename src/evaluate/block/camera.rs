@@ -79,10 +79,14 @@ impl Evaluator<'_> {
                 CameraItemKind::Sky(self.direction_after(token, "the sky's direction")?.value)
             }
             Word::Up => {
-                CameraItemKind::Up(self.direction_after(token, "the picture's height")?.value)
+                let given = self.direction_after(token, "the picture's height")?;
+                self.lint_lone_side(&given, word, 'y');
+                CameraItemKind::Up(given.value)
             }
             Word::Right => {
-                CameraItemKind::Right(self.direction_after(token, "the picture's width")?.value)
+                let given = self.direction_after(token, "the picture's width")?;
+                self.lint_lone_side(&given, word, 'x');
+                CameraItemKind::Right(given.value)
             }
             Word::Direction => {
                 CameraItemKind::Direction(self.direction_after(token, "the lens's axis")?.value)

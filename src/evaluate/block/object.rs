@@ -194,19 +194,24 @@ impl Evaluator<'_> {
     /// `object { Name … }` or `object { sphere { … } … }`.
     fn object_use(&mut self, token: &Token) -> Outcome<ObjectKind> {
         self.skip_commas();
-        let Some(next) = self.next() else {
+        let Some(next) = self.peek().cloned() else {
             return Err(self.expected("a declared object", None, (&token.here, token.span)));
         };
         let value = match next.kind {
             TokenKind::Word(word)
                 if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
             {
+                self.next();
                 self.object(&next, word)?
             }
-            TokenKind::Expression(id) => match self.misspelt_block(&next, id) {
-                Some(reported) => return Err(reported),
-                None => self.expression(&next.here, id)?,
-            },
+            TokenKind::Expression(id) => {
+                self.next();
+                match self.misspelt_block(&next, id) {
+                    Some(reported) => return Err(reported),
+                    None => self.expression(&next.here, id)?,
+                }
+            }
+            // It stays, and is read as what it is.
             _ => {
                 return Err(self.expected(
                     "a declared object",

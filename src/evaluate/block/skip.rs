@@ -65,7 +65,7 @@ impl Evaluator<'_> {
                 TokenKind::Word(_) | TokenKind::Semicolon => break,
                 TokenKind::Expression(id) => {
                     if let ExpressionKind::Name(name) = token.here.unit.expression(id).kind
-                        && self.scopes.slot(token.here.symbol(name)).is_none()
+                        && self.is_no_part(token.here.symbol(name))
                     {
                         break;
                     }
@@ -84,6 +84,18 @@ impl Evaluator<'_> {
             }
         }
         self.take_back(before);
+    }
+
+    /// Whether a name is rather the next mistake than a part of a shape.
+    fn is_no_part(&self, symbol: Symbol) -> bool {
+        use super::super::value::Value;
+        match self.scopes.look(symbol) {
+            None => self.scopes.slot(symbol).is_none(),
+            Some(Value::Texture(_) | Value::Pigment(_) | Value::Finish(_) | Value::Object(_)) => {
+                true
+            }
+            Some(_) => false,
+        }
     }
 
     /// As [`Self::skip_parts`], for what is left of a shape, with the words that only its parts are.

@@ -87,21 +87,32 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `rotate y 45`, as other tools write it.
+    /// `rotate y 45` and `rotate 45, y`, as other tools write it.
     fn no_angle_after(&mut self, given: &Given<Vector>) -> Outcome<()> {
+        let is_number = given.expression.is_some_and(|id| {
+            matches!(given.here.unit.expression(id).kind, ExpressionKind::Number(_))
+        });
+        if is_number {
+            self.skip_commas();
+        }
         let Some(Token { kind: TokenKind::Expression(id), span, here }) = self.peek().cloned()
         else {
             return Ok(());
         };
-        if !matches!(here.unit.expression(id).kind, ExpressionKind::Number(_)) {
-            return Ok(());
-        }
+        let (first, second) = (self.sources.text(given.span), self.sources.text(span));
+        let (right, label) = match here.unit.expression(id).kind {
+            ExpressionKind::Number(_) if !is_number => {
+                (format!("{second}*{first}"), "expected no number after the vector")
+            }
+            ExpressionKind::Word(Word::X | Word::Y | Word::Z) if is_number => {
+                (format!("{first}*{second}"), "expected no vector after the number")
+            }
+            _ => return Ok(()),
+        };
         self.next();
-        let (axis, angle) = (self.sources.text(given.span), self.sources.text(span));
-        let right = format!("{angle}*{axis}");
         let diagnostic =
             Diagnostic::new(Code::ExtraPart, "`rotate` takes one vector: degrees about x, y and z")
-                .at(span, "expected no number after the vector")
+                .at(span, label)
                 .help(format!("write `rotate {right}`"))
                 .fix(given.span.to(span), right);
         Err(self.report(&here, diagnostic))

@@ -301,7 +301,8 @@ impl Evaluator<'_> {
             )
             .at(token.span, format!("the parts of `{of}` come first"))
         } else if has_block {
-            let is_object = matches!(word.family(), Family::Shape | Family::Csg);
+            let is_object =
+                matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object;
             let label = match home(word).filter(|home| *home != word) {
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()

@@ -239,10 +239,23 @@ impl Evaluator<'_> {
                 ExpressionKind::Number(degrees) => {
                     return !shifted && degrees % 15.0 == 0.0 && degrees <= 720.0;
                 }
-                ExpressionKind::Name(name) => return self.counts_degrees(here, name),
+                ExpressionKind::Name(name) => {
+                    return self.counts_degrees(here, name)
+                        || self.is_degrees_beside(unit.expression(id).span);
+                }
                 _ => return false,
             }
         }
+    }
+
+    /// `<cos(radians(A)), sin(A)>`: whether the same line turns a name from degrees.
+    fn is_degrees_beside(&self, name: Span) -> bool {
+        let text = &self.sources.get(name.file).text;
+        let (before, behind) = text.split_at(name.start as usize);
+        let line = &before[before.rfind('\n').map_or(0, |at| at + 1)..];
+        let rest = behind.split('\n').next().unwrap_or("");
+        let turned = format!("radians({})", self.sources.text(name));
+        line.contains(&turned) || rest.contains(&turned)
     }
 
     /// Whether a name counts once round, or half, by whole degrees: `#for (I, 0, 360, 30)`.

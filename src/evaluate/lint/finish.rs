@@ -138,8 +138,15 @@ impl Evaluator<'_> {
 
 fn percentage_of(span: Span, name: &str, value: f64) -> Diagnostic {
     let part = format!("{}", value / 100.0);
-    Diagnostic::new(Code::UnlikelyFinish, format!("this `{name}` looks like a percentage"))
-        .at(span, "expected 0 to 1")
-        .help(format!("write `{part}`"))
-        .fix(span, part)
+    let diagnostic =
+        Diagnostic::new(Code::UnlikelyFinish, format!("this `{name}` looks like a percentage"))
+            .at(span, "expected 0 to 1")
+            .help(format!("write `{part}`"))
+            .fix(span, part);
+    match name {
+        "phong" => {
+            diagnostic.help(format!("or did you mean `phong_size {value}`, how small it is?"))
+        }
+        _ => diagnostic,
+    }
 }

@@ -4,8 +4,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::Given;
 use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Here};
+use crate::math::Vector;
 use crate::source::Span;
-use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::syntax::ast::{Argument, Arguments, BinaryOperator, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
@@ -13,10 +14,32 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_short_vector(&mut self, here: &Here, id: ExpressionId) {
         let expression = here.unit.expression(id);
         let ExpressionKind::Vector(components) = expression.kind else { return };
-        let span = expression.span;
-        if here.unit.ast.arguments(components).len() != 2 {
-            return;
+        if here.unit.ast.arguments(components).len() == 2 {
+            self.tell_lost_comma(here, expression.span);
         }
+    }
+
+    /// `#declare P = <0, 0.8 -0.5>`: nobody takes one number from another with a sign that touches it.
+    pub(in crate::evaluate) fn lint_typed_difference(
+        &mut self,
+        here: &Here,
+        components: Arguments,
+        span: Span,
+    ) {
+        let number = |id| matches!(here.unit.expression(id).kind, ExpressionKind::Number(_));
+        let is_typed = |argument: &Argument| match *argument {
+            Argument::Expression(id) => match here.unit.expression(id).kind {
+                ExpressionKind::Binary(BinaryOperator::Subtract, a, b) => number(a) && number(b),
+                _ => false,
+            },
+            Argument::Items(_) => false,
+        };
+        if here.unit.ast.arguments(components).iter().any(is_typed) {
+            self.tell_lost_comma(here, span);
+        }
+    }
+
+    fn tell_lost_comma(&mut self, here: &Here, span: Span) {
         let Some((value, parted)) = self.lost_comma(span) else { return };
         let before = self.sources.text(Span { end: value.start, ..span });
         let behind = self.sources.text(Span { start: value.end, ..span });
@@ -27,6 +50,27 @@ impl Evaluator<'_> {
             .help(format!("is a comma missing? write `{right}`"))
             .fix(value, parted);
         self.report(here, diagnostic);
+    }
+
+    /// `right 16/9`, typed: a side of the picture is a vector.
+    pub(in crate::evaluate) fn lint_lone_side(
+        &mut self,
+        given: &Given<Vector>,
+        word: Word,
+        axis: char,
+    ) {
+        let text = self.sources.text(given.span);
+        let is_typed = text.chars().all(|c| c.is_ascii_digit() || " ./*()".contains(c));
+        if !is_typed {
+            return;
+        }
+        let (name, right) = (word.name(), format!("{text}*{axis}"));
+        let message = format!("`{name}` is a vector, and a number goes along all three axes");
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(given.span, format!("this is <{text}, {text}, {text}>"))
+            .help(format!("write `{name} {right}`"))
+            .fix(given.span, right);
+        self.report(&given.here, diagnostic);
     }
 
     /// `rgbt <1, 1, 1>`: the word promises more than the vector has.

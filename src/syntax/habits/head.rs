@@ -29,6 +29,49 @@ impl Reader<'_> {
         }
     }
 
+    /// `#macro Ball(Pos, Rad = 1)`: a parameter with a value of its own.
+    pub(super) fn default_value(&mut self, meant: &mut [Token]) -> bool {
+        let round = TokenKind::Mark(Mark::Open(Bracket::Round));
+        let names = meant.iter().rev().take_while(|token| {
+            matches!(token.kind, TokenKind::Name | TokenKind::Mark(Mark::Comma))
+        });
+        let Some(open) = meant.len().checked_sub(names.count() + 1) else { return false };
+        let is_head = meant[open].kind == round
+            && open >= 2
+            && meant[open - 2].kind == TokenKind::Directive(Head::Macro);
+        let Some(name) = meant.last().filter(|last| is_head && last.kind == TokenKind::Name) else {
+            return false;
+        };
+        let mut depth = 0;
+        let mut length = 1;
+        while let Some(kind) = self.kind(length) {
+            match kind {
+                TokenKind::Mark(Mark::Open(_)) => depth += 1,
+                TokenKind::Mark(Mark::Close(_) | Mark::Comma) if depth == 0 => break,
+                TokenKind::Mark(Mark::Close(_)) => depth -= 1,
+                TokenKind::Directive(_) => return false,
+                _ => {}
+            }
+            length += 1;
+        }
+        let value = self.span(0, length - 1);
+        let name = self.text.get(name.start as usize..name.end as usize).unwrap_or("");
+        let given =
+            self.text.get(value.start as usize + 1..value.end as usize).unwrap_or("").trim();
+        let diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            "a parameter of a macro has no value of its own",
+        )
+        .at(value, "expected `,` or `)`")
+        .help(format!(
+            "`optional {name}` may be left out; the macro then sets it: \
+                     `#ifndef ({name}) #local {name} = {given}; #end`"
+        ));
+        self.diagnostics.push(diagnostic);
+        self.at += length;
+        true
+    }
+
     /// `#default` in a `#switch`, where `#else` is meant.
     fn default_case(&mut self, meant: &mut Vec<Token>) -> bool {
         if self.is(1, Mark::Open(Bracket::Brace)) {

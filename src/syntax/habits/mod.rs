@@ -213,6 +213,7 @@ impl Reader<'_> {
             }
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
+            TokenKind::Mark(Mark::Equal) if self.default_value(meant) => true,
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)

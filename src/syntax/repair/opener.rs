@@ -1,10 +1,12 @@
-//! Blocks whose `{` was left out, although their `}` is there: `pigment rgb 1 }`.
+//! Blocks whose `{` was left out, although their `}` is there: `pigment rgb 1 }`, `Engine scale 2 }`.
 //!
-//! **In:** tokens with more `}` than `{`. **Out:** the same with a `{` after each word that lacks it.
+//! **In:** tokens with more `}` than `{`. **Out:** the same with a `{` after each word that lacks it, and
+//! `object {` before each name.
 //! **Invariant:** a `{` is added only where a `}` without a partner follows in the same statement.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
+use crate::syntax::layout::Layout;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
@@ -38,6 +40,79 @@ pub(super) fn open_missing(
         }
     }
     opened
+}
+
+/// Adds `object {` before declared names whose `}` is there: `Engine translate x }`, a line of its own at
+/// the top level or among objects.
+pub(super) fn open_objects(
+    tokens: Vec<Token>,
+    text: &str,
+    file: FileId,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Token> {
+    let surplus = super::surplus(&tokens)[Bracket::Brace as usize];
+    let lone = lone_objects(&tokens, &Layout::of(&tokens, text), surplus.unsigned_abs() as usize);
+    if lone.is_empty() {
+        return tokens;
+    }
+    let mut opened = Vec::with_capacity(tokens.len() + 2 * lone.len());
+    let mut next = lone.into_iter().peekable();
+    for (at, token) in tokens.into_iter().enumerate() {
+        if next.next_if_eq(&at).is_some() {
+            let span = Span::new(file, token.start as usize, token.end as usize);
+            let name = text.get(span.range()).unwrap_or("");
+            diagnostics.push(
+                Diagnostic::new(Code::MissingPart, format!("expected `object {{` before `{name}`"))
+                    .at(span, "its block is closed, and not opened")
+                    .help(Word::Object.sentence())
+                    .fix(Span { end: span.start, ..span }, "object { "),
+            );
+            for kind in [TokenKind::Word(Word::Object), TokenKind::Mark(Mark::Open(Bracket::Brace))]
+            {
+                opened.push(Token { kind, start: token.start, end: token.start });
+            }
+        }
+        opened.push(token);
+    }
+    opened
+}
+
+/// At most so many names before which `object {` is missing.
+fn lone_objects(tokens: &[Token], layout: &Layout, most: usize) -> Vec<usize> {
+    let open = TokenKind::Mark(Mark::Open(Bracket::Brace));
+    let close = TokenKind::Mark(Mark::Close(Bracket::Brace));
+    let (mut around, mut lone) = (Vec::new(), Vec::new());
+    for (at, token) in tokens.iter().enumerate() {
+        let before = at.checked_sub(1).map(|before| tokens[before].kind);
+        match token.kind {
+            kind if kind == open => around.push(before),
+            kind if kind == close => drop(around.pop()),
+            TokenKind::Name if lone.len() < most && layout.place(at).first => {
+                let among_objects = match around.last() {
+                    None => true,
+                    Some(Some(TokenKind::Word(word))) => word.family() == Family::Csg,
+                    Some(_) => false,
+                };
+                let changed = tokens.get(at + 1).is_some_and(|next| {
+                    matches!(next.kind, TokenKind::Word(word) if word.role() == Role::Statement)
+                });
+                // Its line closes once more than it opens, at its end.
+                let mut line = (at + 1..tokens.len()).take_while(|&next| !layout.place(next).first);
+                let mut depth = 0_i32;
+                let end = line.find(|&next| {
+                    depth += i32::from(tokens[next].kind == open)
+                        - i32::from(tokens[next].kind == close);
+                    depth < 0
+                });
+                if among_objects && changed && end.is_some_and(|end| layout.place(end + 1).first) {
+                    lone.push(at);
+                    around.push(Some(TokenKind::Word(Word::Object)));
+                }
+            }
+            _ => {}
+        }
+    }
+    lone
 }
 
 /// The words after which a `{` is missing.

@@ -21,7 +21,7 @@ impl Repair<'_> {
     /// Notes where what is open seems to have ended, from the innermost outward.
     pub(super) fn look_for_outside(&mut self, at: usize) {
         let place = self.layout.place(at);
-        let begins = place.first && self.begins_statement(at);
+        let begins = place.first && (self.begins_statement(at) || self.is_call(at));
         for level in (0..self.open.len()).rev() {
             let known = self.open[level].outside;
             if known.is_none_or(|outside| !outside.certain) {
@@ -98,6 +98,13 @@ impl Repair<'_> {
             }
             _ => false,
         }
+    }
+
+    /// `Disk(0, Red)`, as if it were a macro.
+    fn is_call(&self, at: usize) -> bool {
+        let round = TokenKind::Mark(Mark::Open(Bracket::Round));
+        self.tokens[at].kind == TokenKind::Name
+            && self.tokens.get(at + 1).is_some_and(|next| next.kind == round)
     }
 
     /// False where the block that opens at `opener` cannot hold the statement at `at`: an object stands at
