@@ -29,6 +29,36 @@ impl Reader<'_> {
         }
     }
 
+    /// `function(x) { if (x > 0) { x } else { 0 } }`: all of it is one mistake.
+    pub(super) fn choice_in_formula(&mut self, meant: &mut Vec<Token>) -> bool {
+        let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
+        let Some(open) = meant.last().filter(|last| last.kind == brace).copied() else {
+            return false;
+        };
+        let names = meant.iter().rev().skip(1).skip_while(|token| {
+            matches!(
+                token.kind,
+                TokenKind::Name | TokenKind::Mark(_) | TokenKind::Word(Word::X | Word::Y | Word::Z)
+            ) && token.kind != brace
+        });
+        if !names.clone().next().is_some_and(|word| word.kind == TokenKind::Word(Word::Function)) {
+            return false;
+        }
+        let place = self.tokens.partition_point(|token| token.start < open.start);
+        let Some(close) = self.closer(place) else { return false };
+        let diagnostic = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            "a function is one formula, and has no `if`",
+        )
+        .at(self.span(0, 0), "expected a value")
+        .help("one of two values: `(x > 0 ? x : 0)`, or `select(x, 0, x)`");
+        self.diagnostics.push(diagnostic);
+        // Some value stands for the formula.
+        meant.push(Token { kind: TokenKind::Word(Word::Pi), ..self.tokens[self.at] });
+        self.at = close;
+        true
+    }
+
     /// `#macro Ball(Pos, Rad = 1)`: a parameter with a value of its own.
     pub(super) fn default_value(&mut self, meant: &mut [Token]) -> bool {
         let round = TokenKind::Mark(Mark::Open(Bracket::Round));

@@ -242,6 +242,9 @@ impl Reader<'_> {
         }
         let name = word.name();
         let span = self.span(0, 0);
+        if word == Word::If && self.choice_in_formula(meant) {
+            return true;
+        }
         if word == Word::For && self.counting(meant) {
             return true;
         }
@@ -301,6 +304,11 @@ impl Reader<'_> {
         if !self.is(ahead, Mark::Open(bracket)) {
             return None;
         }
+        self.closer(self.at + ahead).map(|close| close - self.at)
+    }
+
+    /// Where the bracket that opens at a token closes.
+    fn closer(&self, opener: usize) -> Option<usize> {
         let closers = self.closers.get_or_init(|| {
             let (mut open, mut closers) = ([vec![], vec![], vec![]], HashMap::new());
             for (at, token) in self.tokens.iter().enumerate() {
@@ -316,6 +324,6 @@ impl Reader<'_> {
             }
             closers
         });
-        closers.get(&(self.at + ahead)).map(|close| close - self.at)
+        closers.get(&opener).copied()
     }
 }
