@@ -1,6 +1,6 @@
 //! Operands: literals, names, words, calls, and runs of numbers.
 
-use super::ast::{Callee, ExpressionKind, Item, ItemKind};
+use super::ast::{Callee, ExpressionKind, Item, ItemKind, NameId};
 use super::nest::{FrameKind, Nest, State};
 use super::numbers::{self, Piece, Pieces};
 use super::token::{Bracket, Mark, Token, TokenKind};
@@ -56,6 +56,22 @@ impl<'a> Nest<'a> {
         self.open(FrameKind::Call(callee), span, full);
     }
 
+    /// `2*scale`, where `Scale` is a name and a value is wanted.
+    fn name_but_for_case(&mut self, span: Span) -> Option<NameId> {
+        let text = self.slice(span);
+        let alike = self.names.iter().filter(|(name, _)| name.eq_ignore_ascii_case(text));
+        let (&name, &id) = alike.filter(|(name, _)| **name != text).min()?;
+        let diagnostic = Diagnostic::new(
+            Code::UndeclaredName,
+            format!("`{text}` is a word of the language, and no value"),
+        )
+        .at(span, "expected a value")
+        .help(format!("did you mean `{name}`?"))
+        .fix(span, name);
+        self.report(diagnostic);
+        Some(id)
+    }
+
     pub(super) fn word(&mut self, word: Word, span: Span) {
         // One that was declared though it cannot be, where a value is wanted: that has been told.
         let is_name = match word.role() {
@@ -65,6 +81,12 @@ impl<'a> Nest<'a> {
         };
         if is_name && self.names.contains_key(self.slice(span)) {
             return self.named(span, false);
+        }
+        if self.top().state == State::Wanting
+            && word.role() == Role::Statement
+            && let Some(name) = self.name_but_for_case(span)
+        {
+            return self.operand(ExpressionKind::Name(name), span, true);
         }
         match word.role() {
             Role::Value => self.operand(ExpressionKind::Word(word), span, false),

@@ -7,10 +7,12 @@
 use std::collections::{HashMap, HashSet};
 
 mod blame;
+mod early;
 mod ends;
 mod opener;
 mod outside;
 
+use self::early::close_later;
 use self::ends::match_directives;
 use self::opener::{open_missing, open_objects};
 use self::outside::Outside;
@@ -32,7 +34,11 @@ pub(super) fn repair(
 ) -> Vec<Token> {
     let braces = |tokens: &[Token]| surplus(tokens)[Bracket::Brace as usize];
     let tokens = match braces(&tokens) < 0 {
-        true => open_missing(open_objects(tokens, text, file, diagnostics), file, diagnostics),
+        true => {
+            let tokens = open_objects(tokens, text, file, diagnostics);
+            let tokens = close_later(tokens, text, file, diagnostics);
+            open_missing(tokens, file, diagnostics)
+        }
         false => tokens,
     };
     let layout = Layout::of(&tokens, text);

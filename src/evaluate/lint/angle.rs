@@ -6,7 +6,7 @@ use crate::evaluate::block::Given;
 use crate::evaluate::stream::FrameKind;
 use crate::evaluate::{Evaluator, Here};
 use crate::math::Vector;
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::syntax::ast::{
     Argument, BinaryOperator, Callee, DirectiveKind, ExpressionId, ExpressionKind, NameId,
     UnaryOperator,
@@ -19,6 +19,9 @@ const FULL_TURN: f64 = 6.5;
 const TYPED: f64 = 0.0011;
 /// Turns of a counter, in degrees, that look like one: 0, 30 … 330 or 360.
 const FEWEST_DEGREES: f64 = 5.0;
+
+/// What people call angles.
+const ANGLES: [&str; 6] = ["angle", "theta", "phi", "alpha", "deg", "tilt"];
 
 /// Whether a number was typed as a fraction of π: 0.785, 1.5708; with two digits only where it is known.
 fn is_typed_in_radians(angle: f64) -> bool {
@@ -203,10 +206,11 @@ impl Evaluator<'_> {
         angle: f64,
     ) {
         // Nothing else is worth a look, and these are often called.
-        if angle.fract() != 0.0 || angle.abs() < FEWEST_DEGREES {
+        if angle.abs() < FEWEST_DEGREES {
             return;
         }
-        if !self.is_typed_in_degrees(here, id) {
+        let typed = angle.fract() == 0.0 && self.is_typed_in_degrees(here, id);
+        if !typed && !self.is_called_an_angle(here, id, angle) {
             return;
         }
         let span = here.unit.expression(id).span;
@@ -246,6 +250,35 @@ impl Evaluator<'_> {
                 _ => return false,
             }
         }
+    }
+
+    /// `sin(Theta/2)` with 104.5 for `Theta`: an angle by its name, and of less than a turn in degrees.
+    fn is_called_an_angle(&self, here: &Here, id: ExpressionId, angle: f64) -> bool {
+        let unit = &here.unit;
+        let (name, whole) = match unit.expression(id).kind {
+            ExpressionKind::Name(_) => (id, angle),
+            ExpressionKind::Binary(BinaryOperator::Divide, left, right) => {
+                match number(here, right) {
+                    Some(part) => (left, angle * part),
+                    None => return false,
+                }
+            }
+            _ => return false,
+        };
+        let ExpressionKind::Name(name) = unit.expression(name).kind else { return false };
+        let symbol = here.symbol(name);
+        let called = self.scopes.name(symbol).to_ascii_lowercase();
+        let is_angle = ANGLES.iter().any(|angle| called.contains(angle));
+        if !is_angle || !(2.0 * FULL_TURN..=360.0).contains(&whole.abs()) {
+            return false;
+        }
+        // What is computed, or counted, may go round often.
+        self.scopes.declared(symbol).is_some_and(|declared| {
+            let Site { span, .. } = declared.site;
+            let text = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
+            let value = text.trim_start().strip_prefix('=').unwrap_or("");
+            is_literal(value.split([';', '\n']).next().unwrap_or("").trim())
+        })
     }
 
     /// `<cos(radians(A)), sin(A)>`: whether the same line turns a name from degrees.
