@@ -5,8 +5,15 @@ use smallvec::SmallVec;
 use crate::math::Vector;
 use crate::shape::body::Local;
 use crate::shape::csg::Node;
-use crate::shape::{Bounds, Shape};
+use crate::shape::{Bounds, Plane, Shape};
 use crate::world::World;
+
+/// A shape that is a part of a whole by itself.
+#[derive(Debug, Clone, Copy)]
+struct Leaf {
+    object: u32,
+    inverse: bool,
+}
 
 /// A box that holds a solid: one of its sides is negative where the solid is empty, and ∞ where it has no
 /// end.
@@ -25,13 +32,25 @@ impl Extent {
         let whole = &world.wholes[whole as usize];
         let mut leaves = whole.leaves();
         let mut stack: SmallVec<[Self; 16]> = SmallVec::new();
+        // Of each of the stack the leaf that it is, if it is one.
+        let mut lone: SmallVec<[Option<Leaf>; 16]> = SmallVec::new();
         for node in &whole.nodes {
+            let parts = match *node {
+                Node::Leaf { .. } => 0,
+                Node::Union(count) | Node::Merge(count) | Node::Intersection(count) => count,
+                Node::Clip { .. } => 2,
+            };
+            let parts = lone.drain(lone.len().saturating_sub(parts as usize)..);
+            let parts: SmallVec<[Leaf; 16]> = parts.flatten().collect();
+            lone.push(None);
             match *node {
                 Node::Leaf { inverse } => {
-                    let leaf = leaves.next().unwrap_or_default() as u32;
+                    let object = leaves.next().unwrap_or_default() as u32;
+                    lone.pop();
+                    lone.push(Some(Leaf { object, inverse }));
                     stack.push(match inverse {
                         true => Self::EVERYWHERE,
-                        false => Self::of_part(world, leaf),
+                        false => Self::of_part(world, object),
                     });
                 }
                 Node::Union(count) | Node::Merge(count) => {
@@ -48,8 +67,38 @@ impl Extent {
                     combine(&mut stack, 2, Self::EVERYWHERE, |_, _| Self::EVERYWHERE)
                 }
             }
+            if let (Node::Intersection(_) | Node::Clip { inverse: false }, Some(all)) =
+                (node, stack.last_mut())
+                && all.bounds().is_none()
+            {
+                *all = all.and(Self::clipped(world, &parts));
+            }
         }
         stack.pop().unwrap_or(Self::NOWHERE)
+    }
+
+    /// Of what is in all of some leaves, by the quadrics among them that planes cut.
+    fn clipped(world: &World, parts: &[Leaf]) -> Self {
+        let planes =
+            parts.iter().filter_map(|leaf| match world.objects[leaf.object as usize].shape {
+                Shape::Plane(i) => {
+                    let Plane { normal, distance } = world.planes[i as usize];
+                    Some(match leaf.inverse {
+                        true => Plane { normal: -normal, distance: -distance },
+                        false => Plane { normal, distance },
+                    })
+                }
+                _ => None,
+            });
+        let planes: Vec<Plane> = planes.collect();
+        let quadrics =
+            parts.iter().filter_map(|leaf| match world.objects[leaf.object as usize].shape {
+                Shape::Placed(i) if !leaf.inverse && !planes.is_empty() => {
+                    world.placed[i as usize].clipped_bounds(&planes)
+                }
+                _ => None,
+            });
+        quadrics.fold(Self::EVERYWHERE, |all, bounds| all.and(Self(bounds)))
     }
 
     /// Of all that a part of a whole counts for: what is seen of a disc has an end, what is below it has

@@ -100,7 +100,8 @@ impl Lowering<'_, '_> {
         let comes_in = |solid: u32, light: &Light| match light.kind {
             _ if !light.casts_shadows => true,
             LightKind::Point { position } => contains(solid, position),
-            LightKind::Directional { .. } | LightKind::Parallel { .. } => false,
+            // It may come from as far below.
+            LightKind::Directional { .. } | LightKind::Parallel { .. } => is_plane(solid),
         };
         let around = world.solids().find(|&solid| {
             is_shut(solid) && !world.lights.iter().any(|light| comes_in(solid, light))

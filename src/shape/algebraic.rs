@@ -4,11 +4,13 @@
 //! however far away. It may have no end, and begin inside.
 
 mod along;
+mod clipped;
 mod closed;
 
 use std::fmt::Write;
 
 use along::Line;
+pub use clipped::HalfSpace;
 use closed::Closed;
 
 use super::U;

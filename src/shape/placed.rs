@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::algebraic::HalfSpace;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
-use super::{Bounds, Ray, SurfacePoint, U};
+use super::{Bounds, Plane, Ray, SurfacePoint, U};
 use crate::math::placement::Placement;
 use crate::math::{UnitVector, Vector, Vector3};
 
@@ -124,16 +125,39 @@ impl Placed {
     /// `None` where it has no end. Along each axis the body's extent along that row of
     /// `world_from_local`.
     pub fn bounds(&self) -> Option<Bounds> {
-        let Placement { centre, world_from_local, .. } = self.placement;
-        let rows = world_from_local.transpose();
+        let rows = self.placement.world_from_local.transpose();
         let extents = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| self.body.extent(row));
         let low = Vector::from_array(extents.map(|(low, _)| low));
         let high = Vector::from_array(extents.map(|(_, high)| high));
         if !(low.is_finite() && high.is_finite()) {
             return None;
         }
+        Some(self.around((low, high)))
+    }
+
+    /// As [`Self::bounds`], of what of a quadric lies on the inner sides of planes.
+    pub fn clipped_bounds(&self, planes: &[Plane]) -> Option<Bounds> {
+        let Body::Algebraic(quadric) = &*self.body else { return None };
+        let Placement { centre, world_from_local, .. } = self.placement;
+        let rows = world_from_local.transpose();
+        let local = |plane: &Plane| {
+            let normal = plane.normal.get();
+            let moved = normal.dot(centre);
+            let size = plane.distance.abs() + normal.abs_dot(centre);
+            HalfSpace { normal: rows * normal, offset: plane.distance - moved, size }
+        };
+        let spaces: Vec<HalfSpace> = planes.iter().map(local).collect();
+        let extents = quadric.clipped(&spaces, [rows.x_axis, rows.y_axis, rows.z_axis]);
+        let low = Vector::from_array(extents.map(|(low, _)| low));
+        let high = Vector::from_array(extents.map(|(_, high)| high));
+        (low.is_finite() && high.is_finite()).then(|| self.around((low, high)))
+    }
+
+    /// The box whose corners lie so far from the centre.
+    fn around(&self, (low, high): (Vector, Vector)) -> Bounds {
         let slack = (high.abs().max(low.abs())) * (32.0 * U * self.placement.condition());
-        Some(Bounds::around(centre + (low + high) * 0.5, (high - low) * 0.5, slack))
+        let middle = self.placement.centre + (low + high) * 0.5;
+        Bounds::around(middle, (high - low) * 0.5, slack)
     }
 
     pub fn contains(&self, point: Vector) -> bool {

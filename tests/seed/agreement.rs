@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use lucarne::color::Rgb;
-use lucarne::diagnostic::Diagnostics;
+use lucarne::diagnostic::{Code, Diagnostic, Diagnostics};
 use lucarne::lower::{LowerOptions, lower};
 use lucarne::math::Vector;
 use lucarne::math::transform::Step;
@@ -51,7 +51,9 @@ fn read(name: &str, text: &str) -> Scene {
 fn lowered(name: &str, scene: Scene) -> (World, Origins) {
     let mut diagnostics = Diagnostics::new(true);
     let lowered = lower(scene, &LowerOptions::default(), &mut diagnostics);
-    assert!(diagnostics.is_empty(), "{name}: {diagnostics:#?}");
+    // A camera of chance may stand below the ground.
+    let is_dark = |one: &Diagnostic| one.code == Code::NothingInView;
+    assert!(diagnostics.iter().all(is_dark), "{name}: {diagnostics:#?}");
     lowered
 }
 

@@ -43,10 +43,10 @@ facts! {
 
     an_index_outside_of_its_array_is_told:
         "#declare A = array[2] {1,2} P(A[2])"
-        => "the array has no such element: its indices go from 0 to 1";
+        => "the array has no element 2: its indices go from 0 to 1";
     a_negative_index_is_told:
         "#declare A = array[2] {1,2} #declare A[-1] = 4;"
-        => "the array has no such element: its indices go from 0 to 1";
+        => "the array has no element -1: its indices go from 0 to 1";
     an_element_that_was_never_set_is_told:
         "#declare A = array[2] #declare B = A[0];" => "this element of the array was never set";
     a_row_is_no_value:
