@@ -21,6 +21,7 @@ use super::layout::Layout;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::FileId;
+use crate::vocabulary::Word;
 
 /// How many tokens a vector of plain values has at most.
 const LONGEST_VECTOR: usize = 12;
@@ -286,8 +287,10 @@ impl Repair<'_> {
     fn vector_before(&self, at: usize) -> Option<usize> {
         let before = self.tokens[..at].iter().rev().take(LONGEST_VECTOR);
         let values = before.take_while(|token| match token.kind {
-            TokenKind::Number | TokenKind::Name => true,
-            TokenKind::Mark(mark) => matches!(mark, Mark::Comma | Mark::Dot | Mark::Minus),
+            TokenKind::Number | TokenKind::Name | TokenKind::Word(Word::Pi) => true,
+            TokenKind::Mark(mark) => {
+                matches!(mark, Mark::Comma | Mark::Dot | Mark::Minus | Mark::Star | Mark::Slash)
+            }
             _ => false,
         });
         let open = at.checked_sub(values.count() + 1)?;

@@ -345,8 +345,19 @@ impl Evaluator<'_> {
                 self.set_poison(super::super::value::Poison::new(not_built, site));
             }
         }
-        // Without any, the author knows the two that it has.
-        if given == 1 && self.poison.is_none() {
+        // `checker rgb 1; rgb 0`.
+        if given == 1
+            && let Some(sign) = self.next_if(|kind| matches!(kind, TokenKind::Semicolon))
+        {
+            let diagnostic =
+                Diagnostic::new(Code::UnexpectedCharacter, "commas part the colours of a pattern")
+                    .at(sign.span, "expected `,`")
+                    .help("replace the `;` with `,`")
+                    .fix(sign.span, ",");
+            self.report(&sign.here, diagnostic);
+            self.skip_color(token);
+        } else if given == 1 && self.poison.is_none() {
+            // Without any, the author knows the two that it has.
             self.lint_missing_color(token);
         }
         let alike = match said.as_slice() {

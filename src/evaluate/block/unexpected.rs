@@ -31,6 +31,13 @@ impl Evaluator<'_> {
                 let poison = Poison::new(*word, token.here.site(token.span));
                 match place.holds(*word) {
                     true => self.pass_not_built(token, *word),
+                    // No part of a light that is not built is one of a camera.
+                    false
+                        if place.word == Some(Word::LightSource)
+                            && word.family() == Family::Camera =>
+                    {
+                        self.unexpected_word(token, *word, place);
+                    }
                     false => self.skip_arguments(*word),
                 }
                 // What a pattern that is not built has goes with it.

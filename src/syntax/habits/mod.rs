@@ -46,6 +46,7 @@ pub(super) fn translate(
         dropped: HashMap::new(),
         ends_before: HashSet::new(),
         made: None,
+        named: None,
         closers: OnceCell::new(),
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
@@ -87,6 +88,8 @@ struct Reader<'a> {
     ends_before: HashSet<usize>,
     /// The call that makes a vector, as has been told with its declaration.
     made: Option<usize>,
+    /// Where the parenthesis of the last call opens whose arguments have names, as has been told.
+    named: Option<u32>,
     /// Where the bracket that opens at a token closes.
     closers: OnceCell<HashMap<usize, usize>>,
     /// How many directives lack their `#end`.
@@ -213,7 +216,13 @@ impl Reader<'_> {
             }
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
-            TokenKind::Mark(Mark::Equal) if self.default_value(meant) => true,
+            TokenKind::Mark(Mark::Equal)
+                if self.default_value(meant) || self.named_argument(meant) =>
+            {
+                true
+            }
+            TokenKind::Mark(Mark::Minus) => self.arrow(meant),
+            TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)

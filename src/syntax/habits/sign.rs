@@ -80,6 +80,99 @@ impl Reader<'_> {
         true
     }
 
+    /// `Path(0.5)->x`.
+    pub(super) fn arrow(&mut self, meant: &mut Vec<Token>) -> bool {
+        const PARTS: [&str; 10] = ["x", "y", "z", "u", "v", "t", "red", "green", "blue", "gray"];
+        let named = self.is(1, Mark::Greater)
+            && self.touches(1)
+            && self.kind(2).is_some()
+            && self.touches(2)
+            && PARTS.contains(&self.slice(2));
+        if !named {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "a component is taken by `.`, not by `->`")
+                .at(span, "expected `.`")
+                .help("replace it with `.`")
+                .fix(span, ".");
+        self.diagnostics.push(diagnostic);
+        meant.push(Token {
+            kind: TokenKind::Mark(Mark::Dot),
+            end: span.end,
+            ..self.tokens[self.at]
+        });
+        self.at += 2;
+        true
+    }
+
+    /// `/ the stick`: a line that begins with one stroke, behind a statement.
+    pub(super) fn half_comment(&mut self, meant: &[Token]) -> bool {
+        let ended = meant.last().is_none_or(|last| {
+            matches!(last.kind, TokenKind::Mark(Mark::Close(Bracket::Brace) | Mark::Semicolon))
+        });
+        let span = self.span(0, 0);
+        let before = self.text.get(..span.start as usize).unwrap_or("");
+        let begins = before.trim_end_matches([' ', '\t']).ends_with(['\n', '\r']);
+        let words = matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)));
+        if !ended || !begins || !words {
+            return false;
+        }
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, "a comment begins with `//`")
+            .at(span, "this is half of that")
+            .help("replace it with `//`")
+            .fix(span, "//");
+        self.diagnostics.push(diagnostic);
+        let rest = self.text.get(span.end as usize..).unwrap_or("");
+        let end = span.end as usize + rest.find(['\n', '\r']).unwrap_or(rest.len());
+        while self.tokens.get(self.at).is_some_and(|token| (token.start as usize) < end) {
+            self.at += 1;
+        }
+        true
+    }
+
+    /// `Peg(H = 3, R = 0.2)`: arguments by their names.
+    pub(super) fn named_argument(&mut self, meant: &mut Vec<Token>) -> bool {
+        let [.., before, name] = meant[..] else { return false };
+        let begins =
+            matches!(before.kind, TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)));
+        if name.kind != TokenKind::Name || !begins {
+            return false;
+        }
+        let mut depth = 0;
+        let open = meant.iter().rposition(|token| {
+            match token.kind {
+                TokenKind::Mark(Mark::Close(Bracket::Round)) => depth += 1,
+                TokenKind::Mark(Mark::Open(Bracket::Round)) => depth -= 1,
+                _ => {}
+            }
+            depth < 0
+        });
+        let Some(open) = open.filter(|open| *open > 0) else { return false };
+        let called = meant[open - 1];
+        let defined = open > 1 && meant[open - 2].kind == TokenKind::Directive(Head::Macro);
+        if called.kind != TokenKind::Name || defined || called.end != meant[open].start {
+            return false;
+        }
+        let span = Span { start: name.start, ..self.span(0, 0) };
+        // The first of a call speaks for the others.
+        if self.named.replace(meant[open].start) != Some(meant[open].start) {
+            let text = |token: Token| {
+                self.text.get(token.start as usize..token.end as usize).unwrap_or("").to_owned()
+            };
+            let message =
+                format!("`{}` takes its arguments in order, and not by their names", text(called));
+            let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "expected a value alone")
+                .help(format!("leave `{} =` out, and that of the others", text(name)));
+            self.diagnostics.push(diagnostic);
+        }
+        meant.pop();
+        self.at += 1;
+        true
+    }
+
     /// Whether a `>` stands before the parenthesis that closes next.
     fn closes_vector(&self, from: usize) -> bool {
         let rest = self.tokens.get(self.at + from..).unwrap_or_default();
