@@ -8,7 +8,7 @@ const MOST: u8 = 16;
 /// x ↦ xᵖ for x ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Power {
-    /// x to a whole number of at most [`MOST`], of the square root as often taken; or 1 over that.
+    /// x to a whole number of at most 16, of the square root as often taken; or 1 over that.
     Products {
         times: u8,
         roots: u8,
@@ -33,7 +33,7 @@ impl Power {
 
     /// xᵖ.
     ///
-    /// **Error:** of exponents to [`MOST`] |p| roundings and 5 more at most (k factors are rounded k − 1
+    /// **Error:** of exponents to 16 |p| roundings and 5 more at most (k factors are rounded k − 1
     /// times, the root under each of three once); of others that of [`pow`].
     pub fn of(self, x: f64) -> f64 {
         match self {
