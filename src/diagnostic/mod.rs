@@ -152,6 +152,8 @@ pub struct Diagnostics {
     list: Vec<Diagnostic>,
     /// Where in the list the messages of a code at a place are, in rising order; notes are not there.
     kept: HashMap<(Code, Option<Span>), Vec<usize>>,
+    /// How often a message at a place was one that is kept but for its numbers.
+    turned: HashMap<(Code, Option<Span>), usize>,
     levels: Levels,
     allowances: Vec<Allowance>,
 }
@@ -196,7 +198,8 @@ impl Diagnostics {
         }
         let Some(kept) = self.kept.get(&diagnostic.place()) else { return true };
         let own = diagnostic.code == Code::AuthorWarning || diagnostic.primary().is_none();
-        if !own && kept.len() >= MOST_AT_A_PLACE {
+        let turned = self.turned.get(&diagnostic.place()).copied().unwrap_or(0);
+        if !own && kept.len() + turned >= MOST_AT_A_PLACE {
             return false;
         }
         let message = diagnostic.short_message();
@@ -206,7 +209,7 @@ impl Diagnostics {
 
     /// Whether a message is one that is kept but for its numbers: another turn of a loop, or another call from
     /// the same place, says nothing new. Of its author's own each counts.
-    pub fn turns_of(&self, diagnostic: &Diagnostic) -> bool {
+    pub fn turns_of(&mut self, diagnostic: &Diagnostic) -> bool {
         let place = diagnostic.place();
         let words = |one: &Diagnostic| -> String {
             let of_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
@@ -215,12 +218,16 @@ impl Diagnostics {
         let calls = |one: &Diagnostic| one.trace.iter().map(|step| step.span).collect::<Vec<_>>();
         let own = diagnostic.code == Code::AuthorWarning || place.1.is_none();
         let kept = self.kept.get(&place).filter(|_| !own);
-        kept.is_some_and(|kept| {
+        let turns = kept.is_some_and(|kept| {
             kept.iter().any(|&at| {
                 let one = &self.list[at];
                 words(one) == words(diagnostic) && calls(one) == calls(diagnostic)
             })
-        })
+        });
+        if turns {
+            *self.turned.entry(place).or_default() += 1;
+        }
+        turns
     }
 
     fn keep(&mut self, diagnostic: Diagnostic) {
@@ -234,6 +241,7 @@ impl Diagnostics {
     fn cut(&mut self, len: usize) -> Vec<Diagnostic> {
         let later = self.list.split_off(len.min(self.list.len()));
         for one in &later {
+            self.turned.remove(&one.place());
             if let Some(kept) = self.kept.get_mut(&one.place()) {
                 while kept.last().is_some_and(|at| *at >= len) {
                     kept.pop();

@@ -228,13 +228,14 @@ struct Evaluator<'a> {
     calculating: u64,
     /// Bytes of what the scene holds beside its objects, about.
     stored: u64,
-    /// Turns of all loops so far, and of those in which something was reported.
+    /// Turns of all loops so far, and of those in which a mistake was met.
     turns: u64,
     faulty_turns: u64,
     /// A file was not understood whole, so a loop may lack what ends it.
     misread: bool,
-    /// How often something was reported, repetitions included.
+    /// How often something was reported, repetitions included; and how often an error.
     reports: u64,
+    faults: u64,
     /// What messages were made of, by their places.
     remembered: Remembered,
     /// The words that opened the blocks being read, outermost first.
@@ -349,6 +350,7 @@ impl<'a> Evaluator<'a> {
             faulty_turns: 0,
             misread: false,
             reports: 0,
+            faults: 0,
             remembered: Remembered::default(),
             openers: Vec::new(),
             owed: None,

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
@@ -51,8 +51,16 @@ impl Evaluator<'_> {
     /// out.
     pub(super) fn repeats(&mut self, diagnostic: &Diagnostic) -> bool {
         let repeats = self.halted || !self.diagnostics.takes(diagnostic);
-        self.reports += u64::from(repeats && !self.halted);
+        if repeats && !self.halted {
+            self.count(diagnostic);
+        }
         repeats
+    }
+
+    /// Notes that something was said, or would have been.
+    pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
+        self.reports += 1;
+        self.faults += u64::from(diagnostic.severity == Severity::Error);
     }
 
     /// The word that was most likely meant at a place.

@@ -33,7 +33,7 @@ impl Evaluator<'_> {
             let site = crate::source::Site { span, expansion };
             diagnostic = diagnostic.traced(site, &self.scene.expansions);
         }
-        self.reports += 1;
+        self.count(&diagnostic);
         if !self.diagnostics.turns_of(&diagnostic) {
             self.diagnostics.push(diagnostic);
         }

@@ -62,8 +62,8 @@ pub(super) enum FrameKind {
         body: Items,
         turns: u64,
         directive: DirectiveId,
-        /// How much had been reported when it started.
-        reports: u64,
+        /// How many mistakes had been met when it started.
+        faults: u64,
     },
     For {
         symbol: Symbol,
@@ -73,8 +73,8 @@ pub(super) enum FrameKind {
         body: Items,
         turns: u64,
         directive: DirectiveId,
-        /// How much had been reported when it started.
-        reports: u64,
+        /// How many mistakes had been met when it started.
+        faults: u64,
     },
     /// A macro's body: `#break` does not reach out of it.
     Macro,
@@ -158,8 +158,8 @@ impl Evaluator<'_> {
         directive: DirectiveId,
     ) {
         let empty = Items { start: body.end, end: body.end };
-        let reports = self.reports;
-        self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive, reports });
+        let faults = self.faults;
+        self.push(here, empty, FrameKind::While { condition, body, turns: 0, directive, faults });
     }
 
     pub(super) fn push_for(
@@ -171,11 +171,11 @@ impl Evaluator<'_> {
         directive: DirectiveId,
     ) {
         let empty = Items { start: body.end, end: body.end };
-        let (turns, reports) = (0, self.reports);
+        let (turns, faults) = (0, self.faults);
         self.push(
             here,
             empty,
-            FrameKind::For { symbol, value: from, to, step, body, turns, directive, reports },
+            FrameKind::For { symbol, value: from, to, step, body, turns, directive, faults },
         );
     }
 

@@ -12,8 +12,8 @@ impl Evaluator<'_> {
     pub(super) fn turn(&mut self) {
         let worn_out = match self.frames.last().map(|frame| &frame.kind) {
             Some(
-                &FrameKind::While { turns, reports, .. } | &FrameKind::For { turns, reports, .. },
-            ) => self.is_worn_out(turns, reports),
+                &FrameKind::While { turns, faults, .. } | &FrameKind::For { turns, faults, .. },
+            ) => self.is_worn_out(turns, faults),
             _ => false,
         };
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
@@ -110,8 +110,8 @@ impl Evaluator<'_> {
     }
 
     /// Whether a loop has had enough turns since the first mistake in it.
-    fn is_worn_out(&mut self, turns: u64, reports: u64) -> bool {
-        let faulty = turns > 0 && self.reports > reports;
+    fn is_worn_out(&mut self, turns: u64, faults: u64) -> bool {
+        let faulty = turns > 0 && self.faults > faults;
         self.faulty_turns += u64::from(faulty);
         faulty && (turns > FAULTY_TURNS || self.faulty_turns > ALL_FAULTY_TURNS)
     }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use crate::diagnostic::suggest::SEARCHES;
-use crate::diagnostic::{Code, Diagnostics, Levels};
+use crate::diagnostic::{Code, Diagnostics, Levels, Severity};
 use crate::road::{Options, Road};
 use crate::source::{FileError, Files, Found};
 use crate::vocabulary::Dialect;
@@ -84,6 +84,18 @@ fn what_differs_only_in_its_numbers_from_turn_to_turn_is_told_once() {
     assert_eq!(work(&format!("{ball} #for (I, 1, 9) Ball(-I) #end Ball(-99)")).1, 2);
     // The author's own are all wanted.
     assert_eq!(work("#for (I, 1, 500) #warning str(I, 0, 0) #end").1, 500);
+}
+
+#[test]
+fn what_is_only_a_warning_ends_no_loop() {
+    let text = "#declare N = 0;
+        #for (I, 1, 1500) #declare N = N + 1; #declare S = sphere { 0, -I } #end
+        #while (N < 3000) #declare N = N + 1; #declare S = sphere { 0, -N } #end
+        #if (N != 3000) #error \"it ended early\" #end";
+    for dialect in [Dialect::Scene, Dialect::Pov] {
+        let told = told(&Nowhere::default(), dialect, text);
+        assert!(told.iter().all(|one| one.severity != Severity::Error), "{told:?}");
+    }
 }
 
 #[test]
