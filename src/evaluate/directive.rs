@@ -176,6 +176,10 @@ impl Evaluator<'_> {
         }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
+            // What stops a scene is not passed over.
+            Value::Poison(poison) if code == Code::AuthorError => {
+                return Err(self.not_supported(poison, Some(head)));
+            }
             Value::Poison(_) => return Ok(()),
             other => {
                 let span = here.unit.expression(text).span;

@@ -134,6 +134,17 @@ impl Evaluator<'_> {
         Ok(true)
     }
 
+    /// Whether a frame walks the body of a macro that was called for its value.
+    pub(super) fn is_body_of_macro(&self, frame: usize) -> bool {
+        let frame = &self.frames[frame];
+        self.macros.iter().any(|definition| match definition.body {
+            MacroBody::Items(body) => {
+                body.end == frame.end && Rc::ptr_eq(&definition.unit, &frame.here.unit)
+            }
+            MacroBody::Raw => false,
+        })
+    }
+
     /// Runs a macro called inside an expression: it leaves one value.
     pub(super) fn macro_value(
         &mut self,

@@ -76,7 +76,7 @@ pub(super) enum FrameKind {
         /// How many mistakes had been met when it started.
         faults: u64,
     },
-    /// A macro's body: `#break` does not reach out of it.
+    /// A macro's body: `#break` ends it, and no loop around it.
     Macro,
     /// An included file.
     Include,
@@ -212,8 +212,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#break`: leaves the innermost loop or switch. `false` when there is none in this block,
-    /// macro or file.
+    /// `#break`: leaves the innermost loop, switch or macro. `false` when there is none in this block
+    /// or file.
     pub(super) fn break_out(&mut self) -> bool {
         let reach = self.frames.iter().rposition(|frame| !matches!(frame.kind, FrameKind::Branch));
         let Some(at) = reach else { return false };
@@ -222,12 +222,19 @@ impl Evaluator<'_> {
                 self.frames.truncate(at);
                 true
             }
-            FrameKind::Barrier
-            | FrameKind::Block
-            | FrameKind::Branch
-            | FrameKind::Macro
-            | FrameKind::Include => false,
+            FrameKind::Macro => self.end_of_macro(at),
+            FrameKind::Barrier if self.is_body_of_macro(at) => self.end_of_macro(at),
+            FrameKind::Barrier | FrameKind::Block | FrameKind::Branch | FrameKind::Include => false,
         }
+    }
+
+    /// Goes on where the macro ends whose body a frame walks.
+    fn end_of_macro(&mut self, at: usize) -> bool {
+        self.frames.truncate(at + 1);
+        if let Some(frame) = self.frames.last_mut() {
+            frame.at = frame.end;
+        }
+        true
     }
 
     /// Whether the next statement stands in the main file itself, outside of macros.

@@ -186,15 +186,16 @@ impl<'a> Reader<'a> {
     fn branches(&self) -> Vec<(Range<usize>, Option<Range<usize>>)> {
         let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
         let mut known = Known::of(self);
+        let ends = self.ends_of_branches();
         let (mut found, mut at) = (Vec::new(), 0);
         while at < self.tokens.len() {
             known.pass(self, at);
             let condition = self.condition(at, &unknown, &known);
             at += 1;
             let Some((condition, first)) = condition else { continue };
-            let Some(end) = self.end_of_branch(first) else { continue };
+            let Some(&end) = ends.get(&(at - 1)) else { continue };
             let is_else = self.tokens[end].kind == TokenKind::Directive(Head::Else);
-            let last = if is_else { self.end_of_branch(end + 1) } else { None };
+            let last = if is_else { ends.get(&end).copied() } else { None };
             let (own, other) = ((first, end), last.map(|last| (end + 1, last)));
             let branches = if condition { (other, Some(own)) } else { (Some(own), other) };
             let text = |&(first, end): &(usize, usize)| {
@@ -256,20 +257,23 @@ impl<'a> Reader<'a> {
         (self.is(at + 1, open) && self.is(end, close)).then_some((value, end + 1))
     }
 
-    /// The `#else`, `#elseif` or `#end` that a branch which begins at `at` ends with.
-    fn end_of_branch(&self, at: usize) -> Option<usize> {
-        let mut depth = 0_usize;
-        let ends = |token: &Token| {
-            let TokenKind::Directive(head) = token.kind else { return false };
+    /// The `#else`, `#elseif` or `#end` that the branch ends with which each directive begins.
+    fn ends_of_branches(&self) -> HashMap<usize, usize> {
+        let (mut open, mut ends) = (Vec::new(), HashMap::new());
+        for (at, token) in self.tokens.iter().enumerate() {
+            let TokenKind::Directive(head) = token.kind else { continue };
             match head {
-                _ if head.opens() => depth += 1,
-                Head::End if depth > 0 => depth -= 1,
-                Head::End | Head::Else | Head::Elseif => return depth == 0,
+                _ if head.opens() => open.push(at),
+                Head::End | Head::Else | Head::Elseif => {
+                    if let Some(begun) = open.pop() {
+                        ends.insert(begun, at);
+                        open.extend((head != Head::End).then_some(at));
+                    }
+                }
                 _ => {}
             }
-            false
-        };
-        self.tokens.get(at..)?.iter().position(ends).map(|behind| at + behind)
+        }
+        ends
     }
 
     /// Names that this text only asks for, and that nothing it includes may declare.

@@ -159,10 +159,8 @@ fn vector_text(a: &Arguments) -> Result<String, CallError> {
         if i > 0 {
             text.push_str(separator);
         }
-        let component = match components.as_slice() {
-            [number] => *number,
-            several => several.get(i).copied().unwrap_or(0.0),
-        };
+        // A number is the first, as in POV-Ray.
+        let component = components.as_slice().get(i).copied().unwrap_or(0.0);
         format.append(component, &mut text);
     }
     Ok(text)
@@ -279,13 +277,13 @@ mod tests {
     }
 
     #[test]
-    fn a_number_fills_a_vector_and_a_colour_is_one() {
+    fn a_number_is_the_first_of_a_vector_and_a_colour_is_one() {
         let vstr = |n: f64, value: Value| {
             let rest = [Value::string("|"), Value::Number(0.0), Value::Number(1.0)];
             text(Word::Vstr, &[&[Value::Number(n), value][..], &rest].concat())
         };
-        assert_eq!(vstr(1.0, Value::Number(1.0)).as_deref(), Ok("1.0|1.0"));
-        assert_eq!(vstr(7.0, Value::Number(1.0)).as_deref(), Ok("1.0|1.0|1.0|1.0|1.0"));
+        assert_eq!(vstr(1.0, Value::Number(1.0)).as_deref(), Ok("1.0|0.0"));
+        assert_eq!(vstr(7.0, Value::Number(1.0)).as_deref(), Ok("1.0|0.0|0.0|0.0|0.0"));
         let red = Value::Color(Color::opaque(Rgb::new(1.0, 0.5, 0.0)));
         assert_eq!(vstr(3.0, red.clone()).as_deref(), Ok("1.0|0.5|0.0"));
         assert_eq!(vstr(5.0, red).as_deref(), Ok("1.0|0.5|0.0|0.0|0.0"));

@@ -99,6 +99,17 @@ fn what_is_only_a_warning_ends_no_loop() {
 }
 
 #[test]
+fn a_break_leaves_a_macro_and_no_loop_around_it() {
+    let text = "#macro Sign(V) #if (V < 0) -1 #break #end 1 #end
+        #macro Count() #if (N = 3) #break #end #declare N = N + 1; #end
+        #declare N = 0;
+        #for (I, 1, 9) Count() #end
+        #if (Sign(-5) != -1 | Sign(5) != 1 | N != 3) #error \"no\" #end";
+    let told = told(&Nowhere::default(), Dialect::Pov, text);
+    assert!(told.iter().all(|one| one.severity != Severity::Error), "{told:?}");
+}
+
+#[test]
 fn what_was_taken_back_is_told_where_it_counts() {
     let text = "#macro Half(A) 1/A #end #declare B = (0 ? Half(0) : 1); #declare C = Half(0);";
     let told = told(&Nowhere::default(), Dialect::Scene, text);
