@@ -53,6 +53,9 @@ fn every_link_of_a_page_leads_somewhere() {
     let mut dead = Vec::new();
     for page in pages {
         let text = std::fs::read_to_string(&page).expect("readable");
+        // A scene has no links.
+        let text: Vec<&str> = text.split("```").step_by(2).collect();
+        let text = text.concat();
         for (at, _) in text.match_indices("](") {
             let link = text[at + 2..].split(')').next().unwrap_or("");
             let path = link.split('#').next().unwrap_or("");

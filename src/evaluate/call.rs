@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
+use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::builtin::CallErrorKind;
@@ -20,6 +20,7 @@ impl Evaluator<'_> {
     ) -> Outcome<Value> {
         match callee {
             Callee::Word(word, word_span) => self.call_word(here, word, word_span, arguments, span),
+            Callee::Element(id) => self.call_element(here, id, arguments, span),
             Callee::Name(name, name_span) => {
                 let symbol = here.symbol(name);
                 match self.scopes.read(symbol) {
@@ -47,6 +48,7 @@ impl Evaluator<'_> {
                     Some(Value::Poison(poison)) => {
                         let poison = *poison;
                         self.run_arguments(here, arguments);
+                        let Reported = self.broken_call(here, symbol, arguments, span);
                         Ok(Value::Poison(poison))
                     }
                     Some(other) => {
@@ -68,6 +70,39 @@ impl Evaluator<'_> {
                         Err(self.report(here, diagnostic))
                     }
                 }
+            }
+        }
+    }
+
+    /// `A[1](x, y, z)`: a function or a spline kept in an array.
+    fn call_element(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        arguments: Arguments,
+        span: Span,
+    ) -> Outcome<Value> {
+        let list = here.unit.ast.arguments(arguments);
+        match self.expression(here, id) {
+            Ok(Value::Function(function)) => self.function_value(here, function, list, span),
+            Ok(Value::Spline(spline)) => self.spline_value(here, &spline, list, span),
+            Ok(poison @ Value::Poison(_)) => {
+                self.run_arguments(here, arguments);
+                Ok(poison)
+            }
+            Ok(other) => {
+                let element = here.unit.expression(id).span;
+                let (kind, text) = (other.kind(), self.sources.text(element).to_owned());
+                let message = format!("`{text}` is {kind}, and cannot be called");
+                let diagnostic = Diagnostic::new(Code::NotCallable, message)
+                    .at(element, "expected a function or a spline before `(`")
+                    .help("is a comma missing before the parenthesis?")
+                    .fix(element.after(), ", ");
+                Err(self.report(here, diagnostic))
+            }
+            Err(reported) => {
+                self.run_arguments(here, arguments);
+                Err(reported)
             }
         }
     }

@@ -53,7 +53,14 @@ impl Evaluator<'_> {
                     Some(step) => (self.number(here, *step), here.unit.expression(*step).span),
                     None => (Ok(1.0), directive.head),
                 };
-                let (from, to, step) = (from?, to?, step_value?);
+                let symbol = here.symbol(*name);
+                let (Ok(from), Ok(to), Ok(step)) = (from, to, step_value) else {
+                    // How often it would turn is not known: the body is read once, for its own mistakes.
+                    self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
+                    self.scopes.assign_local(symbol, Value::Number(from.unwrap_or(0.0)));
+                    self.push_switch(here, *body);
+                    return Err(Reported);
+                };
                 if step == 0.0 {
                     let diagnostic = Diagnostic::new(
                         Code::OutOfRange,
@@ -69,20 +76,19 @@ impl Evaluator<'_> {
                     self.lint_never_runs(here, directive.head, spans, own);
                 }
                 self.lint_counted_twice(here, *name, *body);
-                let symbol = here.symbol(*name);
                 self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                 self.push_for(here, symbol, [from, to, step], *body, id);
                 Ok(())
             }
-            DirectiveKind::Switch { value, cases } => {
+            DirectiveKind::Switch { value, lead, cases } => {
                 let value = self.number(here, *value)?;
-                if let Some(chosen) = self.chosen_case(here, value, cases)? {
-                    self.lint_runs_on(here, &cases[chosen..]);
-                    self.push_switch(here, Items::default());
-                    for case in cases[chosen..].iter().rev() {
-                        self.push_branch(here, case.body);
-                    }
+                let chosen = self.chosen_case(here, value, cases)?.unwrap_or(cases.len());
+                self.lint_runs_on(here, &cases[chosen..]);
+                self.push_switch(here, Items::default());
+                for case in cases[chosen..].iter().rev() {
+                    self.push_branch(here, case.body);
                 }
+                self.push_branch(here, *lead);
                 Ok(())
             }
             DirectiveKind::Break => {
@@ -176,11 +182,8 @@ impl Evaluator<'_> {
         }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
-            // What stops a scene is not passed over.
-            Value::Poison(poison) if code == Code::AuthorError => {
-                return Err(self.not_supported(poison, Some(head)));
-            }
-            Value::Poison(_) => return Ok(()),
+            // What an author wants said is not passed over.
+            Value::Poison(poison) => return Err(self.not_supported(poison, Some(head))),
             other => {
                 let span = here.unit.expression(text).span;
                 let help = matches!(other, Value::Number(_))
@@ -231,7 +234,7 @@ impl Evaluator<'_> {
         self.declared_now.push(symbol);
         let value = self.declared_value(here, head, target);
         self.declared_now.pop();
-        self.note_broken(symbol, value.is_err());
+        self.note_broken(symbol, matches!(value, Err(Reported) | Ok(Value::Poison(_))));
         if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
             self.redeclared(here, head, target);
         }

@@ -111,7 +111,8 @@ pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
                     DirectiveKind::While { body, .. } | DirectiveKind::For { body, .. } => {
                         open.push(*body);
                     }
-                    DirectiveKind::Switch { cases, .. } => {
+                    DirectiveKind::Switch { lead, cases, .. } => {
+                        open.push(*lead);
                         open.extend(cases.iter().map(|case| case.body));
                     }
                     DirectiveKind::Default(inner) => open.push(*inner),

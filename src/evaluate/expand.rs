@@ -291,9 +291,25 @@ impl Evaluator<'_> {
             let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
-            let surplus = list.get(parameters.len()..).and_then(|more| surplus(here, more));
-            Diagnostic::new(Code::WrongArity, message)
-                .at(surplus.unwrap_or(span), format!("expected {wanted}"))
+            let more = list.get(parameters.len()..).and_then(|more| surplus(here, more));
+            let told = Diagnostic::new(Code::WrongArity, message)
+                .at(more.unwrap_or(span), format!("expected {wanted}"));
+            // `Ball(0, 1, 2, 3)` of two: three numbers without their angle brackets.
+            let vector = (list.len() == parameters.len() + 2)
+                .then(|| surplus(here, &list[parameters.len() - 1..]))
+                .flatten()
+                .filter(|three| {
+                    let parts = self.sources.text(*three).split(',').map(str::trim);
+                    parts.clone().count() == 3
+                        && parts.clone().all(|part| part.parse::<f64>().is_ok())
+                });
+            match vector {
+                Some(three) => {
+                    let right = format!("<{}>", self.sources.text(three));
+                    told.help(format!("is `{right}` meant?")).fix(three, right)
+                }
+                None => told,
+            }
         } else if let Some(empty) =
             list.iter().zip(parameters).position(|(argument, (_, optional))| {
                 !optional && matches!(argument, Argument::Items(items) if items.is_empty())

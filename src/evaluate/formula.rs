@@ -255,6 +255,8 @@ impl Evaluator<'_> {
                 ),
                 Some(Value::Poison(poison)) => {
                     formula.poison.get_or_insert(*poison);
+                    let span = here.unit.expression(id).span;
+                    let Reported = self.broken_call(here, here.symbol(name), arguments, span);
                     self.constant_zero(here, formula, name_span)
                 }
                 None => {
@@ -267,6 +269,17 @@ impl Evaluator<'_> {
                     let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
                     let span = here.unit.expression(id).span;
                     Err(self.broken_call(here, here.symbol(name), arguments, span))
+                }
+                _ => self.constant(here, formula, id),
+            },
+            Callee::Element(element) => match self.expression(here, element)? {
+                Value::Function(function) => {
+                    let span = here.unit.expression(id).span;
+                    self.function_node(here, formula, function, arguments, span)
+                }
+                Value::Poison(poison) => {
+                    formula.poison.get_or_insert(poison);
+                    self.constant_zero(here, formula, here.unit.expression(element).span)
                 }
                 _ => self.constant(here, formula, id),
             },

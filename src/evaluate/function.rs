@@ -113,7 +113,10 @@ impl Evaluator<'_> {
                 }
                 match self.formula(&first.here, id, parameters)? {
                     Ok(function) => AuthorFunction::Formula(function),
-                    Err(poison) => return Ok(Value::Poison(poison)),
+                    Err(poison) => {
+                        self.broken_function = Some(parameters.len());
+                        return Ok(Value::Poison(poison));
+                    }
                 }
             }
             TokenKind::Word(Word::Spline | Word::Pattern | Word::Pigment | Word::TransformWord) => {
@@ -320,7 +323,12 @@ impl Evaluator<'_> {
             return Ok(());
         }
         let wanted = count(&(wanted..=wanted), "argument");
-        let message = format!("this function takes {wanted}, and is given {found}");
+        let call = self.sources.text(span);
+        let name = match call.split_once('(') {
+            Some((name, _)) => format!("`{}`", name.trim()),
+            None => "this function".to_owned(),
+        };
+        let message = format!("{name} takes {wanted}, and is given {found}");
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"));
         Err(self.report(here, diagnostic))

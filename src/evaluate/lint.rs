@@ -237,8 +237,11 @@ impl Evaluator<'_> {
         }
         let [first, last] = [from, to].map(|span| self.sources.text(span).trim().to_owned());
         let by = step.map_or("1", |step| self.sources.text(step).trim());
-        let diagnostic = Diagnostic::new(Code::NeverRuns, "this loop has no turn")
-            .at(head, format!("from {first} by steps of {by} it never comes to {last}"));
+        let diagnostic =
+            Diagnostic::new(Code::NeverRuns, "this loop has no turn").at(head, "this loop").also(
+                from.to(step.unwrap_or(to)),
+                format!("from {first} by steps of {by} it never comes to {last}"),
+            );
         let diagnostic = match step {
             None => diagnostic
                 .help(format!("a step of -1 counts down: `({first}, {last}, -1)`"))

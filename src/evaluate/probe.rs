@@ -75,7 +75,7 @@ impl Evaluator<'_> {
                 None => return Err(self.wrong_type(here, *at, "a vector", value)),
             };
         }
-        let probe = self.probed(object);
+        let probe = self.probed(here, span, object)?;
         Ok(match word {
             Word::MinExtent => Value::vector3(probe.extent().0),
             Word::MaxExtent => Value::vector3(probe.extent().1),
@@ -125,18 +125,27 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    fn probed(&mut self, object: ObjectId) -> Rc<Probe> {
+    fn probed(&mut self, here: &Here, span: Span, object: ObjectId) -> Outcome<Rc<Probe>> {
         if let Some(probe) = self.probes.get(&object) {
-            return probe.clone();
+            return Ok(probe.clone());
         }
         let alone = alone(&self.scene, object);
-        // What is wrong with the object is said when it is placed.
-        let (world, _) =
-            lower::lower(alone, &LowerOptions::default(), &mut Diagnostics::new(false));
+        let objects = self.options.limits.objects;
+        let options = LowerOptions { objects, ..LowerOptions::default() };
+        // What is wrong with the object is said when it is placed; but part of one is not it.
+        let mut told = Diagnostics::new(false);
+        let (world, _) = lower::lower(alone, &options, &mut told);
+        if told.iter().any(|one| one.code == Code::ObjectLimit) {
+            let message = format!("the object asked here has more than {objects} objects");
+            let diagnostic = Diagnostic::new(Code::ObjectLimit, message)
+                .at(span, "asked here")
+                .help("raise the limit with `--limit objects=N`");
+            return Err(self.halt(here.expansion, diagnostic));
+        }
         let geometry = Geometry::build(&world);
         let probe = Rc::new(Probe { world, geometry });
         self.probes.insert(object, probe.clone());
-        probe
+        Ok(probe)
     }
 }
 

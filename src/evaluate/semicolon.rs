@@ -8,7 +8,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
 use crate::syntax::ast::ItemKind;
-use crate::vocabulary::{Dialect, Family, Word};
+use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::Evaluator;
 use super::block::Place;
@@ -61,6 +61,31 @@ impl Evaluator<'_> {
             return;
         }
         self.report_in(last.expansion, diagnostic);
+    }
+
+    /// `sphere { <0, 0, 0>; 1 }`: takes the sign where a comma is meant, before a value or a function.
+    pub(super) fn semicolon_for_comma(&mut self) {
+        let Some(Token { kind: TokenKind::Semicolon, here, span }) = self.peek().cloned() else {
+            return;
+        };
+        let text = &self.sources.get(span.file).text;
+        let behind = text.get(span.end as usize..).unwrap_or("").trim_start();
+        let end = behind.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let is_part = match &behind[..end.unwrap_or(behind.len())] {
+            "" => behind.starts_with(['<', '-', '+', '.', '(']),
+            name => Word::from_name(name)
+                .is_none_or(|word| word.role() != Role::Statement || word == Word::Function),
+        };
+        if !is_part {
+            return;
+        }
+        self.next();
+        let diagnostic =
+            Diagnostic::new(Code::UnexpectedCharacter, "commas part the values of a block")
+                .at(span, "expected `,`")
+                .help("replace the `;` with `,`")
+                .fix(span, ",");
+        self.report(&here, diagnostic);
     }
 
     /// A `;` that ends no declaration.

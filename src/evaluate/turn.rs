@@ -1,5 +1,6 @@
 //! Turns of loops, and the chosen case of a switch.
 
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Case, CaseKind};
 
 use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind};
@@ -37,7 +38,13 @@ impl Evaluator<'_> {
                     (here.clone(), *condition, *body, *turns, *directive);
                 // What a mistake in it keeps from being computed may be what ends the loop.
                 let faulty = worn_out || (turns > FAULTY_TURNS && self.misread);
-                if !faulty && self.condition(&here, condition) == Ok(true) {
+                let goes_on = if faulty { Ok(false) } else { self.condition(&here, condition) };
+                if goes_on.is_err() && turns == 1 {
+                    // What the condition would be is not known: the body is read once, for its own mistakes.
+                    self.pop_frame();
+                    return self.push_switch(&here, body);
+                }
+                if goes_on == Ok(true) {
                     if turns > limit {
                         let message =
                             format!("this loop does not end: it has turned {limit} times");
@@ -51,9 +58,14 @@ impl Evaluator<'_> {
                     let ast = &here.unit.ast;
                     let constant = turns == 1 && endless::is_constant(ast, condition);
                     if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
-                        // A misspelt word may have meant another directive.
-                        let word = self.sources.text(ast.directive(directive).head);
-                        if !word.ends_with("while") {
+                        // A misspelt word may have meant another directive; and one without its end lacks what would
+                        // end it.
+                        let head = ast.directive(directive).head;
+                        let told = self.diagnostics.iter().any(|one| {
+                            matches!(one.code, Code::MissingEnd | Code::UnclosedBlock)
+                                && one.labels.iter().any(|label| label.span == head)
+                        });
+                        if told || !self.sources.text(head).ends_with("while") {
                             return self.pop_frame();
                         }
                         // Nothing can change: this would only run into the limit.

@@ -4,14 +4,16 @@
 //! one that a standard include declares under just this name, then a close one of the author's, then a
 //! word of the language.
 
+mod lacking;
+
 use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::{ExpansionKind, FileId, Span};
+use crate::source::{FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word, standard_include_of, standard_names};
+use crate::vocabulary::{Family, Role, Word};
 
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
@@ -101,9 +103,19 @@ impl Evaluator<'_> {
         {
             return None;
         }
+        let of_others = is_called && suggest::foreign(name).next().is_some();
         let close = suggest::closest(name, self.scopes.visible())
             .or_else(|| suggest::abridged(name, self.scopes.visible()))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
+            // `arctan(b, a)` is rather another language's function than a colour.
+            .filter(|close| {
+                let value = self.scopes.symbol(close).and_then(|symbol| self.scopes.look(symbol));
+                !of_others
+                    || matches!(
+                        value,
+                        Some(Value::Macro(_) | Value::Function(_) | Value::Spline(_))
+                    )
+            })
             .map(str::to_owned);
         if let Some(include) = standard.as_deref()
             && self
@@ -161,7 +173,9 @@ impl Evaluator<'_> {
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
                 .fix(span, word);
-        } else if let Some((close, later)) = here.unit.similar_declaration(name) {
+        } else if let Some((close, later)) =
+            here.unit.similar_declaration(name).filter(|_| !of_others)
+        {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, format!("`{close}` is declared here"))
@@ -217,49 +231,6 @@ impl Evaluator<'_> {
         let found = self.macros.iter().rev().find(has)?;
         let owner = self.sources.text(found.defined).to_owned();
         Some((owner, found.defined))
-    }
-
-    /// The standard include that declares `name`, where it was not read.
-    pub(super) fn lacking_include(&self, name: &str) -> Option<String> {
-        standard_include_of(name).filter(|include| {
-            // An author's own name of one letter is likelier.
-            name.len() > 1 && !self.has_read(include)
-        })
-    }
-
-    fn has_read(&self, include: &str) -> bool {
-        self.parsed.keys().any(|file| file.ends_with(include))
-    }
-
-    /// The name in a standard include which was not read that one with a capital is most likely meant as.
-    pub(super) fn lacking_near(&self, name: &str) -> Option<(&'static str, String)> {
-        if !name.starts_with(char::is_uppercase) || name.len() < 3 {
-            return None;
-        }
-        // Of all names of the includes too many are close to a short one: only those of colours are.
-        let near = suggest::closest(name, standard_names(COLORS))?;
-        (!suggest::are_of_a_series(name, near) && !self.has_read(COLORS))
-            .then(|| (near, COLORS.to_owned()))
-    }
-
-    /// Where a name is missing in a file that the main file includes, the include belongs before that.
-    fn include_before(&self, here: &Here, diagnostic: Diagnostic, include: &str) -> Diagnostic {
-        let expansions = &self.scene.expansions;
-        let Some(outermost) = expansions
-            .chain(here.expansion)
-            .filter(|expansion| expansion.kind == ExpansionKind::Include)
-            .last()
-            .filter(|outermost| outermost.call.file == MAIN)
-        else {
-            return diagnostic;
-        };
-        let before = Span { end: outermost.call.start, ..outermost.call };
-        diagnostic
-            .help(format!(
-                "write it before the include of `{}`, which takes it for granted",
-                expansions.name(outermost)
-            ))
-            .fix(before, format!("#include \"{include}\"\n"))
     }
 
     /// `Hello`, `grass.png` where a string should stand: quotes are missing.
@@ -395,9 +366,6 @@ impl Call {
 
 /// The main file's text.
 const MAIN: FileId = FileId(0);
-/// The include whose names are used most, and misspelt.
-const COLORS: &str = "colors.inc";
-
 /// What programs write where a calculation gave nothing.
 fn is_no_number(name: &str) -> bool {
     const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];

@@ -273,9 +273,9 @@ pub fn binary(
         return numbers_meet(operator, *a, *b).map(Value::Number);
     }
     if let (Value::String(a), Value::String(b)) = (left, right)
-        && matches!(operator, BinaryOperator::Equal | BinaryOperator::NotEqual)
+        && let Some(answer) = strings_meet(operator, a, b)
     {
-        return Ok(Value::truth((a == b) == (operator == BinaryOperator::Equal)));
+        return Ok(Value::truth(answer));
     }
     let a = left.numbers().ok_or(OperationError::NotNumeric(0))?;
     let b = right.numbers().ok_or(OperationError::NotNumeric(1))?;
@@ -288,6 +288,25 @@ pub fn binary(
     }
     let color = matches!(left, Value::Color(_)) || matches!(right, Value::Color(_));
     Ok(same_kind(Components { values, len }, color))
+}
+
+/// How two strings compare: letter by letter, by the letters' numbers; nothing else is asked of them
+/// (manual, 3.3.1.9.3 "String relational operators").
+fn strings_meet(operator: BinaryOperator, a: &str, b: &str) -> Option<bool> {
+    Some(match operator {
+        BinaryOperator::Equal => a == b,
+        BinaryOperator::NotEqual => a != b,
+        BinaryOperator::Less => a < b,
+        BinaryOperator::LessOrEqual => a <= b,
+        BinaryOperator::GreaterOrEqual => a >= b,
+        BinaryOperator::Greater => a > b,
+        BinaryOperator::Add
+        | BinaryOperator::Subtract
+        | BinaryOperator::Multiply
+        | BinaryOperator::Divide
+        | BinaryOperator::And
+        | BinaryOperator::Or => return None,
+    })
 }
 
 /// [`binary`] of two numbers.

@@ -86,8 +86,16 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Vector(vector))
             }
-            // `<1>` is one number in brackets; POV-Ray takes it so too.
-            (None, Some([number])) => Ok(Value::Number(*number)),
+            (None, Some([_])) => {
+                let inside = self.sources.text(span).trim_matches(['<', '>', ',', ' ']).to_owned();
+                let message = "a vector has two to five components, this one has 1";
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(span, "one number between `<` and `>`")
+                    .help(format!(
+                        "a place along the y axis is `<0, {inside}, 0>`; a number stands alone: `{inside}`"
+                    ));
+                Err(self.report(here, diagnostic))
+            }
             (None, Some([])) => {
                 let diagnostic = Diagnostic::new(Code::WrongArity, "this vector has no components")
                     .at(span, "expected two to five numbers");

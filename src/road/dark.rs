@@ -24,7 +24,18 @@ const OF_LIGHT: &[&str] = &[
 
 /// Whether a text is a scene: without these it is rather a part of one.
 pub(super) fn is_whole(main: &str) -> bool {
-    main.contains("camera") && main.contains("global_settings")
+    main.contains("camera") && (main.contains("global_settings") || main.contains("#version"))
+}
+
+/// A light that is commented out gives none.
+fn without_comments(text: &str) -> String {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// What is not there may have come behind the end.
+fn is_cut_off(told: &Diagnostic) -> bool {
+    told.code == Code::UnclosedBlock && told.message.starts_with("the file ends")
 }
 
 impl Road<'_> {
@@ -69,15 +80,8 @@ impl Road<'_> {
 
     pub(super) fn tell_dark(&mut self) {
         let lacking = |one: &Diagnostic| {
-            matches!(
-                one.code,
-                Code::MissingInclude
-                    | Code::ForbiddenFile
-                    | Code::NoLight
-                    | Code::UnclosedBlock
-                    | Code::UnclosedComment
-                    | Code::UnclosedString
-            )
+            matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::NoLight)
+                || is_cut_off(one)
         };
         if !self.diagnostics.has_errors() || self.diagnostics.iter().any(lacking) {
             return;
@@ -89,8 +93,8 @@ impl Road<'_> {
             words.any(|word| closest(word, ["light_source", "background", "emission"]).is_some())
         };
         let has_light =
-            |text: &String| OF_LIGHT.iter().any(|word| text.contains(word)) || misspelt(text);
-        if !whole || texts.iter().any(has_light) {
+            |text: &str| OF_LIGHT.iter().any(|word| text.contains(word)) || misspelt(text);
+        if !whole || texts.iter().any(|text| has_light(&without_comments(text))) {
             return;
         }
         let message = "nothing gives light, so the picture is dark";

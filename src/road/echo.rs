@@ -133,6 +133,23 @@ impl<'a> Statements<'a> {
         Self { ast, sources, items }
     }
 
+    /// Where the first word behind `fault` that begins an item stands.
+    fn word_after(&self, fault: Span) -> Option<u32> {
+        let text = &self.sources.get(fault.file).text;
+        let behind = text.get(fault.range().end..)?;
+        let mut at = 0;
+        while let Some(start) = behind[at..].find(|c: char| c.is_ascii_alphabetic() || c == '_') {
+            let begin = at + start;
+            let length = behind[begin..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+            at = length.map_or(behind.len(), |length| begin + length);
+            let word = Word::from_name(&behind[begin..at]);
+            if word.is_some_and(|word| word.role() == Role::Statement) {
+                return Some(fault.end + begin as u32);
+            }
+        }
+        None
+    }
+
     /// From a fault, or from before it, to where the text is certainly read as it was meant.
     fn doubt(&self, code: Code, fault: Span) -> Range<u32> {
         let nowhere = fault.start..fault.start;
@@ -142,7 +159,9 @@ impl<'a> Statements<'a> {
             _ if matches!(self.sources.text(fault), "<" | ">" | "(" | ")" | "[" | "]")
                 && let Some(end) = self.block_around(fault) =>
             {
-                fault.start..end
+                // No vector holds a word that begins an item: from there on it is left.
+                let left = self.word_after(fault).filter(|_| self.sources.text(fault) == "<");
+                fault.start..left.map_or(end, |left| end.min(left + 1))
             }
             _ => self.start(code, fault)..self.certain_after(fault),
         }

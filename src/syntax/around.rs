@@ -50,8 +50,9 @@ impl Ast {
             | DirectiveKind::For { body, .. }
             | DirectiveKind::Macro { body: Body::Items(body), .. }
             | DirectiveKind::Default(body) => vec![*body],
-            DirectiveKind::Switch { cases, .. } => {
-                cases.iter().map(|Case { body, .. }| *body).collect()
+            DirectiveKind::Switch { lead, cases, .. } => {
+                let cases = cases.iter().map(|Case { body, .. }| *body);
+                std::iter::once(*lead).chain(cases).collect()
             }
             _ => Vec::new(),
         }

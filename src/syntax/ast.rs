@@ -163,6 +163,8 @@ pub enum Callee {
     Word(Word, Span),
     /// A macro or a function of the author's.
     Name(NameId, Span),
+    /// A function or a spline in an array: `A[1](0.5)`, without a blank before the parenthesis.
+    Element(ExpressionId),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -221,6 +223,8 @@ pub enum DirectiveKind {
     },
     Switch {
         value: ExpressionId,
+        /// What stands before the first case: it is read whatever the value is, as POV-Ray does.
+        lead: Items,
         cases: Vec<Case>,
     },
     Break,

@@ -1,6 +1,6 @@
 //! Brackets open and close: blocks, entries, groups, calls, indices, vectors.
 
-use super::ast::{Argument, Callee, ExpressionId, ExpressionKind, Item, ItemKind};
+use super::ast::{Argument, Callee, Expression, ExpressionId, ExpressionKind, Item, ItemKind};
 use super::nest::{Frame, FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
@@ -27,6 +27,11 @@ impl<'a> Nest<'a> {
                 (top.block, top.formula) = (block, formula);
             }
             Bracket::Round => {
+                if let Some(element) = self.element_before(span) {
+                    self.stacks.operands.pop();
+                    let whole = self.ast.expression(element).span;
+                    return self.open(FrameKind::Call(Callee::Element(element)), whole, false);
+                }
                 self.before_operand();
                 self.open(FrameKind::Group, span, true);
             }
@@ -93,6 +98,14 @@ impl<'a> Nest<'a> {
                 self.stacks.operands.push(id);
                 self.top().state = State::Holding { indexable: true };
             }
+            FrameKind::Call(callee @ Callee::Element(_)) => {
+                self.end_last_argument(&frame, span);
+                let arguments = self.take_arguments(frame.arguments);
+                // It takes the place of the element, as that did of the array.
+                let id = self.add(ExpressionKind::Call(callee, arguments), whole);
+                self.stacks.operands.push(id);
+                self.top().state = State::Holding { indexable: false };
+            }
             FrameKind::Call(callee) => {
                 self.end_last_argument(&frame, span);
                 let arguments = self.take_arguments(frame.arguments);
@@ -110,6 +123,17 @@ impl<'a> Nest<'a> {
             }
             FrameKind::File | FrameKind::Vector | FrameKind::Head(_) | FrameKind::Body(_) => {}
         }
+    }
+
+    /// The element of an array, `A[1]`, that the parenthesis at `span` touches.
+    fn element_before(&mut self, span: Span) -> Option<ExpressionId> {
+        if self.top().state != (State::Holding { indexable: true }) {
+            return None;
+        }
+        let &id = self.stacks.operands.last()?;
+        let element = self.ast.expression(id);
+        let touches = element.span.end == span.start;
+        (touches && matches!(element.kind, ExpressionKind::Index(..))).then_some(id)
     }
 
     /// Whether the brackets behind a name hold an entry of a map, as in `color_map { Tints [1 rgb 1] }`, and
@@ -272,6 +296,21 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Vector(components), frame.open.to(span), false);
     }
 
+    /// Takes the vectors at the end of the arguments from `base` on, which the first of them is not.
+    fn vectors_behind(&mut self, base: usize) -> Vec<Expression> {
+        let mut behind = Vec::new();
+        while self.arguments.len() > base + 1
+            && let Some(&Argument::Expression(id)) = self.arguments.last()
+            && let vector = *self.ast.expression(id)
+            && matches!(vector.kind, ExpressionKind::Vector(_))
+        {
+            self.arguments.pop();
+            behind.push(vector);
+        }
+        behind.reverse();
+        behind
+    }
+
     /// Something that no vector can hold: the open ones are not closed. One message for all.
     pub(super) fn leave_vectors(&mut self, before: Span) {
         let mut told = false;
@@ -282,20 +321,14 @@ impl<'a> Nest<'a> {
             self.finish_expression();
             self.end_directives_in_vector();
             let Some(frame) = self.pop() else { return };
-            // `<-1, 0, -1, <1, 2, 1>`: the second one is no component of the first.
-            let in_vector = self.in_vector();
-            let second = match self.arguments[frame.arguments..] {
-                [_, .., Argument::Expression(id)] if !in_vector => Some(id),
-                _ => None,
+            // `<-1, 0, -1, <1, 2, 1>`: those behind are no components of the first.
+            let behind = match self.in_vector() {
+                true => Vec::new(),
+                false => self.vectors_behind(frame.arguments),
             };
-            let second = second
-                .map(|id| *self.ast.expression(id))
-                .filter(|last| matches!(last.kind, ExpressionKind::Vector(_)));
-            if second.is_some() {
-                self.arguments.pop();
-            }
-            let before =
-                second.map_or(before, |second| Span { end: second.span.start + 1, ..second.span });
+            let before = behind
+                .first()
+                .map_or(before, |second| Span { end: second.span.start + 1, ..second.span });
             if !told {
                 told = true;
                 let last = self.arguments[frame.arguments..].last();
@@ -320,9 +353,9 @@ impl<'a> Nest<'a> {
             let components = self.take_arguments(frame.arguments);
             let whole = Span { end: before.start.max(frame.open.end), ..frame.open };
             self.operand(ExpressionKind::Vector(components), whole, false);
-            if let Some(second) = second {
+            for vector in behind {
                 self.finish_expression();
-                self.operand(second.kind, second.span, false);
+                self.operand(vector.kind, vector.span, false);
             }
         }
     }

@@ -42,11 +42,21 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
             }
             None => (quote, end, "opened here, and no `\"` follows on this line"),
         };
-        diagnostics.push(
-            Diagnostic::new(Code::UnclosedString, "this string is never closed")
-                .at(Span::new(file, quote, quote + 1), label)
-                .fix(Span::new(file, end, end), "\""),
-        );
+        let span = |from: usize, to: usize| Span::new(file, from, to);
+        diagnostics.push(match quote_within(text, quote) {
+            Some(inner) => {
+                let message = "a `\"` inside a string is written `\\\"`";
+                Diagnostic::new(Code::UnclosedString, message)
+                    .at(span(inner, inner + 1), "this ends the string")
+                    .also(span(inner + 1, inner + 2), "and this begins another")
+                    .also(span(quote, quote + 1), "so this one is never closed")
+                    .help("write `\\\"` for the first")
+                    .fix(span(inner, inner), "\\")
+            }
+            None => Diagnostic::new(Code::UnclosedString, "this string is never closed")
+                .at(span(quote, quote + 1), label)
+                .fix(span(end, end), "\""),
+        });
     }
     if let Some(open) = scan.unclosed_comment {
         diagnostics.push(
@@ -88,6 +98,24 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     }
     // Only whole comments and line breaks were replaced, by single bytes: still UTF-8.
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
+}
+
+/// `concat("Frame "", N, "")`: the quote that ends a string and touches the next, where one too many stands on the
+/// line of the quote without a partner.
+fn quote_within(text: &str, quote: usize) -> Option<usize> {
+    let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
+    let strings = &text[line..quote];
+    if strings.contains('\\') {
+        return None;
+    }
+    let quotes: Vec<usize> = strings.match_indices('"').map(|(at, _)| at).collect();
+    let touching = |pair: &&[usize]| match **pair {
+        [open, close, next] => open + 1 < close && close + 1 == next,
+        _ => false,
+    };
+    // Each second one ends a string.
+    let ends = quotes.windows(3).step_by(2).find(touching)?;
+    Some(line + ends[1])
 }
 
 /// `"a.ttf "POV" 1`: the string before the quote that has no partner, up to the blank where its own is missing.

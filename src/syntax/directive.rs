@@ -31,6 +31,7 @@ pub(super) enum Body {
     },
     Switch {
         value: ExpressionId,
+        lead: Items,
         cases: Vec<Case>,
         open: Option<CaseKind>,
     },
@@ -164,6 +165,8 @@ impl<'a> Nest<'a> {
                     done.push((at, test, then));
                 }
             }
+            // As in POV-Ray, another case comes first.
+            Some(Body::Switch { open: None, .. }) => self.stray_directive(span, "a `#case`"),
             Some(Body::Switch { .. }) => self.case(span, CaseKind::Otherwise),
             Some(Body::If { .. }) => {
                 self.stray_directive(span, "only one `#else` in an `#if`, and none")
@@ -201,10 +204,11 @@ impl<'a> Nest<'a> {
 
     pub(super) fn close_case(&mut self, base: usize) {
         let items = self.take_items(base);
-        if let Some(Body::Switch { open, cases, .. }) = self.body()
-            && let Some(kind) = open.take()
-        {
-            cases.push(Case { kind, body: items });
+        if let Some(Body::Switch { lead, open, cases, .. }) = self.body() {
+            match open.take() {
+                Some(kind) => cases.push(Case { kind, body: items }),
+                None => *lead = items,
+            }
         }
     }
 
@@ -236,7 +240,7 @@ impl<'a> Nest<'a> {
             Body::For { name, name_span, from, to, step } => {
                 DirectiveKind::For { name, name_span, from, to, step, body: self.take_items(base) }
             }
-            Body::Switch { value, cases, .. } => DirectiveKind::Switch { value, cases },
+            Body::Switch { value, lead, cases, .. } => DirectiveKind::Switch { value, lead, cases },
             Body::Macro { name, name_span, parameters, raw } => {
                 let items = self.take_items(base);
                 let body = raw.map_or(MacroBody::Items(items), MacroBody::Raw);

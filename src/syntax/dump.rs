@@ -145,6 +145,7 @@ impl<'a> Dump<'a> {
                 let callee = match callee {
                     Callee::Word(word, _) => text(word.name()),
                     Callee::Name(name, _) => self.name(name),
+                    Callee::Element(id) => Task::Expression(id),
                 };
                 let list = self.list("(", arguments, ")");
                 self.push([callee].into_iter().chain(list));
@@ -226,8 +227,11 @@ impl<'a> Dump<'a> {
                 }
                 bodies.push((Vec::new(), *body));
             }
-            DirectiveKind::Switch { value: of, cases } => {
+            DirectiveKind::Switch { value: of, lead, cases } => {
                 say("#switch ", value(*of));
+                if !lead.is_empty() {
+                    bodies.push((Vec::new(), *lead));
+                }
                 for case in cases {
                     let label = match case.kind {
                         CaseKind::Value(of) => vec![text("#case "), Task::Expression(of)],

@@ -281,6 +281,7 @@ impl<'a> Nest<'a> {
         let (name, name_span) = match callee {
             Callee::Name(name, span) => (name, span),
             Callee::Word(_, span) => (self.reserved(span), span),
+            Callee::Element(_) => (self.name(""), span),
         };
         let parameters = self.parameters(arguments);
         let body = Body::Macro { name, name_span, parameters, raw: None };

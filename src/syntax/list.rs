@@ -19,7 +19,12 @@ impl<'a> Nest<'a> {
         let body = match head {
             Head::If => Body::If { done: Vec::new(), test: Some((at, Test::Condition(value))) },
             Head::While => Body::While { condition: value },
-            Head::Switch => Body::Switch { value, cases: Vec::new(), open: None },
+            Head::Switch => Body::Switch {
+                value,
+                lead: self.take_items(self.items.len()),
+                cases: Vec::new(),
+                open: None,
+            },
             Head::Elseif => return self.elseif(at, value),
             Head::Case => return self.case(at, CaseKind::Value(value)),
             Head::Range => return self.case(at, CaseKind::Range(value, value)),

@@ -127,12 +127,13 @@ impl Print<'_> {
                 self.push(list);
             }
             ExpressionKind::Call(callee, arguments) => {
-                self.out += match callee {
-                    Callee::Word(word, _) => word.name(),
-                    Callee::Name(name, _) => self.ast.name(name),
+                let callee = match callee {
+                    Callee::Word(word, _) => Task::Text(word.name()),
+                    Callee::Name(name, _) => Task::Name(self.ast.name(name).to_owned()),
+                    Callee::Element(id) => Task::Expression(id),
                 };
                 let list = self.list("(", arguments, ")");
-                self.push(list);
+                self.push([callee].into_iter().chain(list));
             }
             ExpressionKind::Index(of, index) => self.push([
                 Task::Expression(of),
@@ -241,8 +242,9 @@ impl Print<'_> {
                 tasks.extend(body(*items));
                 tasks.extend(end());
             }
-            DirectiveKind::Switch { value: of, cases } => {
+            DirectiveKind::Switch { value: of, lead, cases } => {
                 tasks.extend(paren("#switch", *of));
+                tasks.extend(body(*lead));
                 for case in cases {
                     tasks.push(Task::Line);
                     match case.kind {

@@ -174,6 +174,11 @@ fn is_sentence(line: &str, follows: bool) -> bool {
     if !line.starts_with(char::is_alphabetic) || line.contains(|c| "{}<>[]=;#\"/*+|&".contains(c)) {
         return false;
     }
+    // `Follow (Cart, Here, Ahead)` is rather a call.
+    let name = line.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_').trim_start();
+    if name.starts_with('(') && name.ends_with(')') {
+        return false;
+    }
     let (mut count, mut of_speech, mut punctuated) = (0, 0, false);
     for word in line.split_whitespace() {
         let plain = word.trim_matches(|c| "()".contains(c));
@@ -209,6 +214,7 @@ mod tests {
             "sphere { a, 1 }",
             "Ball Box Cone",
             "Post(a, the, is)",
+            "Follow (Cart, Here, Ahead, the, is)",
             "my_ball",
             "rotate a translate b scale c",
             "open",

@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+mod angle;
 mod blame;
 mod early;
 mod ends;
@@ -21,7 +22,6 @@ use super::layout::Layout;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::FileId;
-use crate::vocabulary::Word;
 
 /// How many tokens a vector of plain values has at most.
 const LONGEST_VECTOR: usize = 12;
@@ -283,21 +283,6 @@ impl Repair<'_> {
         self.tell(diagnostic.fix(self.span(at), ""));
     }
 
-    /// The `<` of a vector of plain values that reaches up to token `at`.
-    fn vector_before(&self, at: usize) -> Option<usize> {
-        let before = self.tokens[..at].iter().rev().take(LONGEST_VECTOR);
-        let values = before.take_while(|token| match token.kind {
-            TokenKind::Number | TokenKind::Name | TokenKind::Word(Word::Pi) => true,
-            TokenKind::Mark(mark) => {
-                matches!(mark, Mark::Comma | Mark::Dot | Mark::Minus | Mark::Star | Mark::Slash)
-            }
-            _ => false,
-        });
-        let open = at.checked_sub(values.count() + 1)?;
-        let opens = self.tokens[open].kind == TokenKind::Mark(Mark::Less);
-        (opens && open + 1 < at).then_some(open)
-    }
-
     /// `#end`.
     fn end(&mut self, at: usize) {
         let Some(&opener) = self.openers.get(&at) else { return };
@@ -356,7 +341,8 @@ impl Repair<'_> {
         // What ends at a closer needs no guess.
         let ends_file = at == self.tokens.len();
         let outside = open.outside.filter(|outside| outside.certain || ends_file);
-        self.inserted.push((outside.map_or(at, |outside| outside.token), kind));
+        let place = outside.map_or(at, |outside| outside.token);
+        self.inserted.push((self.before_angle(open, place), kind));
     }
 }
 

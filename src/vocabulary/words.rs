@@ -372,7 +372,7 @@ vocabulary! {
         ArcAngle "arc_angle" statement later "the part of a rainbow that is seen";
         Background "background" statement built "`background { color }`: what is seen where nothing is, darker by its `transmit`: black";
         Distance "distance" statement later "the distance at which fog has covered two thirds";
-        Fog "fog" statement later "haze over distance";
+        Fog "fog" statement later "`fog { distance 50 rgb 0.8 }`: haze, of which `distance` says how far one sees";
         FogAlt "fog_alt" statement later "the height over which ground fog thins";
         FogOffset "fog_offset" statement later "the height below which ground fog is even";
         FogType "fog_type" statement later "1: even, 2: ground fog";

@@ -60,6 +60,7 @@ impl Evaluator<'_> {
             if let Some(ambient) = &written.ambient {
                 evaluator.lint_ambient(ambient, &finish);
             }
+            evaluator.lint_unlit_highlight(&finish, &written.highlights);
             if let Finish::Classic(classic) = &mut finish {
                 written.albedo.spend(classic);
             }
@@ -152,6 +153,9 @@ impl Evaluator<'_> {
         written.pieces = None;
         let known = self.classic_item(token, word, &mut classic, written)?;
         if known {
+            if matches!(word, Word::Roughness | Word::PhongSize | Word::Specular | Word::Phong) {
+                written.highlights.push((word, self.whole(token)));
+            }
             written.classic.get_or_insert((word, token.span));
             let weightless = match word {
                 Word::Phong => Some(classic.phong == 0.0),

@@ -78,7 +78,10 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Texture) => material.texture = Some(self.texture(token)?),
             TokenKind::Word(Word::Interior) => material.interior = Some(self.interior(token)?),
             TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => return Err(Reported),
+                Some(Value::Broken) => {
+                    self.broken_of_place(token, id, Place::MATERIAL);
+                    return Err(Reported);
+                }
                 Some(Value::Material(named)) => *material = named,
                 Some(Value::Poison(poison)) => self.set_poison(poison),
                 _ => {

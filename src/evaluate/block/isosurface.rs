@@ -14,6 +14,22 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
+/// What stands behind the function of an `isosurface`.
+const OF_ISOSURFACE: &[Word] = &[
+    Word::Threshold,
+    Word::Accuracy,
+    Word::ContainedBy,
+    Word::Open,
+    Word::MaxGradient,
+    Word::Evaluate,
+    Word::MaxTrace,
+    Word::AllIntersections,
+];
+
+/// What stands behind the corners of a `parametric`.
+const OF_PARAMETRIC: &[Word] =
+    &[Word::Accuracy, Word::ContainedBy, Word::MaxGradient, Word::Precompute];
+
 impl Evaluator<'_> {
     /// `function { … }` first, then the other items, in any order.
     pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
@@ -22,24 +38,7 @@ impl Evaluator<'_> {
         let mut container = None;
         let (mut threshold, mut accuracy, mut open) = (0.0, 0.001, false);
         let mut failed = false;
-        loop {
-            self.skip_commas();
-            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
-            let word = *word;
-            if !matches!(
-                word,
-                Word::Threshold
-                    | Word::Accuracy
-                    | Word::ContainedBy
-                    | Word::Open
-                    | Word::MaxGradient
-                    | Word::Evaluate
-                    | Word::MaxTrace
-                    | Word::AllIntersections
-            ) {
-                break;
-            }
-            let Some(item) = self.next() else { break };
+        while let Some((item, word)) = self.next_part(Word::Isosurface, OF_ISOSURFACE) {
             let outcome = match word {
                 Word::Threshold => {
                     self.number_after(&item, "a number").map(|given| threshold = given.value)
@@ -65,6 +64,7 @@ impl Evaluator<'_> {
     /// A function that gives a number, with all that it asks.
     pub(super) fn function_part(&mut self, token: &Token) -> Outcome<Arc<Closed>> {
         self.skip_commas();
+        self.semicolon_for_comma();
         let Some(word) = self.take_word(Word::Function) else {
             let next = self.peek().cloned();
             let wanted = "`function { … }`";
@@ -97,17 +97,7 @@ impl Evaluator<'_> {
         let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
         let mut container = Container::DEFAULT;
         let mut failed = false;
-        loop {
-            self.skip_commas();
-            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
-            let word = *word;
-            if !matches!(
-                word,
-                Word::Accuracy | Word::ContainedBy | Word::MaxGradient | Word::Precompute
-            ) {
-                break;
-            }
-            let Some(item) = self.next() else { break };
+        while let Some((item, word)) = self.next_part(Word::Parametric, OF_PARAMETRIC) {
             let outcome = match word {
                 Word::ContainedBy => self.contained_by(&item).map(|held| container = held),
                 // Every crossing is found as exactly as rounding allows.

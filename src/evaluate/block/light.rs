@@ -179,6 +179,7 @@ impl Evaluator<'_> {
                     written.say(word, given);
                     if word == Word::FadeDistance {
                         written.distances.push((written.fade.distance, self.whole(&token)));
+                        self.power_behind_distance(&token);
                     }
                 }),
                 TokenKind::Word(Word::Shadowless) => {

@@ -13,9 +13,11 @@ mod height_field;
 mod inert;
 mod interior;
 mod isosurface;
+mod item;
 mod julia_fractal;
 mod light;
 mod mesh;
+mod misplaced;
 mod missing;
 mod modifier;
 mod named;
@@ -46,7 +48,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Dialect, Family, Word};
+use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
@@ -244,6 +246,9 @@ impl Evaluator<'_> {
                 self.skip_arguments(word);
                 Ok(Value::Poison(poison))
             }
+            _ if matches!(word.role(), Role::Function { .. }) => {
+                Err(self.lacks_parentheses(token, word))
+            }
             _ => {
                 let name = word.name();
                 let diagnostic = Diagnostic::new(
@@ -256,6 +261,28 @@ impl Evaluator<'_> {
                 Err(reported)
             }
         }
+    }
+
+    /// `seed 99`.
+    fn lacks_parentheses(&mut self, token: &Token, word: Word) -> Reported {
+        let name = word.name();
+        let message = format!("`{name}` takes its arguments in parentheses");
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(token.span, format!("expected `(` after `{name}`"));
+        let value = match self.peek() {
+            Some(&Token { kind: TokenKind::Expression(_), span, .. }) => Some(span),
+            _ => None,
+        };
+        let diagnostic = match value {
+            Some(value) => {
+                let right = format!("{name}({})", self.sources.text(value));
+                diagnostic.help(format!("write `{right}`")).fix(token.span.to(value), right)
+            }
+            None => diagnostic.help(word.sentence()),
+        };
+        let reported = self.report(&token.here, diagnostic);
+        self.skip_arguments(word);
+        reported
     }
 
     /// Enters the block after `token`.

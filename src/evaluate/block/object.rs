@@ -141,6 +141,9 @@ impl Evaluator<'_> {
             }
             Value::Poison(poison) => {
                 self.next();
+                if let Some(comma) = self.next_if(|kind| matches!(kind, TokenKind::Comma)) {
+                    self.warn_of_comma(&comma, Place::shape(word));
+                }
                 self.set_poison(poison);
                 Some(Err(Reported))
             }

@@ -86,6 +86,10 @@ impl Evaluator<'_> {
         if comma && !lost {
             self.skip_commas();
         }
+        // The first part of a block has no comma before it.
+        if !passed && !comma && self.taken != self.blocks.last().copied() {
+            self.semicolon_for_comma();
+        }
         let is_value = matches!(
             self.peek().map(|token| &token.kind),
             Some(TokenKind::Expression(_) | TokenKind::Literal(_))
@@ -171,7 +175,10 @@ impl Evaluator<'_> {
         }
         let token = self.value_token(after, wanted)?;
         match self.given_vector(token) {
-            Ok(given) => Ok(given),
+            Ok(given) => {
+                self.lint_two_numbers(after, &given);
+                Ok(given)
+            }
             Err(token) => self.given_by(token).and_then(|given| self.as_vector(given, wanted)),
         }
     }
@@ -199,7 +206,10 @@ impl Evaluator<'_> {
             return (Err(reported), Err(reported));
         }
         let first = match self.value_token(after, vector).map(|token| self.given_vector(token)) {
-            Ok(Ok(first)) => return (Ok(first), self.number_after(after, number)),
+            Ok(Ok(first)) => {
+                self.lint_two_numbers(after, &first);
+                return (Ok(first), self.number_after(after, number));
+            }
             Ok(Err(token)) => self.given_by(token),
             Err(Reported) => Err(Reported),
         };

@@ -42,6 +42,7 @@ impl Place {
             Word::Function,
             Word::Df3,
             Word::Object,
+            Word::Cubic,
         ],
     };
     pub const PATTERN: Self = Self {
@@ -61,7 +62,7 @@ impl Place {
     pub const TEXTURE: Self = Self {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],
-        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Object],
+        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Object, Word::Cubic],
     };
     pub const DEFAULT: Self = Self {
         word: Some(Word::Default),
@@ -152,6 +153,7 @@ impl Place {
             (None, Word::Sky) if has_block => Some(Word::SkySphere),
             (None, Word::Floor) if has_block => Some(Word::Plane),
             (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
+            (Some(Word::Fog), Word::Density) => Some(Word::Distance),
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
             (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
             (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),

@@ -4,14 +4,18 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
 use crate::scene::polygon::Polygon;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::Token;
 use super::super::{Evaluator, Outcome};
 use super::Given;
 
 /// How far a polygon's points may be from its plane, over its size: as much as numbers of six digits may.
 const FLAT_ENOUGH: f64 = 1e-5;
+
+/// What stands before the points of a `bicubic_patch`.
+const OF_PATCH: &[Word] =
+    &[Word::Type, Word::USteps, Word::VSteps, Word::Flatness, Word::UvVectors];
 
 impl Evaluator<'_> {
     /// `polygon { count, <…>, … }`: a point that is its line's first closes it, and the next begins another.
@@ -92,18 +96,9 @@ impl Evaluator<'_> {
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.1 "Bicubic Patch".
     pub(super) fn bicubic_patch(&mut self, token: &Token) -> Outcome<Solid> {
-        loop {
-            self.skip_commas();
-            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
-            let word = *word;
-            let is_item = matches!(
-                word,
-                Word::Type | Word::USteps | Word::VSteps | Word::Flatness | Word::UvVectors
-            );
-            if !is_item {
-                break;
-            }
-            let Some(item) = self.next() else { break };
+        let mut typed = false;
+        while let Some((item, word)) = self.next_part(Word::BicubicPatch, OF_PATCH) {
+            typed |= word == Word::Type;
             match word {
                 Word::UvVectors => {
                     for name in ["first", "second", "third", "fourth"] {
@@ -120,6 +115,13 @@ impl Evaluator<'_> {
                     self.at_least_zero(&item, word)?;
                 }
             }
+        }
+        if !typed && self.options.dialect == Dialect::Pov {
+            let diagnostic =
+                Diagnostic::new(Code::MissingPart, "this `bicubic_patch` has no `type`")
+                    .at(token.span, "`type 0` or `type 1` is missing: POV-Ray refuses it without")
+                    .help(Word::BicubicPatch.sentence());
+            self.report(&token.here, diagnostic);
         }
         let mut points = [Vector::ZERO; 16];
         let mut last = None;

@@ -1,12 +1,15 @@
 //! `texture` and `#default`.
 
+mod pattern;
+
 use crate::scene::{Texture, TextureId};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use pattern::Written;
 
 impl Evaluator<'_> {
     /// `texture { [Name] … }`, starting from the default texture.
@@ -16,9 +19,11 @@ impl Evaluator<'_> {
         while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
             && let Some(next) = self.next()
         {
-            let poison = Poison::new(Word::Texture, next.here.site(next.span));
-            self.skip_arguments(Word::Texture);
-            self.set_poison(poison);
+            // Each is read for its own mistakes.
+            let outer = self.poison.take();
+            let _: Outcome<Texture> = self.one_texture(&next);
+            self.poison = outer;
+            self.set_poison(Poison::new(Word::Texture, next.here.site(next.span)));
         }
         Ok(self.add_texture(texture?))
     }
@@ -28,9 +33,12 @@ impl Evaluator<'_> {
         let mut texture = self.scene.textures[self.default_texture.index()].clone();
         self.block(token, Word::Texture, |evaluator| {
             let mut failed = false;
+            let mut written = Written::default();
             while let Some(token) = evaluator.next() {
-                failed |= evaluator.texture_item(&token, &mut texture) == Err(Reported);
+                let item = evaluator.texture_item(&token, &mut texture, &mut written);
+                failed |= item == Err(Reported);
             }
+            failed |= evaluator.whole_texture(&written) == Err(Reported);
             if failed { Err(Reported) } else { Ok(texture) }
         })
     }
@@ -42,10 +50,20 @@ impl Evaluator<'_> {
         TextureId(self.scene.textures.len() as u32 - 1)
     }
 
-    fn texture_item(&mut self, token: &Token, texture: &mut Texture) -> Outcome<()> {
+    fn texture_item(
+        &mut self,
+        token: &Token,
+        texture: &mut Texture,
+        written: &mut Written,
+    ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
             texture.transforms.push(transform?);
             return Ok(());
+        }
+        if let TokenKind::Word(word) = token.kind
+            && let Some(outcome) = self.patterned_item(token, word, written)
+        {
+            return outcome;
         }
         match token.kind {
             TokenKind::Word(Word::Pigment) => {
@@ -54,13 +72,11 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Finish) => {
                 texture.finish = self.finish_from(token, texture.finish)?
             }
-            // A texture of a pattern of textures.
-            TokenKind::Word(word) if word.family() == Family::Pattern => {
-                self.pass_not_built(token, word);
-                self.set_poison(Poison::new(word, token.here.site(token.span)));
-            }
             TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => return Err(Reported),
+                Some(Value::Broken) => {
+                    self.broken_of_place(token, id, Place::TEXTURE);
+                    return Err(Reported);
+                }
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
                 // As in POV-Ray, their words may be left out here.
                 Some(Value::Pigment(id)) => texture.pigment = id,

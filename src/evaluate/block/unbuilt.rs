@@ -6,6 +6,7 @@ mod items;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -66,7 +67,7 @@ impl Evaluator<'_> {
             self.inside_block(&here, contents, span, |evaluator| evaluator.map_not_built(word));
             return;
         }
-        if word.family() == Family::Pattern {
+        if word.family() == Family::Pattern || (word == Word::Cubic && !self.is_before_block()) {
             return self.pattern_not_built(token, word);
         }
         if let Word::Normal = word
@@ -104,6 +105,7 @@ impl Evaluator<'_> {
                 | Word::Radiosity
                 | Word::Photons
                 | Word::InteriorTexture
+                | Word::Scattering
                 | Word::Warp
         );
         if !has_block || self.is_before_block() {
@@ -265,6 +267,21 @@ impl Evaluator<'_> {
         }
     }
 
+    /// As [`Self::is_of_place`], of a name whose declaration was told to be wrong: the word behind its `=` says what it
+    /// was to be.
+    pub(super) fn broken_of_place(&mut self, token: &Token, id: ExpressionId, place: Place) {
+        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
+        let Some(declared) = self.scopes.declared(token.here.symbol(name)) else { return };
+        let site = declared.site;
+        let text = &self.sources.get(site.span.file).text;
+        let behind = text.get(site.span.end as usize..).unwrap_or("").trim_start();
+        let Some(value) = behind.strip_prefix('=').map(str::trim_start) else { return };
+        let end = value.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        if let Some(word) = Word::from_name(&value[..end.unwrap_or(value.len())]) {
+            self.is_of_place(token, Poison::new(word, site), place);
+        }
+    }
+
     /// Says of a name that stands for something not built what it is, in a block that has another use for it.
     pub(super) fn is_of_place(&mut self, token: &Token, poison: Poison, place: Place) {
         let Some(of) = place.word.filter(|_| matches!(token.kind, TokenKind::Expression(_))) else {
@@ -280,6 +297,7 @@ impl Evaluator<'_> {
         let is_wrong = match of {
             Word::Pigment => is_other || (is_layer && word != Word::Pigment),
             Word::Texture => is_other,
+            Word::Material => (is_layer || is_other) && word != Word::Material,
             _ => of_object && (is_layer || is_other),
         };
         if !is_wrong {
@@ -293,6 +311,9 @@ impl Evaluator<'_> {
         let whole = format!("{name} {{ {text} }}");
         let diagnostic = match of {
             _ if of_object && !matches!(word, Word::Fog | Word::Rainbow | Word::Camera) => {
+                diagnostic.help(format!("write `{whole}`")).fix(token.span, whole)
+            }
+            Word::Material if matches!(word, Word::Texture | Word::Interior) => {
                 diagnostic.help(format!("write `{whole}`")).fix(token.span, whole)
             }
             Word::Pigment if word == Word::Texture => {

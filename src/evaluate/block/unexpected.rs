@@ -3,17 +3,17 @@
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{Site, Span};
 use crate::syntax::ast::{Callee, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word};
+use crate::vocabulary::{Family, Word};
 
+use super::super::Evaluator;
 use super::super::remembered::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
-use super::super::{Evaluator, Reported};
 use super::Place;
 use super::habit::told_comma;
-use super::place::{home, is_at_top_level, stands_alone};
-use super::unknown::{is_transform, told_directive};
+use super::place::stands_alone;
+use super::unknown::told_directive;
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
@@ -60,17 +60,29 @@ impl Evaluator<'_> {
                         let symbol = token.here.symbol(name);
                         match self.scopes.read(symbol).cloned() {
                             None => self.unknown_word(token, token.span, place),
+                            Some(Value::Poison(_) | Value::Broken)
+                                if self.named_block(token, place) => {}
                             Some(Value::Poison(poison)) => {
                                 self.is_of_place(token, poison, place);
                                 self.set_poison(poison);
                             }
-                            Some(Value::Broken) => {}
+                            Some(Value::Broken) => self.broken_of_place(token, id, place),
                             Some(Value::Macro(_)) => {
                                 self.macro_not_called(&token.here, symbol, token.span);
                                 self.skip_values();
                                 self.skip_block_of(token);
                             }
-                            Some(value) => self.unexpected_value(token, &value, place),
+                            Some(value) => {
+                                // `fov fov`, where a number has the name that another tool's word has.
+                                let name = self.sources.text(token.span).to_owned();
+                                let dialect = self.options.dialect;
+                                let is_word = suggest::foreign(&name)
+                                    .any(|ours| place.words(dialect).any(|word| word == ours));
+                                if is_word && self.is_before_value() {
+                                    return self.unknown_word(token, token.span, place);
+                                }
+                                self.unexpected_value(token, &value, place);
+                            }
                         }
                     }
                     ExpressionKind::Call(callee, arguments) => {
@@ -79,7 +91,7 @@ impl Evaluator<'_> {
                                 let symbol = token.here.symbol(name);
                                 self.scopes.slot(symbol).is_none().then_some((symbol, span))
                             }
-                            Callee::Word(..) => None,
+                            Callee::Word(..) | Callee::Element(_) => None,
                         };
                         match unknown {
                             Some((symbol, span)) => {
@@ -136,6 +148,30 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `Column { translate x }`, where objects stand, of a name that was told to be wrong, or is not built.
+    fn named_block(&mut self, token: &Token, place: Place) -> bool {
+        let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
+        else {
+            return false;
+        };
+        if !place.families.contains(&Family::Shape) {
+            return false;
+        }
+        self.next();
+        let name = self.sources.text(token.span).to_owned();
+        let text = format!("object {{ {name}");
+        let message = format!("`{name}` is a declared name, and no word that opens a block");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "expected a word before it")
+            .help(format!("write `{text} … }}`"))
+            .fix(token.span.to(opener(span)), text);
+        self.report(&token.here, diagnostic);
+        let before = self.told();
+        self.inside_block(&here, contents, span, Self::run_items);
+        self.take_back(before);
+        true
+    }
+
     fn unexpected_value(&mut self, token: &Token, value: &Value, place: Place) {
         if let Value::Poison(poison) = value {
             self.is_of_place(token, *poison, place);
@@ -177,8 +213,10 @@ impl Evaluator<'_> {
         let text = self.sources.text(token.span).to_owned();
         let of_object = place.families.contains(&Family::Modifier);
         let of_texture = of_object || matches!(place.word, Some(Word::Texture | Word::Default));
+        let of_material = place.word == Some(Word::Material);
         let wrapper = match value {
-            Value::Texture(_) if of_object => Some("texture"),
+            Value::Texture(_) if of_object || of_material => Some("texture"),
+            Value::Interior(_) if of_material => Some("interior"),
             Value::Pigment(_) if of_texture => Some("pigment"),
             Value::Finish(_) if of_texture => Some("finish"),
             Value::Interior(_) if of_object => Some("interior"),
@@ -240,140 +278,6 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
-        if let Some(today) = word.today() {
-            self.old_word(token, word, today);
-            return;
-        }
-        let is_part = match place.word {
-            None => !is_at_top_level(word) && home(word).is_some_and(|home| home != word),
-            // The map of a texture is one of textures.
-            Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
-            Some(_) => false,
-        };
-        if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
-            let poison = Poison::new(word, token.here.site(token.span));
-            self.pass_not_built(token, word);
-            self.set_poison(poison);
-            return;
-        }
-        if self.missing_at == Some(token.here.site(token.span)) {
-            // Told: a value should stand here.
-            return self.skip_arguments(word);
-        }
-        let has_block = self.is_before_block();
-        let (name, dialect) = (word.name(), self.options.dialect);
-        let near =
-            suggest::foreign(name).find(|near| place.words(dialect).any(|word| word == *near));
-        if word.family() == Family::Directive {
-            return self.directive_without_sign(token, word);
-        }
-        if matches!(word, Word::Degrees | Word::Radians)
-            && let Some(diagnostic) = self.unit_of_angle(token, word)
-        {
-            self.report(&token.here, diagnostic);
-            return;
-        }
-        let longer = || {
-            let longer = |other: &&str| {
-                let rest = other.strip_prefix(name);
-                name.contains('_') && rest.is_some_and(|rest| rest.starts_with('_'))
-            };
-            let mut words = place.words(dialect).filter(longer);
-            words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)
-        };
-        let meant = place.meant(word, has_block).or_else(|| longer().filter(|_| !has_block));
-        let diagnostic = if let Some(meant) = meant {
-            let (meant, sentence) = (meant.name(), meant.sentence());
-            let message = format!("`{name}` has no meaning {}", place.name());
-            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-                .at(token.span, format!("did you mean `{meant}`?"))
-                .help(sentence.to_owned());
-            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
-            if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
-        // Of a `julia_fractal` it is a function, and everywhere else what others call a box.
-        } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
-            Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
-                .at(token.span, format!("did you mean `{near}`?"))
-                .help(format!("replace it with `{near}`"))
-                .fix(token.span, near)
-        } else if has_block
-            && place.holds(word)
-            && (matches!(word.family(), Family::Shape | Family::Csg) || word == Word::LightSource)
-        {
-            let of = place.word.map_or("", Word::name);
-            Diagnostic::new(
-                Code::MisplacedBlock,
-                format!("this `{name}` stands after the modifiers of `{of}`"),
-            )
-            .at(token.span, format!("the parts of `{of}` come first"))
-        } else if has_block {
-            let is_object =
-                matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object;
-            let label = match home(word).filter(|home| *home != word) {
-                _ if is_object && place.word.is_some() => {
-                    "objects are put together in a `union`".to_owned()
-                }
-                Some(home) if word == Word::Media => {
-                    format!("it belongs in `{} {{ … }}`, or at the top level", home.name())
-                }
-                _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
-                Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
-                None if !matches!(word.role(), Role::Statement) => {
-                    "it stands for a value, in expressions".to_owned()
-                }
-                None if place.word.is_none() => "it belongs in an object".to_owned(),
-                None if word.family() == Family::Texture && place.word == Some(Word::Material) => {
-                    "it belongs in the `texture { … }` of the `material`".to_owned()
-                }
-                None if word.family() == Family::Texture
-                    && matches!(place.word, Some(Word::Pigment | Word::Finish)) =>
-                {
-                    let of = place.word.map_or("", Word::name);
-                    format!("it stands beside `{of}`, not in it")
-                }
-                None => "it belongs elsewhere".to_owned(),
-            };
-            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
-                .at(token.span, label)
-        } else {
-            let mut diagnostic = Diagnostic::new(
-                Code::UnknownWord,
-                format!("`{name}` has no meaning {}", place.name()),
-            )
-            .at(token.span, word.sentence().to_owned());
-            if let Some(home) = home(word).filter(|home| Some(*home) != place.word) {
-                diagnostic = diagnostic.help(format!("it belongs in `{} {{ … }}`", home.name()));
-            } else if let Some(home) = place.word {
-                diagnostic = diagnostic.help(home.sentence().to_owned());
-            } else if matches!(word.family(), Family::Transform | Family::Modifier) {
-                diagnostic =
-                    diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"));
-            }
-            diagnostic
-        };
-        let diagnostic = match self.openers.last().copied() {
-            Some(span) if has_block => diagnostic.also(span, "inside this block"),
-            _ => diagnostic,
-        };
-        match near {
-            Some(near) if is_transform(near) => self.skip_values(),
-            _ => self.skip_arguments(word),
-        }
-        let own = home(word).filter(|home| *home != word && Some(*home) != place.word);
-        let beside = match own.filter(|_| near.is_none() && meant.is_none()) {
-            Some(own) => self.skip_of_home(own, place),
-            None => Vec::new(),
-        };
-        let diagnostic = match beside.as_slice() {
-            [] => diagnostic,
-            beside => {
-                diagnostic.help(format!("so does what stands behind it: {}", beside.join(", ")))
-            }
-        };
-        self.report(&token.here, diagnostic);
-    }
-
     /// The braces that stand where a call has parentheses.
     fn skip_block_of(&mut self, token: &Token) {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
@@ -389,33 +293,6 @@ impl Evaluator<'_> {
         let before = self.told();
         self.inside_block(&here, contents, span, Self::run_items);
         self.take_back(before);
-    }
-
-    /// `composite { … }`, `alpha 0.5`: the word of today is meant.
-    pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
-        let (name, meant) = (word.name(), today.name());
-        let message = format!("`{name}` is a word of old versions");
-        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-            .at(token.span, format!("today it is `{meant}`"))
-            .help(format!("write `{meant}`"))
-            .fix(token.span, meant);
-        let reported = self.report(&token.here, diagnostic);
-        if !self.judge_block(token, today) {
-            self.skip_values();
-        }
-        reported
-    }
-
-    /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.
-    fn directive_without_sign(&mut self, token: &Token, word: Word) {
-        let name = word.name();
-        let message = format!("`{name}` is written with a `#` before it");
-        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-            .at(token.span, format!("did you mean `#{name}`?"))
-            .help(word.sentence().to_owned())
-            .fix(token.span, format!("#{name}"));
-        self.report(&token.here, diagnostic);
-        self.skip_values();
     }
 }
 

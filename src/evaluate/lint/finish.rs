@@ -7,7 +7,7 @@ use crate::evaluate::block::Given;
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Here, Outcome};
 use crate::scene::{ClassicFinish, Finish};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
 /// From here on no light tells on a surface of a middling colour.
@@ -106,6 +106,35 @@ impl Evaluator<'_> {
             _ => return,
         };
         self.report(&given.here, diagnostic);
+    }
+
+    /// `finish { roughness 0.02 }`: how large a highlight is that has no strength.
+    pub(in crate::evaluate) fn lint_unlit_highlight(
+        &mut self,
+        finish: &Finish,
+        written: &[(Word, Site)],
+    ) {
+        let Finish::Classic(ClassicFinish { phong, specular, phong_size, .. }) = finish else {
+            return;
+        };
+        for &(word, site) in written {
+            let (strength, of) = match word {
+                Word::Roughness => (*specular, Word::Specular),
+                Word::PhongSize if *phong_size != 0.0 => (*phong, Word::Phong),
+                _ => continue,
+            };
+            // A strength that is written may be zero for now.
+            if strength != 0.0 || written.iter().any(|(other, _)| *other == of) {
+                continue;
+            }
+            let of = of.name();
+            let name = word.name();
+            let message = format!("`{name}` has no effect without `{of}`");
+            let diagnostic = Diagnostic::new(Code::UnlikelyFinish, message)
+                .at(site.span, "the highlight that it measures has no strength")
+                .help(format!("add one, as `{of} 0.5`, or leave it out"));
+            self.report_in(site.expansion, diagnostic);
+        }
     }
 
     /// `reflection { 0.9, 0.1 }`: more where one looks straight at it than at a glance.

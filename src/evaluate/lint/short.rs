@@ -1,13 +1,15 @@
 //! Vectors with fewer numbers than their place has.
 
+use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::Given;
+use crate::evaluate::stream::{Token, TokenKind};
 use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Here};
 use crate::math::Vector;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, BinaryOperator, ExpressionId, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 impl Evaluator<'_> {
     /// `<1, 2 -3>`, where a comma was lost. Where two are written as two, they may be meant.
@@ -17,6 +19,50 @@ impl Evaluator<'_> {
         if here.unit.ast.arguments(components).len() == 2 {
             self.tell_lost_comma(here, expression.span);
         }
+    }
+
+    /// `<-2.1, 0>`, where a comma became a point: of where a shape, a light or the eye is. Moves and factors may
+    /// have two numbers.
+    pub(in crate::evaluate) fn lint_two_numbers(&mut self, after: &Token, given: &Given<Vector>) {
+        let TokenKind::Word(word) = after.kind else { return };
+        let Some(id) = given.expression.filter(|_| given.value.z == 0.0) else { return };
+        if !matches!(word.family(), Family::Shape | Family::Camera | Family::Light) {
+            return;
+        }
+        let here = &given.here;
+        let expression = here.unit.expression(id);
+        let ExpressionKind::Vector(components) = expression.kind else { return };
+        let arguments = here.unit.ast.arguments(components);
+        if arguments.len() != 2 || self.lost_comma(expression.span).is_some() {
+            return;
+        }
+        let typed = |argument: &Argument| match *argument {
+            Argument::Expression(id) => {
+                is_literal(self.sources.text(here.unit.expression(id).span))
+            }
+            Argument::Items(_) => false,
+        };
+        if !arguments.iter().all(typed) {
+            return;
+        }
+        let (span, text) = (expression.span, self.sources.text(expression.span));
+        let inside = text.trim_matches(['<', '>']).trim();
+        let points: Vec<usize> = text.match_indices('.').map(|(at, _)| at).collect();
+        let diagnostic =
+            Diagnostic::new(Code::ShortVector, "this vector has two components: its z is 0")
+                .at(span, "expected three numbers");
+        let diagnostic = match *points.as_slice() {
+            [point] => {
+                let right = format!("{}, {}", &text[..point], &text[point + 1..]);
+                let place = Span { start: span.start + point as u32, ..span };
+                diagnostic
+                    .help(format!("does a point stand for a comma? write `{right}`"))
+                    .fix(Span { end: place.start + 1, ..place }, ", ")
+            }
+            _ => diagnostic,
+        };
+        let diagnostic = diagnostic.help(format!("with all three it is `<{inside}, 0>`"));
+        self.report(here, diagnostic);
     }
 
     /// `#declare P = <0, 0.8 -0.5>`: nobody takes one number from another with a sign that touches it.

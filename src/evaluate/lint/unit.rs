@@ -87,7 +87,7 @@ impl Walk<'_> {
                     _ => 0,
                 }
             }
-            ExpressionKind::Call(Callee::Name(..), _)
+            ExpressionKind::Call(Callee::Name(..) | Callee::Element(_), _)
             | ExpressionKind::Unary(UnaryOperator::Not, _)
             | ExpressionKind::String
             | ExpressionKind::Word(_)

@@ -47,7 +47,7 @@ facts! {
         => "`internal(n)` is a whole function, and no number";
     it_takes_as_many_arguments_as_it_has:
         "#declare F = function { internal(61) } P(F(1, 2, 3))"
-        => "this function takes 4 arguments, and is given 3";
+        => "`F` takes 4 arguments, and is given 3";
     it_may_be_called_in_other_functions:
         "#declare R = function { internal(57) } #declare F = function { R(x, y, 0) - z } P(F(3, 4, 1))"
         => "4.000";

@@ -125,7 +125,7 @@ facts! {
         "#declare F = function(a) { vlength(<a,1,2>) }"
         => "`a` has no value yet where the function is defined";
     a_wrong_number_of_arguments_is_told:
-        "#declare F = function(a,b) { a+b } P(F(1))" => "this function takes 2 arguments, and is given 1";
+        "#declare F = function(a,b) { a+b } P(F(1))" => "`F` takes 2 arguments, and is given 1";
     what_has_no_value_is_told:
         "#declare F = function(a) { sqrt(-a) } P(F(1))" => "this function has no finite value here";
     a_parameter_named_by_a_word_is_told:

@@ -142,7 +142,9 @@ fn roles(ast: &Ast, length: usize) -> Vec<Role> {
             ExpressionKind::Call(Callee::Word(_, span) | Callee::Name(_, span), _) => {
                 set(span.start as usize, Role::Callee);
             }
-            ExpressionKind::Index(..) => set(before_end(node.span), Role::Index),
+            ExpressionKind::Index(..) | ExpressionKind::Call(Callee::Element(_), _) => {
+                set(before_end(node.span), Role::Index);
+            }
             ExpressionKind::Number(_)
             | ExpressionKind::String
             | ExpressionKind::Name(_)
@@ -301,6 +303,8 @@ impl<'a> List<'a> {
             Mark::Open(Bracket::Brace) => Kind::Open(Pair::Brace),
             Mark::Close(Bracket::Brace) => Kind::Close(Pair::Brace),
             Mark::Open(Bracket::Round) => Kind::Open(Pair::Round),
+            // `A[1](x)`: what calls an element touches it, too.
+            Mark::Close(Bracket::Round) if role == Role::Index => Kind::Close(Pair::Index),
             Mark::Close(Bracket::Round) => Kind::Close(Pair::Round),
             // Which of them are indices, their closers say.
             Mark::Open(Bracket::Square) => Kind::Open(Pair::Entry),

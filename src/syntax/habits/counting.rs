@@ -38,7 +38,9 @@ impl Reader<'_> {
             false => return false,
         };
         let commas = self.kind(from) == Some(TokenKind::Name) && self.is(from + 1, Mark::Comma);
-        if commas && round {
+        // `#for (I, 0, 6; I++)`
+        let counts = (from..to).any(|at| self.is(at, Mark::Semicolon));
+        if commas && round && !counts {
             return false;
         }
         let Some(count) = self.count(from, to) else { return false };
@@ -137,6 +139,9 @@ impl Reader<'_> {
         }
         let semicolons: Vec<usize> =
             (from..to).filter(|&at| self.is(at, Mark::Semicolon)).collect();
+        let commas = |reader: &Self| -> Vec<usize> {
+            (from..to).filter(|&at| reader.is(at, Mark::Comma)).collect()
+        };
         let mut exclusive = false;
         let (first, mut last): (Vec<usize>, Vec<usize>);
         if let [one, other] = semicolons.as_slice() {
@@ -148,16 +153,15 @@ impl Reader<'_> {
             }
             last = (compares + 1..*other).collect();
             let step: String = (other + 1..to).map(|at| self.slice(at)).collect();
-            let name_text = self.slice(name);
-            let by_one = [
-                format!("{name_text}++"),
-                format!("++{name_text}"),
-                format!("{name_text}+=1"),
-                format!("{name_text}={name_text}+1"),
-            ];
-            if !by_one.contains(&step) {
+            if !self.is_by_one(name, &step) {
                 return Some(Count { name, first, last, last_text: String::new() });
             }
+        } else if let ([end], [a, b]) = (semicolons.as_slice(), commas(self).as_slice()) {
+            let step: String = (end + 1..to).map(|at| self.slice(at)).collect();
+            if b > end || !self.is_by_one(name, &step) {
+                return Some(Count::unclear(name));
+            }
+            (first, last) = ((a + 1..*b).collect(), (b + 1..*end).collect());
         } else {
             // `0..5` is read as `0.` and `.5`: what is meant cannot be taken from these.
             let dots =
@@ -216,6 +220,18 @@ impl Reader<'_> {
             (true, Err(_)) => format!("{text} - 1"),
         };
         Some(Count { name, first, last, last_text })
+    }
+
+    /// `i++`, `i += 1`: the counter's name, and how it counts on.
+    fn is_by_one(&self, name: usize, step: &str) -> bool {
+        let name = self.slice(name);
+        let by_one = [
+            format!("{name}++"),
+            format!("++{name}"),
+            format!("{name}+=1"),
+            format!("{name}={name}+1"),
+        ];
+        by_one.iter().any(|one| one == step)
     }
 
     /// Whether one whole number is more than another.

@@ -1,6 +1,7 @@
 //! The heads of directives as other languages write them: `#if A > 3`, `#declare A 3`, a body in braces.
 
 use super::Reader;
+use super::case::innermost;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
@@ -59,6 +60,45 @@ impl Reader<'_> {
         true
     }
 
+    /// `#declare F = function(x) = sin(x)*2;`: a formula without its braces.
+    pub(super) fn formula_behind_sign(&mut self, meant: &mut Vec<Token>) -> bool {
+        let round = |bracket: fn(Bracket) -> Mark| TokenKind::Mark(bracket(Bracket::Round));
+        let closed = meant.last().is_some_and(|last| last.kind == round(Mark::Close));
+        let names = meant.iter().rev().skip(1).take_while(|token| {
+            matches!(
+                token.kind,
+                TokenKind::Name | TokenKind::Word(_) | TokenKind::Mark(Mark::Comma)
+            )
+        });
+        let Some(open) = meant.len().checked_sub(names.count() + 2).filter(|_| closed) else {
+            return false;
+        };
+        let of_function = meant[open].kind == round(Mark::Open)
+            && open > 0
+            && meant[open - 1].kind == TokenKind::Word(Word::Function);
+        let end = self.line_end(1);
+        let semicolon = (1..end).find(|&at| self.is(at, Mark::Semicolon));
+        let Some(end) = semicolon.filter(|&end| of_function && end > 1) else { return false };
+        let (sign, last) = (self.span(0, 0), self.span(end - 1, end - 1));
+        let message = "the formula of a function stands between `{` and `}`";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(sign, "expected `{`")
+                .help("write `function(x) { … }`")
+                .fix(sign, "{")
+                .fix(last.after(), " }"),
+        );
+        let brace = |bracket: fn(Bracket) -> Mark, at: usize| Token {
+            kind: TokenKind::Mark(bracket(Bracket::Brace)),
+            ..self.tokens[self.at + at]
+        };
+        meant.push(brace(Mark::Open, 0));
+        meant.extend(&self.tokens[self.at + 1..self.at + end]);
+        meant.push(brace(Mark::Close, end));
+        self.at += end;
+        true
+    }
+
     /// `#macro Ball(Pos, Rad = 1)`: a parameter with a value of its own.
     pub(super) fn default_value(&mut self, meant: &mut [Token]) -> bool {
         let round = TokenKind::Mark(Mark::Open(Bracket::Round));
@@ -107,20 +147,7 @@ impl Reader<'_> {
         if self.is(1, Mark::Open(Bracket::Brace)) {
             return false;
         }
-        let mut ended = 0;
-        let innermost = meant.iter().rev().find_map(|token| match token.kind {
-            TokenKind::Directive(Head::End) => {
-                ended += 1;
-                None
-            }
-            TokenKind::Directive(head) if head.opens() && ended > 0 => {
-                ended -= 1;
-                None
-            }
-            TokenKind::Directive(head) if head.opens() => Some(head),
-            _ => None,
-        });
-        if innermost != Some(Head::Switch) {
+        if innermost(meant) != Some(Head::Switch) {
             return false;
         }
         let colon = usize::from(self.is(1, Mark::Colon));

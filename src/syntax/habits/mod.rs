@@ -1,5 +1,5 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the
+//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the
 //! parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them, templates (`template.rs`).
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 mod assign;
 mod called;
+mod case;
 mod counting;
 mod head;
 mod letter;
@@ -172,6 +173,7 @@ impl Reader<'_> {
                     || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
+                    || self.case(word, meant)
                     || self.head_without_hash(word, meant)
                     || self.scad(meant)
                     || self.empty_parentheses(word, meant)
@@ -205,7 +207,9 @@ impl Reader<'_> {
                     || self.single_quotes(meant)
                     || (!self.ascii && self.sign(meant))
             }
-            TokenKind::Mark(Mark::Open(Bracket::Square)) => self.vector(meant),
+            TokenKind::Mark(Mark::Open(Bracket::Square)) => {
+                self.array_list(meant) || self.vector(meant)
+            }
             TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
                 self.template(meant) || self.vector(meant)
             }
@@ -217,7 +221,9 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)
-                if self.default_value(meant) || self.named_argument(meant) =>
+                if self.formula_behind_sign(meant)
+                    || self.default_value(meant)
+                    || self.named_argument(meant) =>
             {
                 true
             }
@@ -251,6 +257,15 @@ impl Reader<'_> {
         }
         let name = word.name();
         let span = self.span(0, 0);
+        if word == Word::End && case::innermost(meant).is_none() {
+            let diagnostic = Diagnostic::new(Code::StrayDirective, "this `end` ends nothing")
+                .at(span, "no directive is open here, and blocks end with `}`")
+                .help("leave it out")
+                .fix(span, "");
+            self.diagnostics.push(diagnostic);
+            self.at += 1;
+            return true;
+        }
         if word == Word::If && self.choice_in_formula(meant) {
             return true;
         }

@@ -194,10 +194,14 @@ impl Reader<'_> {
         let text = self.slice(1);
         let Some(next) = self.tokens.get(self.at + 2) else { return false };
         let gap = Span { start: word.end, end: next.start, ..sign };
+        let value = match next.kind {
+            TokenKind::Number | TokenKind::Name => self.slice(2),
+            _ => "…",
+        };
         let message = format!("`{name}` takes its value without `{text}`");
         let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(sign, "expected the value right here")
-            .help(format!("write `{name} …`"))
+            .help(format!("write `{name} {value}`"))
             .fix(gap, " ");
         match self.inside.last_mut() {
             // Half a fix is none.

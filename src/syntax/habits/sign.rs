@@ -219,10 +219,11 @@ impl Reader<'_> {
         };
         let end = start.end + length as u32;
         let close = Span { start: end, end: end + 1, ..start };
+        let inside = &rest[..length];
         let diagnostic =
             Diagnostic::new(Code::UnexpectedCharacter, "a string stands between double quotes")
                 .at(start.to(close), "expected `\"…\"`")
-                .help("replace both `'` with `\"`")
+                .help(format!("write `\"{inside}\"`"))
                 .fix(start, "\"")
                 .fix(close, "\"");
         self.diagnostics.push(diagnostic);

@@ -7,16 +7,25 @@ use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
 /// What makes a vector elsewhere.
-const MAKERS: &[&str] = &["vec2", "vec3", "vec4", "float3", "vector3", "Vector", "Vec3", "Color"];
+const MAKERS: &[&str] = &[
+    "vec2", "vec3", "vec4", "float2", "float3", "float4", "vector3", "Vector", "Vector2",
+    "Vector3", "Vector4", "Vec2", "Vec3", "Vec4", "Color", "Color3",
+];
 
 impl Reader<'_> {
     /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
     pub(super) fn vector(&mut self, meant: &mut Vec<Token>) -> bool {
-        let made = self.kind(0) == Some(TokenKind::Name);
-        if made && !MAKERS.contains(&self.slice(0)) {
+        // `new Vector3(0, 1, 0)`
+        let new = usize::from(
+            self.kind(0) == Some(TokenKind::Name)
+                && self.slice(0) == "new"
+                && self.kind(1) == Some(TokenKind::Name),
+        );
+        let made = self.kind(new) == Some(TokenKind::Name);
+        if made && !MAKERS.contains(&self.slice(new)) {
             return false;
         }
-        let open = usize::from(made);
+        let open = new + usize::from(made);
         let bracket = match self.kind(open) {
             Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
             _ => return false,
@@ -50,7 +59,12 @@ impl Reader<'_> {
                 word.role() == Role::Statement
                     && matches!(
                         word.family(),
-                        Family::Transform | Family::Color | Family::Camera | Family::Pattern
+                        Family::Transform
+                            | Family::Color
+                            | Family::Camera
+                            | Family::Pattern
+                            | Family::Light
+                            | Family::FinishItem
                     )
             }
             _ => false,
@@ -63,7 +77,9 @@ impl Reader<'_> {
             return false;
         }
         let formula = self.inside.last().is_some_and(|inside| inside.opens(Word::Function));
-        let plain = !(made || argument || group) || formula;
+        // `translate [0, H, 0]`: no word of the language but one that takes a vector stands before it.
+        let behind_word = matches!(before(1), Some(TokenKind::Word(_)));
+        let plain = !(made || argument || group || behind_word) || formula;
         let Some(close) = self.row(open, bracket, plain) else { return false };
         let (first, last) = (self.span(0, open), self.span(close, close));
         let before = meant.len().checked_sub(2).map(|word| meant[word]);
@@ -86,6 +102,10 @@ impl Reader<'_> {
         } else {
             let inside = Span { start: first.end, end: last.start, ..first };
             let numbers = self.text.get(inside.range()).unwrap_or("x, y, z").trim();
+            // `reflection [0.1, 0.3]`: the least and the most.
+            if meant.last().map(|token| token.kind) == Some(TokenKind::Word(Word::Reflection)) {
+                return self.reflection(close, numbers.to_owned(), meant);
+            }
             Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
                 .at(self.span(0, close), "expected a vector")
                 .help(format!("write `<{numbers}>`"))
@@ -111,6 +131,62 @@ impl Reader<'_> {
         meant.extend(&self.tokens[self.at + open + 1..self.at + close]);
         meant.push(sign(close, Mark::Greater));
         self.at += close + 1;
+        true
+    }
+
+    /// `reflection [0.1, 0.3]`, whose last bracket is `close` tokens ahead.
+    fn reflection(&mut self, close: usize, numbers: String, meant: &mut Vec<Token>) -> bool {
+        let (first, last) = (self.span(0, 0), self.span(close, close));
+        let message = "what is in a `reflection` stands between `{` and `}`";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(self.span(0, close), "expected a number, or braces")
+                .help(format!("write `reflection {{ {numbers} }}`"))
+                .fix(first, "{ ")
+                .fix(last, " }"),
+        );
+        self.in_braces(close, meant);
+        true
+    }
+
+    /// Takes what stands in other brackets up to `close` as if these were braces.
+    fn in_braces(&mut self, close: usize, meant: &mut Vec<Token>) {
+        let brace =
+            |mark, ahead| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + ahead] };
+        meant.push(brace(Mark::Open(Bracket::Brace), 0));
+        meant.extend(&self.tokens[self.at + 1..self.at + close]);
+        meant.push(brace(Mark::Close(Bracket::Brace), close));
+        self.at += close + 1;
+    }
+
+    /// `array[4] [1, 2, 3, 4]`: the values of an array in brackets.
+    pub(super) fn array_list(&mut self, meant: &mut Vec<Token>) -> bool {
+        let square = |open: bool| match open {
+            true => TokenKind::Mark(Mark::Open(Bracket::Square)),
+            false => TokenKind::Mark(Mark::Close(Bracket::Square)),
+        };
+        let of_array = matches!(meant[..], [.., array, open, _, close]
+            if array.kind == TokenKind::Word(Word::Array)
+                && open.kind == square(true)
+                && close.kind == square(false));
+        let Some(close) = self.closed(0, Bracket::Square).filter(|_| of_array) else {
+            return false;
+        };
+        // Those of a second dimension have no commas.
+        if !(1..close).any(|ahead| self.is(ahead, Mark::Comma)) {
+            return false;
+        }
+        let (first, last) = (self.span(0, 0), self.span(close, close));
+        let message = "the values of an array stand between `{` and `}`";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(first, "expected `{`")
+                .also(last, "and `}`")
+                .help("write `array[3] { 1, 2, 3 }`")
+                .fix(first, "{")
+                .fix(last, "}"),
+        );
+        self.in_braces(close, meant);
         true
     }
 

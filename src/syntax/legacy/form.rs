@@ -137,7 +137,7 @@ impl Legacy<'_> {
                 matches!(word.family(), Family::FloatFunction | Family::VectorFunction)
             }
             ExpressionKind::Group(_)
-            | ExpressionKind::Call(Callee::Name(..), _)
+            | ExpressionKind::Call(Callee::Name(..) | Callee::Element(_), _)
             | ExpressionKind::String
             | ExpressionKind::Name(_)
             | ExpressionKind::Conditional(..)

@@ -10,9 +10,13 @@ use crate::vocabulary::Word;
 impl Repair<'_> {
     /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
     pub(super) fn never_closed(&mut self, open: Open, at: usize) {
+        if self.closed_by_sign(&open, at) {
+            return;
+        }
         self.insert_closer(&open, at);
         let outside = open.outside.filter(|outside| outside.certain);
-        let place = self.span(outside.map_or(at, |outside| outside.token));
+        let place =
+            self.span(self.before_angle(&open, outside.map_or(at, |outside| outside.token)));
         let shown = self.shown(open.token);
         let found = match self.text.get(place.range()).and_then(|text| text.lines().next()) {
             None | Some("") => "the end of the file".to_owned(),
@@ -47,6 +51,30 @@ impl Repair<'_> {
             .at(self.span(open.token), "opened here")
             .also(place, label);
         self.tell(diagnostic);
+    }
+
+    /// `function(x, y; { … }`: a sign stands where the closer belongs.
+    fn closed_by_sign(&mut self, open: &Open, at: usize) -> bool {
+        let at = open.outside.map_or(at, |outside| outside.token);
+        let kind = |at: usize| self.tokens.get(at).map(|token| token.kind);
+        let of_function = open.opener == Opener::Bracket(Bracket::Round)
+            && open.token.checked_sub(1).and_then(kind) == Some(TokenKind::Word(Word::Function));
+        let before_block = kind(at) == Some(TokenKind::Mark(Mark::Semicolon))
+            && kind(at + 1) == Some(TokenKind::Mark(Mark::Open(Bracket::Brace)));
+        if !(of_function && before_block) {
+            return false;
+        }
+        self.surplus[Bracket::Round as usize] -= 1;
+        self.inserted.push((at, TokenKind::Mark(Mark::Close(Bracket::Round))));
+        self.dropped[at] = true;
+        let message = format!("{} is closed by `;`", self.shown(open.token));
+        let diagnostic = Diagnostic::new(Code::UnclosedBlock, message)
+            .at(self.span(at), "expected `)` here")
+            .also(self.span(open.token), "opened here")
+            .help("replace it with `)`")
+            .fix(self.span(at), ")");
+        self.tell(diagnostic);
+        true
     }
 
     /// A text that ends in the middle of a vector or of parentheses, inside blocks: it was cut off, and

@@ -30,6 +30,8 @@ pub(super) struct Written {
     pub albedo: Albedo,
     /// The last `ambient`.
     pub ambient: Option<Given<Rgb>>,
+    /// Each word of a highlight, for its strength or its size.
+    pub highlights: Vec<(Word, Site)>,
     /// Where it starts from: its words count as written here.
     pub origin: FinishOrigin,
 }

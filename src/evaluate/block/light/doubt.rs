@@ -5,8 +5,10 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{LightKind, LightSource};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
+use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome};
 use super::super::part::Given;
 use super::Written;
@@ -15,6 +17,44 @@ use super::Written;
 struct Doubt<'a>(&'a Given<f64>, String, &'static str);
 
 impl Evaluator<'_> {
+    /// `fade_distance 3, 2`: the second number is rather the power.
+    pub(super) fn power_behind_distance(&mut self, token: &Token) {
+        // Without a comma it may be a colour of grey.
+        let rest = self.taken.and_then(|taken| {
+            let text = &self.sources.get(taken.span.file).text;
+            text.get(taken.span.end as usize..)?.trim_start().strip_prefix(',')
+        });
+        let is_number =
+            |rest: &str| rest.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        if !rest.is_some_and(is_number) {
+            return;
+        }
+        self.skip_commas();
+        let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.next() else {
+            return;
+        };
+        if self.number(&here, id).is_err() {
+            return;
+        }
+        let (text, name) = (self.sources.text(span).to_owned(), Word::FadePower.name());
+        let message = "`fade_distance` takes one number, and here is one more";
+        let between = Span { start: token.span.end, end: span.start, ..span };
+        let comma = self.sources.text(between).rfind(',').map(|at| {
+            let start = between.start + at as u32;
+            Span { start, end: start + 1, ..span }
+        });
+        let diagnostic = Diagnostic::new(Code::WrongArity, message)
+            .at(span, "is this the power?")
+            .also(token.span, "for this")
+            .help(format!("write `{name} {text}`"))
+            .fix(span, format!("{name} {text}"));
+        let diagnostic = match comma {
+            Some(comma) => diagnostic.fix(comma, ""),
+            None => diagnostic,
+        };
+        self.report(&here, diagnostic);
+    }
+
     /// Tells what is doubtful in a light, before it is spent; of one from infinitely far, what is wrong.
     pub(super) fn doubt_light(&mut self, light: &LightSource, written: &Written) -> Outcome<()> {
         if self.poison.is_some() {

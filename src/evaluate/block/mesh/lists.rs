@@ -7,11 +7,24 @@ use crate::scene::{Solid, TextureId};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
-use super::super::super::stream::{Token, TokenKind};
+use super::super::super::stream::Token;
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::Given;
 use super::is_degenerate;
+
+/// What stands in a `mesh2`.
+const OF_MESH2: &[Word] = &[
+    Word::VertexVectors,
+    Word::NormalVectors,
+    Word::UvVectors,
+    Word::TextureList,
+    Word::FaceIndices,
+    Word::NormalIndices,
+    Word::UvIndices,
+    Word::InsideVector,
+    Word::Hierarchy,
+];
 
 /// The lists of a `mesh2`, each with what it was opened by.
 #[derive(Default)]
@@ -35,26 +48,7 @@ impl Evaluator<'_> {
     pub(in super::super) fn mesh2(&mut self, token: &Token) -> Outcome<Solid> {
         let mut lists = Lists::default();
         let mut failed = false;
-        loop {
-            self.skip_commas();
-            let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
-            let word = *word;
-            let of_mesh2 = matches!(
-                word,
-                Word::VertexVectors
-                    | Word::NormalVectors
-                    | Word::UvVectors
-                    | Word::TextureList
-                    | Word::FaceIndices
-                    | Word::NormalIndices
-                    | Word::UvIndices
-                    | Word::InsideVector
-                    | Word::Hierarchy
-            );
-            if !of_mesh2 {
-                break;
-            }
-            let Some(list) = self.next() else { break };
+        while let Some((list, word)) = self.next_part(Word::Mesh2, OF_MESH2) {
             failed |= self.mesh2_list(&list, word, &mut lists).is_err();
         }
         if failed || self.poison.is_some() {

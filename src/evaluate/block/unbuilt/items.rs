@@ -12,6 +12,7 @@ use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome};
+use super::super::Place;
 use super::super::pigment::colors_of;
 use super::super::place::home;
 
@@ -43,6 +44,21 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
         (W::Irid, W::Thickness | W::Turbulence) => (1, 1),
         _ => return None,
     })
+}
+
+/// What may stand in a `fog`.
+fn is_of_fog(item: Word) -> bool {
+    matches!(item.family(), Family::Color | Family::Transform)
+        || numbers(item, Word::Fog).is_some()
+        || matches!(
+            item,
+            Word::Up
+                | Word::Turbulence
+                | Word::TurbDepth
+                | Word::Octaves
+                | Word::Omega
+                | Word::Lambda
+        )
 }
 
 /// How many ways of tiling there are; the manual has 24 of them.
@@ -105,6 +121,11 @@ impl Evaluator<'_> {
             let read = self.color_map(token).map(drop);
             self.poison = outer;
             return read.unwrap_or(());
+        }
+        if block == Word::Fog && !is_of_fog(item) {
+            const FOG: Place = Place { word: Some(Word::Fog), families: &[], others: &[] };
+            self.unexpected_word(token, item, FOG);
+            return;
         }
         let Some((least, most)) = numbers(item, block).filter(|_| !self.is_before_block()) else {
             return self.pass_not_built(token, item);

@@ -1,0 +1,178 @@
+//! What to say of a word that the place where it stands does not hold.
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::vocabulary::{Family, Role, Word};
+
+use super::super::stream::Token;
+use super::super::value::Poison;
+use super::super::{Evaluator, Reported};
+use super::Place;
+use super::place::{home, is_at_top_level};
+use super::unknown::is_transform;
+
+impl Evaluator<'_> {
+    pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
+        if let Some(today) = word.today() {
+            self.old_word(token, word, today);
+            return;
+        }
+        let is_part = match place.word {
+            None => !is_at_top_level(word) && home(word).is_some_and(|home| home != word),
+            // The map of a texture is one of textures.
+            Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
+            Some(_) => false,
+        };
+        if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
+            let poison = Poison::new(word, token.here.site(token.span));
+            self.pass_not_built(token, word);
+            self.set_poison(poison);
+            return;
+        }
+        if self.missing_at == Some(token.here.site(token.span)) {
+            // Told: a value should stand here.
+            return self.skip_arguments(word);
+        }
+        let has_block = self.is_before_block();
+        let (name, dialect) = (word.name(), self.options.dialect);
+        let near =
+            suggest::foreign(name).find(|near| place.words(dialect).any(|word| word == *near));
+        if word.family() == Family::Directive {
+            return self.directive_without_sign(token, word);
+        }
+        if matches!(word, Word::Degrees | Word::Radians)
+            && let Some(diagnostic) = self.unit_of_angle(token, word)
+        {
+            self.report(&token.here, diagnostic);
+            return;
+        }
+        let longer = || {
+            let longer = |other: &&str| {
+                let rest = other.strip_prefix(name);
+                let is_whole = name.contains('_') || place.word == Some(Word::GlobalSettings);
+                is_whole && rest.is_some_and(|rest| rest.starts_with('_'))
+            };
+            let mut words = place.words(dialect).filter(longer);
+            words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)
+        };
+        let meant = place.meant(word, has_block).or_else(|| longer().filter(|_| !has_block));
+        let diagnostic = if let Some(meant) = meant {
+            let (meant, sentence) = (meant.name(), meant.sentence());
+            let message = format!("`{name}` has no meaning {}", place.name());
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, format!("did you mean `{meant}`?"))
+                .help(sentence.to_owned());
+            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
+        // Of a `julia_fractal` it is a function, and everywhere else what others call a box.
+        } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
+            Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
+                .at(token.span, format!("did you mean `{near}`?"))
+                .help(format!("replace it with `{near}`"))
+                .fix(token.span, near)
+        } else if has_block
+            && place.holds(word)
+            && (matches!(word.family(), Family::Shape | Family::Csg) || word == Word::LightSource)
+        {
+            let of = place.word.map_or("", Word::name);
+            Diagnostic::new(
+                Code::MisplacedBlock,
+                format!("this `{name}` stands after the modifiers of `{of}`"),
+            )
+            .at(token.span, format!("the parts of `{of}` come first"))
+        } else if has_block {
+            let is_object =
+                matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object;
+            let label = match home(word).filter(|home| *home != word) {
+                _ if is_object && place.word.is_some() => {
+                    "objects are put together in a `union`".to_owned()
+                }
+                Some(home) if word == Word::Media => {
+                    format!("it belongs in `{} {{ … }}`, or at the top level", home.name())
+                }
+                _ if is_at_top_level(word) => "it belongs at the top level".to_owned(),
+                Some(home) => format!("it belongs in `{} {{ … }}`", home.name()),
+                None if !matches!(word.role(), Role::Statement) => {
+                    "it stands for a value, in expressions".to_owned()
+                }
+                None if place.word.is_none() => "it belongs in an object".to_owned(),
+                None if word.family() == Family::Texture && place.word == Some(Word::Material) => {
+                    "it belongs in the `texture { … }` of the `material`".to_owned()
+                }
+                None if word.family() == Family::Texture
+                    && matches!(place.word, Some(Word::Pigment | Word::Finish)) =>
+                {
+                    let of = place.word.map_or("", Word::name);
+                    format!("it stands beside `{of}`, not in it")
+                }
+                None if word == Word::Pigment && place.word == Some(Word::Fog) => {
+                    "its colour stands in it by itself: `color rgb …`".to_owned()
+                }
+                None => "it belongs elsewhere".to_owned(),
+            };
+            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
+                .at(token.span, label)
+        } else {
+            let mut diagnostic = Diagnostic::new(
+                Code::UnknownWord,
+                format!("`{name}` has no meaning {}", place.name()),
+            )
+            .at(token.span, word.sentence().to_owned());
+            if let Some(home) = home(word).filter(|home| Some(*home) != place.word) {
+                diagnostic = diagnostic.help(format!("it belongs in `{} {{ … }}`", home.name()));
+            } else if let Some(home) = place.word {
+                diagnostic = diagnostic.help(home.sentence().to_owned());
+            } else if matches!(word.family(), Family::Transform | Family::Modifier) {
+                diagnostic =
+                    diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"));
+            }
+            diagnostic
+        };
+        let diagnostic = match self.openers.last().copied() {
+            Some(span) if has_block => diagnostic.also(span, "inside this block"),
+            _ => diagnostic,
+        };
+        match near {
+            Some(near) if is_transform(near) => self.skip_values(),
+            _ => self.skip_arguments(word),
+        }
+        let own = home(word).filter(|home| *home != word && Some(*home) != place.word);
+        let beside = match own.filter(|_| near.is_none() && meant.is_none()) {
+            Some(own) => self.skip_of_home(own, place),
+            None => Vec::new(),
+        };
+        let diagnostic = match beside.as_slice() {
+            [] => diagnostic,
+            beside => {
+                diagnostic.help(format!("so does what stands behind it: {}", beside.join(", ")))
+            }
+        };
+        self.report(&token.here, diagnostic);
+    }
+
+    /// `composite { … }`, `alpha 0.5`: the word of today is meant.
+    pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
+        let (name, meant) = (word.name(), today.name());
+        let message = format!("`{name}` is a word of old versions");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("today it is `{meant}`"))
+            .help(format!("write `{meant}`"))
+            .fix(token.span, meant);
+        let reported = self.report(&token.here, diagnostic);
+        if !self.judge_block(token, today) {
+            self.skip_values();
+        }
+        reported
+    }
+
+    /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.
+    fn directive_without_sign(&mut self, token: &Token, word: Word) {
+        let name = word.name();
+        let message = format!("`{name}` is written with a `#` before it");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `#{name}`?"))
+            .help(word.sentence().to_owned())
+            .fix(token.span, format!("#{name}"));
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+    }
+}
