@@ -52,10 +52,23 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             };
             // Of two equally near, the one with the same first letter, then the alphabet's first.
             let first = lower.chars().next() != other.chars().next();
-            (distance <= bound).then_some((distance, first, candidate))
+            // `Withe`: a letter that has wandered.
+            let wandered =
+                !first && count >= 5 && distance == bound + 1 && same_letters(&lower, &other);
+            (distance <= bound || wandered).then_some((distance, first, candidate))
         })
         .min()
         .map(|(_, _, candidate)| candidate)
+}
+
+/// Whether two words are made of the same letters.
+fn same_letters(a: &str, b: &str) -> bool {
+    let sorted = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    a.len() == b.len() && sorted(a) == sorted(b)
 }
 
 /// Whether two names differ only in the number or the capital that tells the members of a series apart:

@@ -190,9 +190,8 @@ impl Evaluator<'_> {
             true => self.split(here, list)?,
             false => None,
         };
-        if split.is_none() {
-            self.check_arguments(here, definition, list, span)?;
-        }
+        // With too many or too few the body is read all the same, for its own mistakes.
+        let wrong = split.is_none() && self.check_arguments(here, definition, list, span).is_err();
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
@@ -210,7 +209,13 @@ impl Evaluator<'_> {
         }
         // Kept from call to call; an argument that calls a macro itself makes do with another.
         let mut bound = std::mem::take(&mut self.bound);
-        for (i, argument) in list.iter().enumerate() {
+        if wrong {
+            // Which is which is not known.
+            self.run_arguments(here, arguments);
+            let broken = || Bound { slot: self.scopes.keep(Value::Broken), own: true };
+            bound.extend(std::iter::repeat_with(broken).take(definition.parameters.len()));
+        }
+        for (i, argument) in list.iter().enumerate().filter(|_| !wrong) {
             if let Some((at, values)) = &split
                 && *at == i
             {
@@ -229,6 +234,9 @@ impl Evaluator<'_> {
             ExpansionKind::Macro,
             definition.called,
         );
+        if wrong {
+            self.wrong_calls.push(expansion);
+        }
         let most = self.options.limits.loop_turns.saturating_mul(Limits::TOGETHER);
         if u64::from(expansion.0) > most {
             let message = format!("macros and includes have been called {most} times");
@@ -295,9 +303,11 @@ impl Evaluator<'_> {
             let told = Diagnostic::new(Code::WrongArity, message)
                 .at(more.unwrap_or(span), format!("expected {wanted}"));
             // `Ball(0, 1, 2, 3)` of two: three numbers without their angle brackets.
-            let vector = (list.len() == parameters.len() + 2)
-                .then(|| surplus(here, &list[parameters.len() - 1..]))
-                .flatten()
+            let vector = parameters
+                .len()
+                .checked_sub(1)
+                .filter(|last| list.len() == last + 3)
+                .and_then(|last| surplus(here, &list[last..]))
                 .filter(|three| {
                     let parts = self.sources.text(*three).split(',').map(str::trim);
                     parts.clone().count() == 3

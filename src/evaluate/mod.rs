@@ -157,6 +157,8 @@ struct Evaluator<'a> {
     broken_function: Option<usize>,
     /// How many parameters the declared functions have that were not understood.
     broken_functions: HashMap<Symbol, usize>,
+    /// Calls of macros with too many arguments, or too few, which was told.
+    wrong_calls: Vec<ExpansionId>,
     /// The functions that are built in and are formulas, by their number; empty until one is asked for.
     internals: Vec<Option<function::FunctionId>>,
     /// What functions of noise are made of.
@@ -307,6 +309,7 @@ impl<'a> Evaluator<'a> {
             functions: Vec::new(),
             broken_function: None,
             broken_functions: HashMap::new(),
+            wrong_calls: Vec::new(),
             internals: Vec::new(),
             noise: NoiseGenerator::default(),
             streams: RandomStreams::default(),

@@ -1,7 +1,8 @@
 //! Turns of loops, and the chosen case of a switch.
 
 use crate::diagnostic::Code;
-use crate::syntax::ast::{Case, CaseKind};
+use crate::syntax::ast::{Argument, Callee, Case, CaseKind, ExpressionId, ExpressionKind};
+use crate::vocabulary::Word;
 
 use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind};
 use super::value::Value;
@@ -39,7 +40,9 @@ impl Evaluator<'_> {
                 // What a mistake in it keeps from being computed may be what ends the loop.
                 let faulty = worn_out || (turns > FAULTY_TURNS && self.misread);
                 let goes_on = if faulty { Ok(false) } else { self.condition(&here, condition) };
-                if goes_on.is_err() && turns == 1 {
+                let unknown = goes_on.is_err()
+                    || (goes_on == Ok(false) && self.asks_of_broken(&here, condition));
+                if unknown && turns == 1 {
                     // What the condition would be is not known: the body is read once, for its own mistakes.
                     self.pop_frame();
                     return self.push_switch(&here, body);
@@ -119,6 +122,20 @@ impl Evaluator<'_> {
             | FrameKind::Macro
             | FrameKind::Include => {}
         }
+    }
+
+    /// `#while (defined(File))`, of a file that could not be opened.
+    fn asks_of_broken(&self, here: &Here, condition: ExpressionId) -> bool {
+        let asked = match here.unit.expression(condition).kind {
+            ExpressionKind::Group(inner) => here.unit.expression(inner).kind,
+            kind => kind,
+        };
+        let ExpressionKind::Call(Callee::Word(Word::Defined, _), list) = asked else {
+            return false;
+        };
+        let [Argument::Expression(id)] = here.unit.ast.arguments(list) else { return false };
+        let ExpressionKind::Name(name) = here.unit.expression(*id).kind else { return false };
+        self.scopes.look(here.symbol(name)) == Some(&Value::Broken)
     }
 
     /// Whether a loop has had enough turns since the first mistake in it.

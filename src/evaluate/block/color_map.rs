@@ -77,6 +77,23 @@ impl Evaluator<'_> {
                             evaluator.report(&token.here, diagnostic);
                             failed = true;
                         }
+                        // `0.8 rgb 1`
+                        _ if evaluator.sources.text(token.span).parse::<f64>().is_ok() => {
+                            let before = evaluator.told();
+                            evaluator.skip_commas();
+                            let _: Outcome<()> =
+                                evaluator.color_after(&token, "a colour").map(drop);
+                            evaluator.take_back(before);
+                            let whole = evaluator.whole(&token).span;
+                            let right = format!("[{}]", evaluator.sources.text(whole));
+                            let message = "an entry of a map stands in square brackets";
+                            let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
+                                .at(whole, "expected `[` and `]` around it")
+                                .help(format!("write `{right}`"))
+                                .fix(whole, right);
+                            evaluator.report(&token.here, diagnostic);
+                            failed = true;
+                        }
                         _ => {
                             evaluator.unexpected(&token, Place::COLOR_MAP);
                             failed = true;

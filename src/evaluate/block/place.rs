@@ -154,6 +154,7 @@ impl Place {
             (None, Word::Floor) if has_block => Some(Word::Plane),
             (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
             (Some(Word::Fog), Word::Density) => Some(Word::Distance),
+            (Some(Word::Fog), Word::Type) => Some(Word::FogType),
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
             (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
             (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),

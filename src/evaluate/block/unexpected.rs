@@ -31,10 +31,13 @@ impl Evaluator<'_> {
                 let poison = Poison::new(*word, token.here.site(token.span));
                 match place.holds(*word) {
                     true => self.pass_not_built(token, *word),
-                    // No part of a light that is not built is one of a camera.
+                    // No part of a light that is not built is one of a camera, nor of a texture one of a finish.
                     false
-                        if place.word == Some(Word::LightSource)
-                            && word.family() == Family::Camera =>
+                        if matches!(
+                            (place.word, word.family()),
+                            (Some(Word::LightSource), Family::Camera)
+                                | (Some(Word::Texture), Family::FinishItem)
+                        ) =>
                     {
                         self.unexpected_word(token, *word, place);
                     }

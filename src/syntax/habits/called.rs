@@ -53,6 +53,41 @@ impl Reader<'_> {
         true
     }
 
+    /// `#macro Post{P, H)`: the parameters in other brackets.
+    pub(super) fn braced_parameters(&mut self, meant: &mut Vec<Token>) -> bool {
+        let opens =
+            self.is(2, Mark::Open(Bracket::Brace)) || self.is(2, Mark::Open(Bracket::Square));
+        if self.kind(1) != Some(TokenKind::Name) || !opens {
+            return false;
+        }
+        let is_parameter =
+            |at: usize| self.kind(at) == Some(TokenKind::Name) || self.is(at, Mark::Comma);
+        let close = (3..).find(|&at| !is_parameter(at)).unwrap_or(3);
+        if close == 3 || !matches!(self.kind(close), Some(TokenKind::Mark(Mark::Close(_)))) {
+            return false;
+        }
+        let (first, last) = (self.span(2, 2), self.span(close, close));
+        let message = "the parameters of a macro stand in parentheses";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(first, "expected `(`")
+                .also(last, "and `)`")
+                .help("write `#macro Name(A, B)`")
+                .fix(first, "(")
+                .fix(last, ")"),
+        );
+        let mark = |mark, ahead: usize| Token {
+            kind: TokenKind::Mark(mark),
+            ..self.tokens[self.at + ahead]
+        };
+        meant.extend(&self.tokens[self.at..self.at + 2]);
+        meant.push(mark(Mark::Open(Bracket::Round), 2));
+        meant.extend(&self.tokens[self.at + 3..self.at + close]);
+        meant.push(mark(Mark::Close(Bracket::Round), close));
+        self.at += close + 1;
+        true
+    }
+
     /// The first token at or behind `from` that no longer belongs to a body without a mark at its end.
     fn body_end(&self, from: usize) -> usize {
         let indent = |ahead: usize| {

@@ -26,6 +26,7 @@ impl Reader<'_> {
             Head::Unknown => self.hash_comment(),
             Head::Declare | Head::Local => self.two_words(meant) || self.value(head, meant),
             Head::Default => self.default_case(meant),
+            Head::Macro => self.braced_parameters(meant),
             _ => false,
         }
     }
