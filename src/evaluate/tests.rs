@@ -266,11 +266,11 @@ fn an_optional_parameter_may_be_left_out() {
         printed(&format!("{macro_} #macro M(optional C) A(1, C) #end M()")),
         "1.000 -5.000 0.000"
     );
-    assert_eq!(
-        printed(&format!("{macro_} A()")),
-        "macro `A` takes 1 to 3 arguments, and is given 0"
-    );
-    assert_eq!(printed(&format!("{macro_} A(, 1)")), "`B` of macro `A` is left empty");
+    // What the body says of itself follows: it is read for its own mistakes.
+    let told = printed(&format!("{macro_} A()"));
+    assert!(told.starts_with("macro `A` takes 1 to 3 arguments, and is given 0"), "{told}");
+    let told = printed(&format!("{macro_} A(, 1)"));
+    assert!(told.starts_with("`B` of macro `A` is left empty"), "{told}");
 }
 
 #[test]
