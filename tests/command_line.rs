@@ -52,6 +52,8 @@ impl Place {
     fn command(&self, words: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lucarne"));
         command.args(words.split_whitespace()).current_dir(self.0.path()).stdin(Stdio::null());
+        // Wide enough that no sentence that is looked for is broken.
+        command.env("COLUMNS", "120");
         command
     }
 

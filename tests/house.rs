@@ -121,6 +121,9 @@ const DOORS: &[(&str, &[&str])] = &[
     // Lists that are mostly short, where crossings are found.
     ("smallvec", &["function/", "geometry/", "math/roots/", "shape/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
+    // How wide what miette draws is.
+    ("textwrap", &["diagnostic/render.rs"]),
+    ("unicode_width", &["diagnostic/excerpt.rs"]),
     ("stacker", &["evaluate/"]),
     ("gif", &["picture"]),
     ("image", &["picture"]),

@@ -163,13 +163,16 @@ fn is_limit(code: Code) -> bool {
     )
 }
 
-/// The width of the terminal on standard error, and colour when it is one and `NO_COLOR` is unset.
+/// The width of the terminal on standard error, or of `COLUMNS`, and colour when it is one and `NO_COLOR` is
+/// unset.
 fn style() -> render::Style {
     let stderr = std::io::stderr();
+    let asked = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let asked = asked.unwrap_or(render::Style::PLAIN.width);
     if !stderr.is_terminal() {
-        return render::Style::PLAIN;
+        return render::Style { width: asked, ..render::Style::PLAIN };
     }
-    let width = terminal_size::terminal_size_of(&stderr).map_or(80, |(width, _)| width.0.into());
+    let width = terminal_size::terminal_size_of(&stderr).map_or(asked, |(width, _)| width.0.into());
     let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
         || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     render::Style { width, color: !plain }

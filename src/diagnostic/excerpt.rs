@@ -9,8 +9,10 @@ use crate::source::{FileId, Position, Sources, Span};
 
 /// A label over more lines than this is cut to its first line.
 const LONGEST_LABEL: usize = 8;
-/// Characters kept on both sides of a label when a line is cut.
-const AROUND: usize = 24;
+/// The columns of a tab in miette's drawings.
+const TAB: usize = 4;
+/// Characters kept at least on both sides of the labels when a line is cut, shared among them.
+const AROUND: usize = 8;
 
 /// Some neighbouring lines of one file.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,6 +116,19 @@ impl Excerpt {
         (0..self.runs.len()).filter(|i| begin(i).is_some()).max_by_key(begin)
     }
 
+    /// The columns of a mark in its line as it is shown, from 0: where it begins, and behind its end there.
+    pub fn columns(&self, mark: usize) -> (usize, usize) {
+        let Some(&(start, end, _)) = self.marks.get(mark) else { return (0, 0) };
+        let Some(run) = self.runs.iter().rev().find(|run| run.base <= start) else { return (0, 0) };
+        let line = run.text[..start - run.base].rfind('\n').map_or(0, |at| at + 1);
+        let text = &run.text[line..];
+        let line_end = text.find('\n').unwrap_or(text.len());
+        let column = |offset: usize| {
+            text[..(offset - run.base - line).min(line_end)].chars().map(columns_of).sum()
+        };
+        (column(start), column(end))
+    }
+
     /// Where byte `at` of `file` is shown: exactly, or at the cut before it.
     fn offset(&self, file: FileId, at: usize) -> usize {
         let Some(run) = self.run(file, at).map(|i| &self.runs[i]) else { return 0 };
@@ -153,19 +168,40 @@ fn windows(line: &str, start: usize, spans: &[Span], room: usize) -> Vec<std::op
     let here = |span: &&Span| span.start as usize <= end && span.end as usize >= start;
     let mut labels: Vec<_> = spans.iter().filter(here).collect();
     labels.sort_unstable_by_key(|span| span.start);
-    for span in labels {
-        let from = (span.start as usize).saturating_sub(start);
-        let to = (span.end as usize).min(end) - start;
-        let longest = room.saturating_sub(2 * AROUND + 2).max(1);
-        let to = to.min(forward(line, from, longest));
-        let window = back(line, from, AROUND)..forward(line, to, AROUND);
+    let longest = room.saturating_sub(2 * AROUND + 2).max(1);
+    let places: Vec<(usize, usize)> = labels
+        .into_iter()
+        .map(|span| {
+            let from = (span.start as usize).saturating_sub(start);
+            let to = (span.end as usize).min(end) - start;
+            (from, to.min(forward(line, from, longest)))
+        })
+        .collect();
+    // What room the labels leave is shared by what stands beside them.
+    let taken: usize = places.iter().map(|&(from, to)| line[from..to].chars().count() + 2).sum();
+    let share = room.saturating_sub(taken) / (2 * places.len()).max(1);
+    let around = share.max(AROUND / places.len().max(1));
+    for (from, to) in places {
+        let window = back(line, from, around)..forward(line, to, around);
         match windows.last_mut() {
             Some(last) if last.end >= window.start => last.end = last.end.max(window.end),
             _ => windows.push(window),
         }
     }
     if windows.is_empty() {
-        windows.push(0..forward(line, 0, room.saturating_sub(1)));
+        windows.push(0..0);
+    }
+    // What is left, at a line's ends or where labels stand close to each other, goes to the last, then to the first.
+    let shown = |windows: &[std::ops::Range<usize>]| -> usize {
+        windows.iter().map(|window| line[window.clone()].chars().count() + 1).sum()
+    };
+    let spare = room.saturating_sub(shown(&windows) + 1);
+    if let Some(last) = windows.last_mut() {
+        last.end = forward(line, last.end, spare);
+    }
+    let spare = room.saturating_sub(shown(&windows) + 1);
+    if let Some(first) = windows.first_mut() {
+        first.start = back(line, first.start, spare);
     }
     windows
 }
@@ -178,6 +214,14 @@ fn forward(line: &str, at: usize, count: usize) -> usize {
 /// The byte `count` characters before byte `at`, or 0.
 fn back(line: &str, at: usize, count: usize) -> usize {
     line[..at].char_indices().rev().take(count).last().map_or(at, |(i, _)| i)
+}
+
+/// How many columns a character takes, as miette draws it.
+fn columns_of(c: char) -> usize {
+    match c {
+        '\t' => TAB,
+        _ => unicode_width::UnicodeWidthChar::width(c).unwrap_or(0),
+    }
 }
 
 /// A span over many lines, cut to its first line.

@@ -26,6 +26,15 @@ impl Style {
     pub const PLAIN: Self = Self { width: 80, color: false };
 }
 
+/// Columns beside a line that its cuts may take, and a label's text does not need.
+const SPARE: usize = 3;
+/// The columns between a label's middle and its text.
+const ARM: usize = 4;
+/// A narrower window is drawn to as if it had this many columns.
+const LEAST_WIDTH: usize = 30;
+/// A label's text is broken into no shorter lines.
+const LEAST_ROOM: usize = 18;
+
 /// Steps of a trace that are shown; of a longer one, the innermost and the outermost.
 const TRACE_SHOWN: usize = 3;
 
@@ -35,7 +44,7 @@ pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String
         true => GraphicalTheme::unicode(),
         false => GraphicalTheme::unicode_nocolor(),
     };
-    let width = style.width.max(40);
+    let width = style.width.max(LEAST_WIDTH);
     let view = View::new(diagnostic, sources, width - 10);
     let mut text = String::new();
     // Writing to a string fails only where a label lies outside of its text, and `Excerpt`
@@ -108,8 +117,11 @@ impl View {
         let labels = spans
             .into_iter()
             .zip(&excerpt.marks)
-            .map(|((_, text, primary), &(start, end, _))| {
-                let text = (!text.is_empty()).then_some(text);
+            .enumerate()
+            .map(|(mark, ((_, text, primary), &(start, end, _)))| {
+                let (from, to) = excerpt.columns(mark);
+                let text = (!text.is_empty())
+                    .then(|| wrapped(&text, (room + SPARE).saturating_sub((from + to) / 2 + ARM)));
                 match primary {
                     true => LabeledSpan::new_primary_with_span(text, (start, end - start)),
                     false => LabeledSpan::new_with_span(text, (start, end - start)),
@@ -132,6 +144,11 @@ impl View {
             text: Text { excerpt, names },
         }
     }
+}
+
+/// A label's text in lines of `room` columns, or a little more: one that stands far to the right has none.
+fn wrapped(text: &str, room: usize) -> String {
+    textwrap::wrap(text, room.max(LEAST_ROOM)).join("\n")
 }
 
 /// The calls that led here: the innermost ones and the outermost; calls from one place

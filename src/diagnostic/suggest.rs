@@ -200,17 +200,24 @@ pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
-/// The candidate that begins as `word` does, for two thirds of the longer one: `contained_by` for `container`,
-/// `extinction` for `extinct`.
+/// The candidate that begins as `word` does, for two thirds of the longer one, or has its stem: `contained_by`
+/// for `container`, `extinction` for `extinct`, `spacing` for `space`.
 pub fn begun<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     const LEAST: usize = 4;
     let fits = |candidate: &&str| {
         let same = word.bytes().zip(candidate.bytes()).take_while(|(a, b)| a == b).count();
         let longer = word.len().max(candidate.len());
-        **candidate != *word && same >= LEAST && 3 * same >= 2 * longer
+        let of_one_stem = stem(word).len() >= LEAST && stem(word) == stem(candidate);
+        **candidate != *word && (of_one_stem || same >= LEAST && 3 * same >= 2 * longer)
     };
     let mut fitting = candidates.into_iter().filter(fits);
     fitting.next().filter(|_| fitting.next().is_none())
+}
+
+/// A word without its ending.
+fn stem(word: &str) -> &str {
+    const ENDINGS: [&str; 9] = ["ing", "ity", "ion", "ed", "er", "or", "e", "s", "y"];
+    ENDINGS.iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word)
 }
 
 /// The words that a name is made of, in lower case: `LeafPigment`, `leaf_pigment`.
@@ -261,6 +268,20 @@ mod tests {
             ("Ball", None),
         ] {
             assert_eq!(abridged(word, names), meant, "{word}");
+        }
+    }
+
+    #[test]
+    fn a_word_with_another_ending_is_known_by_its_stem() {
+        let words = ["spacing", "scattering", "extinction", "contained_by", "gather"];
+        for (word, meant) in [
+            ("space", Some("spacing")),
+            ("scatter", Some("scattering")),
+            ("extinct", Some("extinction")),
+            ("spa", None),
+            ("gas", None),
+        ] {
+            assert_eq!(begun(word, words), meant, "{word}");
         }
     }
 

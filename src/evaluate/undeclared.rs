@@ -213,7 +213,7 @@ impl Evaluator<'_> {
     fn item_like(&self, name: &str, span: Span) -> Option<&'static str> {
         let text = &self.sources.get(span.file).text;
         let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
-        let begins = |c: char| c.is_alphanumeric() || "{}>)\"_".contains(c);
+        let begins = |c: char| c.is_alphanumeric() || "{}>)\"_,".contains(c);
         let has_value = |c: char| c.is_ascii_digit() || "<-.xyz".contains(c);
         let stands_alone = name.starts_with(char::is_lowercase)
             && before.trim_end().ends_with(begins)

@@ -156,14 +156,29 @@ impl<'a> Nest<'a> {
             {
                 return self.finish_expression();
             }
-            return self.report(
-                Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`")
-                    .at(span, "expected `condition ? one : other`"),
-            );
+            return self.report(self.lone_colon(held, span));
         }
         self.before_operator(span);
         self.stacks.colon(base, &mut self.ast.expressions);
         self.top().state = State::Wanting;
+    }
+
+    /// `translate y: 2`: a direction, and how far.
+    fn lone_colon(&self, held: Option<ExpressionKind>, span: Span) -> Diagnostic {
+        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`")
+            .at(span, "expected `condition ? one : other`");
+        let direction = match held {
+            Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => word.name(),
+            _ => return diagnostic,
+        };
+        let number = self.tokens.get(self.at + 1).map(|token| self.span(*token));
+        let number = number.filter(|number| {
+            self.slice(*number).starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        });
+        let Some(number) = number else { return diagnostic };
+        diagnostic
+            .help(format!("write `{direction}*{}`", self.slice(number)))
+            .fix(Span { end: number.start, ..span }, "*")
     }
 
     pub(super) fn component(&mut self, dot: Span) {

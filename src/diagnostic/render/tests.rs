@@ -190,3 +190,34 @@ fn the_mistake_is_drawn_before_what_stands_far_above_it() {
     let at = |place: &str| text.find(place).unwrap_or_else(|| panic!("no {place} in {text}"));
     assert!(at("a.scene:22:1]") < at("a.scene:1:1]"), "{text}");
 }
+
+#[test]
+fn a_narrow_window_breaks_the_labels_and_cuts_the_lines() {
+    let text = "sphere { <0, 1, 0>, 2 pigment { rgb x } finish { phong 1 } }\n\
+                sphere { <0, 1, 0>, 2 pigmnt { rgb <1, 0.5, 0> } }\n";
+    let (sources, file) = one_file("a.scene", text);
+    let diagnostic = Diagnostic::new(Code::UnknownWord, "unknown word `pigmnt`")
+        .at(find(&sources, file, "pigmnt"), "not known in a `sphere`, nor anywhere else")
+        .help("did you mean `pigment`, in which the colour of a thing stands?");
+    let style = Style { width: 40, color: false };
+    let text = human(&diagnostic, &sources, style);
+    assert!(text.lines().all(|line| line.chars().count() <= 40), "{text}");
+    insta::assert_snapshot!(text, @"
+    unknown-word
+
+      × unknown word `pigmnt`
+       ╭─[a.scene:2:23]
+     1 │ sphere { <0, 1, 0>, 2 pigmen…
+     2 │ …, 1, 0>, 2 pigmnt { rgb <1, …
+       ·             ───┬──
+       ·                ╰─┤ not known in a
+       ·                  │ `sphere`, nor
+       ·                  │ anywhere else
+       ╰────
+      help: did you mean `pigment`, in
+            which the colour of a thing
+            stands?
+    ");
+    let wide = human(&diagnostic, &sources, Style { width: 120, color: false });
+    assert!(!wide.contains('…') && wide.contains("not known in a `sphere`, nor anywhere else"));
+}

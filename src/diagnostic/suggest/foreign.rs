@@ -29,6 +29,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("ring", "torus"),
     ("metaball", "blob"),
     ("metaballs", "blob"),
+    ("stiffness", "strength"),
+    ("influence", "strength"),
     ("heightmap", "height_field"),
     ("heightfield", "height_field"),
     ("terrain", "height_field"),

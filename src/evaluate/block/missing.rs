@@ -41,6 +41,17 @@ impl Evaluator<'_> {
             }
             _ => diagnostic,
         };
+        // `cylinder { <0, 1, 0>, 0.5 }`: the number was read as a point.
+        let number = self.taken.map(|taken| self.sources.text(taken.span));
+        let number = number.filter(|text| text.parse::<f64>().is_ok());
+        let diagnostic = match number {
+            Some(number) if after.kind == TokenKind::Word(Word::Cylinder) && place.is_some() => {
+                diagnostic.help(format!(
+                    "`{number}` was read as the middle of the cap: is a point missing before it?"
+                ))
+            }
+            _ => diagnostic,
+        };
         let diagnostic =
             match place.and_then(|end| self.lost_comma(Span { start: after.span.end, ..end })) {
                 Some((value, parted)) => diagnostic.help(format!(
