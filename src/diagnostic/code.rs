@@ -85,7 +85,7 @@ codes! {
     UnknownWord "unknown-word" error "a word is not known in this place";
     UndeclaredName "undeclared-name" error "a name is used and was never declared";
     ReservedName "reserved-name" error "a word of the language cannot be declared";
-    RedeclaredFunction "redeclared-function" error "a function is declared again without `#undef`";
+    RedeclaredFunction "redeclared-function" error "a function or a macro is declared again as something else, without `#undef`";
     NotSupportedYet "not-supported-yet" error "the language has this word, and this version does not build it yet";
     ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
     UnknownDirective "unknown-directive" error "the word after `#` is not a directive";
@@ -127,6 +127,7 @@ codes! {
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    OpenOutline "open-outline" lint "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";

@@ -252,6 +252,11 @@ impl Evaluator<'_> {
         if found == size {
             return Ok(poison);
         }
+        // What was written is there, so that asking for it is no second mistake.
+        if array.dimensions.len() == 1 && found > size {
+            array.elements.resize(found, Some(Value::Broken));
+            array.dimensions[0] = found as u32;
+        }
         let what = if last { "value" } else { "row" };
         let (wanted, given) = (count(&(size..=size), what), count(&(found..=found), what));
         let message = format!("the array has {wanted} here, and is given {given}");

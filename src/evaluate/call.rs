@@ -231,7 +231,12 @@ impl Evaluator<'_> {
             let too_long = error.kind == CallErrorKind::TooLong;
             let label = if too_long { "too much with this" } else { "expected another value" };
             let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, label);
-            diagnostic.help.extend(error.help);
+            // "`str(n, 0, -1)`", of what was given.
+            let given = Some(self.sources.text(at)).filter(|text| at != span && text.len() < 30);
+            diagnostic.help.extend(error.help.map(|help| match given {
+                Some(given) => help.replace("str(n,", &format!("str({given},")),
+                None => help,
+            }));
             // As at every limit, nothing further is evaluated.
             if too_long {
                 self.halt(here.expansion, diagnostic)

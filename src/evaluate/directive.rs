@@ -103,7 +103,7 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
             DirectiveKind::Macro { name, name_span, parameters, body } => {
-                self.define_macro(here, *name, *name_span, parameters, body);
+                self.define_macro(here, (*name, *name_span, directive.head), parameters, body);
                 Ok(())
             }
             DirectiveKind::Include(file) => self.include(here, *file, directive.head),
@@ -235,8 +235,11 @@ impl Evaluator<'_> {
         let value = self.declared_value(here, head, target);
         self.declared_now.pop();
         self.note_broken(symbol, matches!(value, Err(Reported) | Ok(Value::Poison(_))));
-        if let Some(Value::Function(_)) = self.scopes.held_in(home, symbol) {
-            self.redeclared(here, head, target);
+        if let Some(held @ (Value::Function(_) | Value::Macro(_))) =
+            self.scopes.held_in(home, symbol)
+        {
+            let kind = held.kind();
+            self.redeclared(here, (head, target.span), kind);
         }
         if home == 0 && self.scopes.take_unread(symbol) {
             self.lint_replaced_option(here, target);
@@ -251,17 +254,22 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// POV-Ray takes no other value for the name of a function, either; the new one is used.
-    fn redeclared(&mut self, here: &Here, head: Span, target: &Target) {
-        let name = self.sources.text(target.span).to_owned();
+    /// POV-Ray takes no other value for the name of a function or a macro, and no macro for that of a value; the
+    /// new one is used.
+    pub(super) fn redeclared(&mut self, here: &Here, (head, span): (Span, Span), kind: &str) {
+        let name = self.sources.text(span).to_owned();
         let before = Span { end: head.start, ..head };
-        let diagnostic = Diagnostic::new(
-            Code::RedeclaredFunction,
-            format!("`{name}` is a function, and is declared again"),
-        )
-        .at(target.span, "the name is taken")
-        .help(format!("a function is taken back first: `#undef {name}`"))
-        .fix(before, format!("#undef {name}\n"));
+        let message = format!("`{name}` is {kind}, and is declared again");
+        let mut diagnostic = Diagnostic::new(Code::RedeclaredFunction, message)
+            .at(span, "the name is taken")
+            .help(format!("take it back first: `#undef {name}`; or choose another name"))
+            .fix(before, format!("#undef {name}\n"));
+        let declared = self.scopes.symbol(&name).and_then(|symbol| self.scopes.declared(symbol));
+        if let Some(declared) = declared.map(|declared| declared.site.span)
+            && declared != span
+        {
+            diagnostic = diagnostic.also(declared, "declared here");
+        }
         self.report(here, diagnostic);
     }
 

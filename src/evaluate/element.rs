@@ -18,7 +18,7 @@ impl Evaluator<'_> {
     pub(super) fn indexed(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let (base, indices) = chain(here, id);
         let value = self.expression(here, base)?;
-        let numbers = match self.indices(here, &indices)? {
+        let numbers = match self.indices(here, &indices, matches!(value, Value::Array(_)))? {
             Indices::Numbers(numbers) => numbers,
             Indices::Poison(poison) => return Ok(poison),
         };
@@ -42,12 +42,19 @@ impl Evaluator<'_> {
         let ExpressionKind::Name(name) = here.unit.expression(base).kind else { return Ok(None) };
         let symbol = here.symbol(name);
         let Some(slot) = self.scopes.slot(symbol) else { return Ok(None) };
-        let Indices::Numbers(numbers) = self.indices(here, &indices)? else { return Ok(None) };
+        let Indices::Numbers(numbers) = self.indices(here, &indices, true)? else {
+            return Ok(None);
+        };
         let there = self.scopes.read(symbol).is_some_and(|value| element(value, &numbers).is_ok());
         Ok(there.then(|| (slot, numbers.into_boxed_slice())))
     }
 
-    fn indices(&mut self, here: &Here, indices: &[ExpressionId]) -> Outcome<Indices> {
+    fn indices(
+        &mut self,
+        here: &Here,
+        indices: &[ExpressionId],
+        of_array: bool,
+    ) -> Outcome<Indices> {
         let mut numbers = Vec::with_capacity(indices.len());
         let mut outcome = Ok(());
         let mut poison = None;
@@ -58,7 +65,7 @@ impl Evaluator<'_> {
                     let span = here.unit.expression(index).span;
                     match self.as_number(here, span, &value, "a number as index") {
                         Ok(number) => {
-                            if number.fract() != 0.0 {
+                            if number.fract() != 0.0 && of_array {
                                 self.lint_index(here, span, number);
                             }
                             numbers.push(number);
@@ -75,7 +82,7 @@ impl Evaluator<'_> {
 
     /// The indices of what is assigned, read before the value is.
     pub(super) fn target_indices(&mut self, here: &Here, target: &Target) -> Outcome<Indices> {
-        self.indices(here, &target.indices)
+        self.indices(here, &target.indices, true)
     }
 
     /// `#declare A[i] = …`.
@@ -215,7 +222,16 @@ impl Evaluator<'_> {
                     many => format!("{many} indices"),
                 };
                 let message = format!("`{name}` needs {wanted}, and is given {}", indices.len());
-                Diagnostic::new(Code::WrongArity, message).at(base, format!("expected {wanted}"))
+                let diagnostic = Diagnostic::new(Code::WrongArity, message)
+                    .at(base, format!("expected {wanted}"));
+                match indices.len() {
+                    1 if wanted.starts_with('2') => {
+                        let whole = Span { end: index(0).end + 1, ..base };
+                        let whole = self.sources.text(whole);
+                        diagnostic.help(format!("one element is `{whole}[0]`"))
+                    }
+                    _ => diagnostic,
+                }
             }
             NoElement::Unset => {
                 let span = indices

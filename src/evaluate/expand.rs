@@ -85,8 +85,7 @@ impl Evaluator<'_> {
     pub(super) fn define_macro(
         &mut self,
         here: &Here,
-        name: NameId,
-        name_span: Span,
+        (name, name_span, head): (NameId, Span, Span),
         parameters: &[Parameter],
         body: &Body,
     ) {
@@ -109,6 +108,13 @@ impl Evaluator<'_> {
             unit: here.unit.clone(),
             defined: name_span,
         }));
+        let home = self.scopes.home(symbol, false);
+        if let Some(held) = self.scopes.held_in(home, symbol)
+            && !matches!(held, Value::Macro(_) | Value::Broken | Value::Poison(_))
+        {
+            let kind = held.kind();
+            self.redeclared(here, (head, name_span), kind);
+        }
         let owner = if self.in_main() { Owner::Main } else { Owner::Other };
         self.scopes.note_declaration(symbol, here.site(name_span), owner);
         self.scopes.assign(symbol, if reserved { Value::Broken } else { Value::Macro(id) });

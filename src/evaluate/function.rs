@@ -322,7 +322,7 @@ impl Evaluator<'_> {
         if wanted == found {
             return Ok(());
         }
-        let wanted = count(&(wanted..=wanted), "argument");
+        let (least, wanted) = (wanted, count(&(wanted..=wanted), "argument"));
         let call = self.sources.text(span);
         let name = match call.split_once('(') {
             Some((name, _)) => format!("`{}`", name.trim()),
@@ -331,6 +331,15 @@ impl Evaluator<'_> {
         let message = format!("{name} takes {wanted}, and is given {found}");
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"));
+        // `F(x, y)` of a function of a place.
+        let place: String = call.split_whitespace().collect();
+        let diagnostic = match place.strip_suffix("(x,y)") {
+            Some(name) if least == 3 => {
+                let right = format!("{name}(x, y, z)");
+                diagnostic.help(format!("write `{right}`")).fix(span, right)
+            }
+            _ => diagnostic,
+        };
         Err(self.report(here, diagnostic))
     }
 }

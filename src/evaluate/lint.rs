@@ -4,6 +4,7 @@ mod angle;
 mod color;
 mod finish;
 mod light;
+mod lone;
 mod map;
 mod short;
 mod switch;
@@ -16,7 +17,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Dialect;
 use crate::source::{Site, Span};
 use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
-use crate::vocabulary::{PREDECLARED, Word};
+use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 
 use super::scope::Owner;
 pub(in crate::evaluate) use light::Cone;
@@ -128,10 +129,27 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
+    /// Whether a scene with mistakes has a version, and a gamma, in its text; `None` where that is not certain.
+    pub(super) fn certainly_says(&self) -> Option<(bool, bool)> {
+        let lacks_file = |one: &Diagnostic| {
+            matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile)
+        };
+        let main = &self.sources.iter().next()?.1.text;
+        let is_scene = main.contains("camera") && main.contains("global_settings");
+        if !is_scene || self.halted || self.diagnostics.iter().any(lacks_file) {
+            return None;
+        }
+        // A standard include's own version is not the scene's.
+        let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
+        let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
+        let says = |part: &str| own.iter().any(|text| text.contains(part));
+        Some((says("version"), says("gamma")))
+    }
+
     /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
-    pub(super) fn warn_of_old_version(&mut self, main: &Unit) {
+    pub(super) fn warn_of_old_version(&mut self, main: &Unit, says: (bool, bool)) {
         let file = main.ast.file;
-        let missing = match (self.says_version, self.says_gamma) {
+        let missing = match says {
             _ if self.options.dialect == Dialect::Scene => return,
             (true, true) => return,
             (false, true) => "`#version`",
@@ -139,13 +157,19 @@ impl Evaluator<'_> {
             (false, false) => "`#version` and no `assumed_gamma`",
         };
         let message = format!("the file has no {missing}; it is read as version 3.7 with gamma 1");
+        let text = &self.sources.get(file).text;
+        let settings = Word::GlobalSettings.name();
+        let place = match (says, text.find(settings)) {
+            ((true, false), Some(at)) => Span::new(file, at, at + settings.len()),
+            _ => Span::new(file, 0, 0),
+        };
         let mut diagnostic = Diagnostic::new(Code::OldVersion, message)
-            .at(Span::new(file, 0, 0), "POV-Ray would read this as an old file")
+            .at(place, "POV-Ray would read this as an old file")
             .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
         // What is included is not a scene, and says nothing for itself.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
             let preamble = Preamble::of(&main.ast);
-            for (at, text) in preamble.completed(self.says_version, self.says_gamma) {
+            for (at, text) in preamble.completed(says.0, says.1) {
                 diagnostic = diagnostic.fix(Span::new(file, at, at), text);
             }
         }

@@ -380,7 +380,9 @@ impl<'a> Evaluator<'a> {
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
-            self.warn_of_old_version(&here.unit);
+            self.warn_of_old_version(&here.unit, (self.says_version, self.says_gamma));
+        } else if let Some(says) = self.certainly_says() {
+            self.warn_of_old_version(&here.unit, says);
         }
     }
 

@@ -97,6 +97,12 @@ impl Evaluator<'_> {
         }
         let meant = match (found, wanted) {
             (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
+            (Value::Function(_), wanted) if wanted.starts_with("a number") => {
+                Some(format!("a function has a value where it is called: `{text}(x, y, z)`"))
+            }
+            (Value::Vector(_), "a number for the major radius") => {
+                Some("a torus lies around the origin; `translate` moves it".to_owned())
+            }
             (Value::Object(_), "a vector or a colour before the dot") => Some(format!(
                 "what moves or changes an object stands in its block: `object {{ {text} translate x }}`"
             )),

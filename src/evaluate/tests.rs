@@ -23,7 +23,7 @@ fn printed_with(text: &str, declares: &[(&str, f64)]) -> String {
     let head = r#"
         #macro P(A) #debug concat(str(A, 0, 3), " ") #end
         #macro V(A) #debug concat("<", vstr(3, A, ",", 0, 2), "> ") #end
-        #macro C(A) #local Q = A; #debug concat("(", str(Q.red, 0, 2), ",", str(Q.green, 0, 2), ",",
+        #macro Components(A) #local Q = A; #debug concat("(", str(Q.red, 0, 2), ",", str(Q.green, 0, 2), ",",
             str(Q.blue, 0, 2), ",", str(Q.filter, 0, 2), ",", str(Q.transmit, 0, 2), ") ") #end
     "#;
     let mut options = Options::new(Dialect::Pov);
@@ -133,23 +133,23 @@ facts! {
         "P(2 + 3*4 - 6/2) P(-2*-3) P(!0) P((1 & 0)) P((1 | 0)) P((1 | 0 & 0)) P((0.1 + 0.2 = 0.3))"
         => "11.000 6.000 1.000 0.000 1.000 0.000 1.000";
     a_number_fills_what_the_colour_word_names:
-        "#declare A = rgb 1; #declare B = color 1; #declare D = rgbf 1; C(A) C(B) C(D)"
+        "#declare A = rgb 1; #declare B = color 1; #declare D = rgbf 1; Components(A) Components(B) Components(D)"
         => "(1.00,1.00,1.00,0.00,0.00) (1.00,1.00,1.00,1.00,1.00) (1.00,1.00,1.00,1.00,0.00)";
     a_colours_components_are_set_by_name:
-        "#declare R = rgb <1,0,0>; #declare A = color R filter .5; #declare B = color red 1 green .5; C(A) C(B)"
+        "#declare R = rgb <1,0,0>; #declare A = color R filter .5; #declare B = color red 1 green .5; Components(A) Components(B)"
         => "(1.00,0.00,0.00,0.50,0.00) (1.00,0.50,0.00,0.00,0.00)";
     the_fourth_number_is_filter_or_transmit:
-        "#declare A = rgbf <1,.5,.25,.1>; #declare B = rgbt <1,.5,.25,.1>; #declare D = rgbft <1,2,3,4,5>; C(A) C(B) C(D)"
+        "#declare A = rgbf <1,.5,.25,.1>; #declare B = rgbt <1,.5,.25,.1>; #declare D = rgbft <1,2,3,4,5>; Components(A) Components(B) Components(D)"
         => "(1.00,0.50,0.25,0.10,0.00) (1.00,0.50,0.25,0.00,0.10) (1.00,2.00,3.00,4.00,5.00)";
     display_values_are_converted_as_povray_prints_them:
-        "#declare A = srgb <1,.5,.02>; #declare B = srgbft <-0.5,.3,2,.5,.6>; #declare D = srgbt .5; C(A) C(B) C(D)"
+        "#declare A = srgb <1,.5,.02>; #declare B = srgbft <-0.5,.3,2,.5,.6>; #declare D = srgbt .5; Components(A) Components(B) Components(D)"
         => "(1.00,0.21,0.00,0.00,0.00) (-0.04,0.07,4.95,0.50,0.60) (0.21,0.21,0.21,0.00,0.50)";
     what_follows_a_display_value_is_as_it_is:
         "#declare R = rgbf <.5,.5,.5,.25>; #declare A = srgb <.5,.6,.7> filter .3; #declare B = srgb <.5,.6,.7> red .3;
-         #declare D = srgb R; #declare E = srgb <.25,.25,.5>*2; C(A) C(B) C(D) C(E)"
+         #declare D = srgb R; #declare E = srgb <.25,.25,.5>*2; Components(A) Components(B) Components(D) Components(E)"
         => "(0.21,0.32,0.45,0.30,0.00) (0.30,0.32,0.45,0.00,0.00) (0.21,0.21,0.21,0.25,0.00) (0.21,0.21,1.00,0.00,0.00)";
     colours_are_calculated_with:
-        "#declare R = rgb <1,0,0>; #declare A = <.1,.2,.3> + R; #declare B = rgb R*2; #declare D = rgb <1,2,3>*.5; C(A) C(B) C(D)"
+        "#declare R = rgb <1,0,0>; #declare A = <.1,.2,.3> + R; #declare B = rgb R*2; #declare D = rgb <1,2,3>*.5; Components(A) Components(B) Components(D)"
         => "(1.10,0.20,0.30,0.00,0.00) (2.00,0.00,0.00,0.00,0.00) (0.50,1.00,1.50,0.00,0.00)";
     the_gray_of_a_colour: "#declare A = rgbf <1,.5,.25,.1>; P(A.gray)" => "0.620";
     a_string_keeps_its_escapes: "P(strlen(\"a\\tb\\\\c\"))" => "5.000";

@@ -95,6 +95,11 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"));
         let rest = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
         let is_called = rest.trim_start().starts_with('(');
+        let names_a_value = rest.starts_with([' ', '\t'])
+            && rest.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '<');
+        let text = &self.sources.get(span.file).text[..span.start as usize];
+        let line = text.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
+        let counts_a_loop = line.strip_prefix("#while").is_some_and(|rest| !rest.contains(')'));
         let standard = self.lacking_include(name);
         // What the files that the main file includes lack of another one is one mistake.
         if let Some(include) = &standard
@@ -188,7 +193,10 @@ impl Evaluator<'_> {
         } else if is_no_number(name) {
             diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
                 .at(span, "the program that wrote this had no number here");
-        } else if let Some((close, include)) = self.lacking_near(name) {
+        } else if let Some((close, include)) =
+            // A colour is one only where some value may stand.
+            self.lacking_near(name).filter(|_| fits(Word::X))
+        {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
@@ -205,6 +213,15 @@ impl Evaluator<'_> {
             return None;
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
+            // `box { center 0 size 2 }`: what was meant for a word of the block.
+            let opener = self.openers.last().map(|opener| self.sources.text(*opener));
+            if let Some(word) = opener.and_then(Word::from_name).filter(|_| names_a_value) {
+                diagnostic = diagnostic.help(self.form_of(word));
+            }
+        }
+        if counts_a_loop && diagnostic.help.is_empty() {
+            diagnostic = diagnostic
+                .help(format!("a loop's counter begins before it: `#declare {name} = 0;`"));
         }
         Some(diagnostic)
     }

@@ -7,7 +7,7 @@
 use super::Road;
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::vocabulary::is_standard_include;
+use crate::vocabulary::{is_standard_source, standard_include_of};
 
 /// Parts of the words by which a scene, or its author's macros, give light.
 const OF_LIGHT: &[&str] = &[
@@ -33,19 +33,61 @@ fn without_comments(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What is not there may have come behind the end.
-fn is_cut_off(told: &Diagnostic) -> bool {
-    told.code == Code::UnclosedBlock && told.message.starts_with("the file ends")
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+}
+
+const AMBIENT: &str = "ambient";
+
+/// Whether each `ambient` of a text is the default, or less: by that alone a picture is dark.
+fn has_dim_ambient(text: &str) -> bool {
+    let is_dim = |(at, _): (usize, &str)| {
+        let value = text[at + AMBIENT.len()..].trim_start();
+        let end = value.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(value.len());
+        value[..end].parse::<f64>().is_ok_and(|value| value <= 0.1)
+    };
+    text.match_indices(AMBIENT).all(is_dim)
+}
+
+/// `#declare Sun = light_source { … }` of a text that has no other light, and names this one nowhere else: its
+/// name, and the word.
+fn unplaced_lights(text: &str) -> Vec<&str> {
+    const LIGHT: &str = "light_source";
+    let names: Option<Vec<&str>> = text
+        .match_indices(LIGHT)
+        .map(|(at, _)| {
+            let declares = text[..at].trim_end().strip_suffix('=')?;
+            let name = words(declares.trim_end()).last()?;
+            (words(text).filter(|word| *word == name).count() == 1).then_some(name)
+        })
+        .collect();
+    names.map_or(Vec::new(), |names| names.into_iter().chain([LIGHT]).collect())
+}
+
+/// Whether a word of a text gives light, or may: `LightBlue` and `P_Sunset` are colours.
+fn is_of_light(word: &str) -> bool {
+    let lower = word.to_ascii_lowercase();
+    let of_light = OF_LIGHT.iter().any(|part| lower.contains(part));
+    of_light && !lower.contains("sunset") && standard_include_of(word).is_none()
+        || closest(&lower, ["light_source", "background", "emission"]).is_some()
 }
 
 impl Road<'_> {
-    /// The main file's text and those of the author's own includes, in lower case.
+    /// Whether what is not there may have come behind the end: a file that is whole ends with an item.
+    fn is_cut_off(&self, told: &Diagnostic) -> bool {
+        let main = self.sources.iter().next().map_or("", |(_, source)| source.text.trim_end());
+        match told.code {
+            Code::UnclosedBlock => told.message.starts_with("the file ends"),
+            Code::MissingEnd => !main.ends_with(['}', ';', ')']),
+            _ => false,
+        }
+    }
+
+    /// The main file's text and those of the author's own includes.
     fn own_texts(&self) -> Vec<String> {
-        let own = self.sources.iter().enumerate().filter(|(at, (_, source))| {
-            let name = source.name.rsplit(['/', '\\']).next().unwrap_or(&source.name);
-            *at == 0 || !is_standard_include(name)
-        });
-        own.map(|(_, (_, source))| source.text.to_ascii_lowercase()).collect()
+        let own = self.sources.iter().enumerate();
+        let own = own.filter(|(at, (_, source))| *at == 0 || !is_standard_source(&source.name));
+        own.map(|(_, (_, source))| source.text.to_string()).collect()
     }
 
     /// That a scene with lights, `global_settings` and mistakes has no camera; of one without mistakes `lower` tells it.
@@ -53,12 +95,8 @@ impl Road<'_> {
         let lacking = |one: &Diagnostic| {
             matches!(
                 one.code,
-                Code::MissingInclude
-                    | Code::ForbiddenFile
-                    | Code::ForeignFile
-                    | Code::NoCamera
-                    | Code::MissingEnd
-            )
+                Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile | Code::NoCamera
+            ) || self.is_cut_off(one)
         };
         if !self.diagnostics.has_errors() || self.diagnostics.iter().any(lacking) {
             return;
@@ -66,7 +104,10 @@ impl Road<'_> {
         let texts = self.own_texts();
         let misspelt = |text: &str| {
             let mut words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-            words.any(|word| word.starts_with("cam") || closest(word, ["camera"]).is_some())
+            words.any(|word| {
+                let word = word.to_ascii_lowercase();
+                word.starts_with("cam") || closest(&word, ["camera"]).is_some()
+            })
         };
         let whole = texts
             .first()
@@ -81,19 +122,20 @@ impl Road<'_> {
     pub(super) fn tell_dark(&mut self) {
         let lacking = |one: &Diagnostic| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::NoLight)
-                || is_cut_off(one)
+                || self.is_cut_off(one)
         };
         if !self.diagnostics.has_errors() || self.diagnostics.iter().any(lacking) {
             return;
         }
         let texts = self.own_texts();
         let whole = texts.first().is_some_and(|main| is_whole(main));
-        let misspelt = |text: &str| {
-            let mut words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-            words.any(|word| closest(word, ["light_source", "background", "emission"]).is_some())
+        let has_light = |text: &str| {
+            let unplaced = unplaced_lights(text);
+            let is_dim = has_dim_ambient(text);
+            words(text).any(|word| {
+                is_of_light(word) && !unplaced.contains(&word) && !(is_dim && word == AMBIENT)
+            })
         };
-        let has_light =
-            |text: &str| OF_LIGHT.iter().any(|word| text.contains(word)) || misspelt(text);
         if !whole || texts.iter().any(|text| has_light(&without_comments(text))) {
             return;
         }

@@ -33,7 +33,9 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     if let Some(quote) = unclosed {
         let line = text[quote..].lines().next().unwrap_or("\"");
         let end = quote + line.trim_end_matches([' ', '\t', '\r', ';', ')', '}']).len();
-        let (quote, end, label) = match string_run_together(text, quote) {
+        let run_together =
+            string_run_over_a_comma(text, quote).or_else(|| string_run_together(text, quote));
+        let (quote, end, label) = match run_together {
             Some(before) => {
                 if let Some(closer) = scan.closers.first_mut() {
                     *closer = before.end;
@@ -128,6 +130,24 @@ fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
     let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
     let pairs = strings.matches('"').count().is_multiple_of(2) && !strings.contains('\\');
     (runs_on && pairs && start + 1 < inside.len()).then(|| line + start..line + inside.len())
+}
+
+/// `"Jan", "Feb, "Mar"`: of the strings of a list before the quote that has no partner, the first that begins like
+/// another's beginning ends, without its own quote.
+fn string_run_over_a_comma(text: &str, quote: usize) -> Option<Range<usize>> {
+    let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
+    let strings = &text[line..quote];
+    if strings.contains('\\') {
+        return None;
+    }
+    let quotes: Vec<usize> = strings.match_indices('"').map(|(at, _)| at).collect();
+    // Each second one should end a string; where a letter follows, it begins one.
+    quotes.chunks_exact(2).find_map(|pair| {
+        let [open, close] = *pair else { return None };
+        let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
+        let inside = strings[open..close].trim_end().strip_suffix(',')?;
+        (runs_on && inside.len() > 1).then(|| line + open..line + open + inside.len())
+    })
 }
 
 /// A string without its quote swallows the closers on its line, and a comment without its end all that

@@ -22,6 +22,12 @@ impl<'a> Nest<'a> {
             Mark::Less if holding && self.top().of_color && !self.compares() => {
                 self.open_vector(span);
             }
+            // `#declare B = A > 3 ? 1 : 2;` is told once, and is meant as in parentheses.
+            Mark::Less | Mark::Greater
+                if holding && !full && !self.in_vector() && self.compares() =>
+            {
+                self.comparison(mark, span);
+            }
             Mark::Open(bracket) => self.open_bracket(bracket, span),
             Mark::Close(bracket) => {
                 self.leave_vectors(span);
@@ -64,17 +70,21 @@ impl<'a> Nest<'a> {
             | Mark::GreaterOrEqual
             | Mark::Greater
             | Mark::And
-            | Mark::Or => {
-                let Some((operator, in_sums)) = expression::binary(mark) else { return };
-                self.before_operator(span);
-                if !in_sums && !full {
-                    // `==` has been told.
-                    self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
-                    self.only_in_parentheses(span);
-                }
-                self.operator(OperatorKind::Binary(operator), span);
-            }
+            | Mark::Or => self.comparison(mark, span),
         }
+    }
+
+    /// A sum or a product, or what stands in parentheses only.
+    fn comparison(&mut self, mark: Mark, span: Span) {
+        let Some((operator, in_sums)) = expression::binary(mark) else { return };
+        let full = self.top().full || self.top().of_color;
+        self.before_operator(span);
+        if !in_sums && !full {
+            // `==` has been told.
+            self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
+            self.only_in_parentheses(span);
+        }
+        self.operator(OperatorKind::Binary(operator), span);
     }
 
     /// Whether a `?` follows before anything that no comparison has in it.
@@ -169,6 +179,10 @@ impl<'a> Nest<'a> {
             .at(span, "expected `condition ? one : other`");
         let direction = match held {
             Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => word.name(),
+            // `spline { 0: x, 1: y }`.
+            Some(ExpressionKind::Number(_)) => {
+                return diagnostic.help("values are parted by commas").fix(span, ",");
+            }
             _ => return diagnostic,
         };
         let number = self.tokens.get(self.at + 1).map(|token| self.span(*token));

@@ -167,7 +167,9 @@ impl Repair<'_> {
                 }
                 Opener::Bracket(other) => {
                     let outer = self.open_in_branch(bracket).is_some();
-                    if !outer || (surplus(other) <= 0 && surplus(bracket) < 0) {
+                    // `[0.6 rgb 1}`: on one line the one is written for the other.
+                    let swapped = surplus(other) <= 0 || self.are_on_a_line(top.token, at);
+                    if !outer || (swapped && surplus(bracket) < 0) {
                         return self.stray(bracket, at);
                     }
                     if surplus(other) <= 0 {
@@ -235,10 +237,23 @@ impl Repair<'_> {
         self.tell(diagnostic);
     }
 
+    fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
+        let [from, to] = [opener, closer].map(|at| self.tokens[at].start as usize);
+        self.text.get(from..to).is_some_and(|between| !between.contains(['\n', '\r']))
+    }
+
     fn stray(&mut self, bracket: Bracket, at: usize) {
         self.dropped[at] = true;
         let index = bracket as usize;
-        if self.owed[index] > 0 {
+        let beside = self.open.last().is_some_and(|top| match top.opener {
+            Opener::Bracket(open) => {
+                open != bracket
+                    && self.surplus[open as usize] > 0
+                    && self.are_on_a_line(top.token, at)
+            }
+            Opener::Directive => false,
+        });
+        if self.owed[index] > 0 && !beside {
             self.owed[index] -= 1;
             return;
         }
@@ -250,7 +265,8 @@ impl Repair<'_> {
             Some(Opener::Directive) | None => None,
         };
         if let Some(meant) = meant.filter(|&open| {
-            open != bracket && self.surplus[index] <= 0 && self.surplus[open as usize] > 0
+            let lacks = self.surplus[index] <= 0 || beside && self.owed[index] > 0;
+            open != bracket && lacks && self.surplus[open as usize] > 0
         }) && let Some(top) = self.open.pop()
         {
             self.surplus[meant as usize] -= 1;

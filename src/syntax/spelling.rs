@@ -26,6 +26,8 @@ const FOREIGN: &[(&str, &str)] = &[
     ("set", "declare"),
     ("let", "declare"),
     ("var", "declare"),
+    ("const", "declare"),
+    ("def", "declare"),
 ];
 
 /// Reports every unknown directive, and takes it for the one that was meant if that is likely.

@@ -140,7 +140,9 @@ macro_rules! vocabulary {
 mod standard;
 mod words;
 
-pub use standard::{is_standard_include, standard_include_of, standard_includes, standard_names};
+pub use standard::{
+    is_standard_include, is_standard_source, standard_include_of, standard_includes, standard_names,
+};
 use words::ROWS;
 pub use words::Word;
 

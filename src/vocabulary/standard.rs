@@ -17,6 +17,11 @@ pub fn is_standard_include(file: &str) -> bool {
     file.strip_suffix(".inc").is_some_and(|name| rows().any(|(include, _)| include == name))
 }
 
+/// Whether a text is one of those files, wherever it lies, or one of our own in its place.
+pub fn is_standard_source(path: &str) -> bool {
+    is_standard_include(path.rsplit(['/', '\\', ':']).next().unwrap_or(path))
+}
+
 /// The includes that come with POV-Ray, without their `.inc`.
 pub fn standard_includes() -> impl Iterator<Item = &'static str> {
     rows().map(|(include, _)| include)

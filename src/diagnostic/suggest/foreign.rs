@@ -9,6 +9,7 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("ball", "sphere"),
     ("orb", "sphere"),
     ("globe", "sphere"),
+    ("ellipsoid", "sphere"),
     ("uv_sphere", "sphere"),
     ("uvsphere", "sphere"),
     ("ico_sphere", "sphere"),
@@ -145,6 +146,7 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("refraction_index", "ior"),
     ("bump", "bumps"),
     ("freq", "frequency"),
+    ("samples", "count"),
     // POV-Ray 3.0
     ("halo", "media"),
     ("atmosphere", "media_interaction"),

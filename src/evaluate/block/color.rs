@@ -98,8 +98,11 @@ impl Evaluator<'_> {
                 ),
             )
             .at(given.span, format!("expected {wanted} components"));
-            let diagnostic = match given_numbers.len() {
-                4 => diagnostic.help("`rgbf` takes red, green, blue and filter; `rgbt` red, green, blue and transmit"),
+            let diagnostic = match (given_numbers.len(), self.commas_within(given.span)) {
+                (_, Some(vector)) => diagnostic
+                    .help(format!("a fraction is written with a point: `{vector}`"))
+                    .fix(given.span, vector),
+                (4, None) => diagnostic.help("`rgbf` takes red, green, blue and filter; `rgbt` red, green, blue and transmit"),
                 _ => diagnostic.help("`rgbft` takes red, green, blue, filter and transmit"),
             };
             return Err(self.report(&given.here, diagnostic));

@@ -3,7 +3,7 @@
 //! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
 
 use crate::color::{self, Rgb};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
@@ -327,6 +327,16 @@ impl Evaluator<'_> {
             diagnostic.help("it belongs to a colour: `pigment { rgb 1 transmit 0.5 }`")
         }
     }
+}
+
+/// Whether what another tool calls `theirs` has other parts than our word: four corners are too many for a
+/// triangle.
+pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
+    use Word as W;
+    matches!(
+        word,
+        W::Triangle | W::Polygon | W::Cone | W::Mesh | W::Prism | W::Lathe | W::SphereSweep
+    ) && suggest::closest(theirs, [word.name()]).is_none()
 }
 
 /// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.

@@ -67,6 +67,11 @@ impl Evaluator<'_> {
         self.semicolon_for_comma();
         let Some(word) = self.take_word(Word::Function) else {
             let next = self.peek().cloned();
+            if let Some(next) = &next
+                && let Some(reported) = self.bare_function(next)
+            {
+                return Err(reported);
+            }
             let wanted = "`function { … }`";
             return Err(self.expected(wanted, next.as_ref(), (&token.here, token.span)));
         };
@@ -87,6 +92,25 @@ impl Evaluator<'_> {
             }
             _ => Err(Reported),
         }
+    }
+
+    /// `isosurface { F … }`, of a declared function.
+    fn bare_function(&mut self, next: &Token) -> Option<Reported> {
+        let TokenKind::Expression(id) = next.kind else { return None };
+        if let Some(symbol) = self.unknown_name(&next.here, id) {
+            self.next();
+            return Some(self.undeclared_among(&next.here, symbol, next.span, |_| false));
+        }
+        let Some(Value::Function(_)) = self.named(&next.here, id) else { return None };
+        self.next();
+        let name = self.sources.text(next.span).to_owned();
+        let right = format!("function {{ {name}(x, y, z) }}");
+        let message = format!("expected `function {{ … }}`, found `{name}`, which is a function");
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(next.span, "it is called in a function of its own")
+            .help(format!("write `{right}`"))
+            .fix(next.span, right);
+        Some(self.report(&next.here, diagnostic))
     }
 
     /// Three functions of u and v, and two corners of what these range over.

@@ -16,6 +16,7 @@ use crate::math::Vector;
 use crate::math::double::DoubleVector;
 use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
+use crate::source::Site;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -30,6 +31,7 @@ struct Gathered {
     known: HashMap<[u64; 3], u32>,
     textures: Textures,
     degenerate: u32,
+    first_degenerate: Option<Site>,
 }
 
 impl Gathered {
@@ -144,11 +146,11 @@ impl Evaluator<'_> {
         if failed {
             return Err(Reported);
         }
-        let Gathered { mut triangles, degenerate, textures, .. } = gathered;
+        let Gathered { mut triangles, degenerate, first_degenerate, textures, .. } = gathered;
         triangles.textures = textures.into_list();
         match from_file {
             Some((file, read)) => self.mesh_of_file(token, &file, &read, triangles),
-            None => self.whole_mesh(token, Word::Mesh, triangles, degenerate),
+            None => self.whole_mesh(token, Word::Mesh, triangles, (degenerate, first_degenerate)),
         }
     }
 
@@ -177,7 +179,11 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            let before = all.degenerate;
             all.add(corners.map(|corner| corner.value), normals, dress);
+            if all.degenerate > before {
+                all.first_degenerate.get_or_insert(token.here.site(token.span));
+            }
             Ok(())
         })
     }
@@ -200,7 +206,7 @@ impl Evaluator<'_> {
         token: &Token,
         word: Word,
         triangles: Triangles,
-        degenerate: u32,
+        degenerate: (u32, Option<Site>),
     ) -> Outcome<Solid> {
         self.stored += triangles.bytes();
         self.tell_of_degenerate(token, word, triangles.faces.len(), degenerate);
@@ -208,7 +214,13 @@ impl Evaluator<'_> {
     }
 
     /// Says that a mesh has nothing to be seen, or less than was written.
-    fn tell_of_degenerate(&mut self, token: &Token, word: Word, left: usize, degenerate: u32) {
+    fn tell_of_degenerate(
+        &mut self,
+        token: &Token,
+        word: Word,
+        left: usize,
+        (degenerate, first): (u32, Option<Site>),
+    ) {
         if left == 0 && self.poison.is_none() {
             let message = format!("this `{}` has no triangle", word.name());
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
@@ -221,9 +233,10 @@ impl Evaluator<'_> {
                 1 => "a triangle of this mesh is a line or a point".to_owned(),
                 count => format!("{count} triangles of this mesh are lines or points"),
             };
+            let site = first.unwrap_or(token.here.site(token.span));
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
-                .at(token.span, "left out: nothing of it could be seen");
-            self.report(&token.here, diagnostic);
+                .at(site.span, "left out: nothing of it could be seen");
+            self.report_in(site.expansion, diagnostic);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What to say of a word that the place where it stands does not hold.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::Span;
 use crate::vocabulary::{Family, Role, Word};
 
 use super::super::stream::Token;
@@ -22,6 +23,10 @@ impl Evaluator<'_> {
             Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
             Some(_) => false,
         };
+        // `pigment { … normal { … } }`.
+        let is_part = is_part
+            || place.word == Some(Word::Pigment)
+                && matches!(word, Word::Normal | Word::NormalMap | Word::InteriorTexture);
         if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison::new(word, token.here.site(token.span));
             self.pass_not_built(token, word);
@@ -104,13 +109,23 @@ impl Evaluator<'_> {
                     let of = place.word.map_or("", Word::name);
                     format!("it stands beside `{of}`, not in it")
                 }
+                None if word.family() == Family::Texture && place.word == Some(Word::SkySphere) => {
+                    "a sky has no surface: it takes `pigment { … }`".to_owned()
+                }
                 None if word == Word::Pigment && place.word == Some(Word::Fog) => {
                     "its colour stands in it by itself: `color rgb …`".to_owned()
                 }
                 None => "it belongs elsewhere".to_owned(),
             };
-            Diagnostic::new(Code::MisplacedBlock, format!("`{name}` cannot stand {}", place.name()))
-                .at(token.span, label)
+            let message = format!("`{name}` cannot stand {}", place.name());
+            let diagnostic = Diagnostic::new(Code::MisplacedBlock, message).at(token.span, label);
+            match self.runs_on_into(token).filter(|_| is_object) {
+                Some(case) => diagnostic
+                    .also(case, "the case above runs on into this one")
+                    .help("write `#break` at the end of the case above")
+                    .fix(Span { end: case.start, ..case }, "#break\n"),
+                None => diagnostic,
+            }
         } else {
             let mut diagnostic = Diagnostic::new(
                 Code::UnknownWord,
@@ -147,6 +162,18 @@ impl Evaluator<'_> {
             }
         };
         self.report(&token.here, diagnostic);
+    }
+
+    /// The `#case` right before `token`, where what stands before that is no `#break`.
+    fn runs_on_into(&self, token: &Token) -> Option<Span> {
+        let before = self.sources.get(token.span.file).text.get(..token.span.start as usize)?;
+        let start = before.rfind('#')?;
+        let head = &before[start..];
+        let is_case = head.starts_with("#case") || head.starts_with("#range");
+        let runs_on =
+            is_case && head.trim_end().ends_with(')') && before[..start].trim_end().ends_with('}');
+        let word = head.find('(')?;
+        runs_on.then(|| Span::new(token.span.file, start, start + head[..word].trim_end().len()))
     }
 
     /// `composite { … }`, `alpha 0.5`: the word of today is meant.

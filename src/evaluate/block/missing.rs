@@ -134,7 +134,7 @@ impl Evaluator<'_> {
     }
 
     /// How what `word` begins is written where it stands: the parts of a blob have a strength.
-    pub(super) fn form_of(&self, word: Word) -> &'static str {
+    pub(in crate::evaluate) fn form_of(&self, word: Word) -> &'static str {
         let blob = |opener: &Span| self.sources.text(*opener) == Word::Blob.name();
         let in_blob = self.openers.iter().rev().take(2).any(blob);
         match word {

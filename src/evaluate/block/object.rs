@@ -234,11 +234,18 @@ impl Evaluator<'_> {
     }
 
     fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {
-        self.shape(token, word, |evaluator, _| {
+        let (told, mut count) = (self.diagnostics.len(), 0);
+        let shape = self.shape(token, word, |evaluator, _| {
             let children = evaluator.children();
+            count = children.len();
             evaluator.lint_light_of_csg(word, operation, &children);
             Ok(ObjectKind::Csg { operation, children })
-        })
+        });
+        // Where a part was misread, that is what is told.
+        if count == 1 && self.diagnostics.len() == told {
+            self.lint_lone_child(token, operation);
+        }
+        shape
     }
 
     fn union(&mut self, _: &Token) -> Outcome<ObjectKind> {

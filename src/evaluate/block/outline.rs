@@ -4,13 +4,14 @@
 //! of a `sor` rise.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::Solid;
 use crate::scene::outline::{Point, Spline, sameness};
+use crate::scene::{Dialect, Solid};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Outcome};
+use super::super::{Evaluator, Here, Outcome};
 use super::part::Given;
 
 /// Points, and where each is written.
@@ -62,8 +63,11 @@ impl Evaluator<'_> {
                     .help(format!("a curve ends with the point it began with{then}"));
             return Err(self.report(&last.here, diagnostic));
         }
-        if spline == Spline::Bezier {
-            self.pieces_meet(&points)?;
+        match spline {
+            Spline::Bezier => self.pieces_meet(&points)?,
+            // Where one more point follows, that is what is told.
+            Spline::Linear if !self.goes_on() => self.lint_open_prism(&points),
+            Spline::Linear | Spline::Quadratic | Spline::Cubic => {}
         }
         let open = self.take_word(Word::Open).is_some();
         let points: Vec<Point> = values(&points);
@@ -75,6 +79,46 @@ impl Evaluator<'_> {
             open,
         };
         Ok(solid)
+    }
+
+    /// Whether a value comes next, or a comma before one.
+    pub(super) fn goes_on(&mut self) -> bool {
+        matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_) | TokenKind::Comma)
+        )
+    }
+
+    /// The last of several lines may lack the point that closes it.
+    fn lint_open_prism(&mut self, points: &Points) {
+        let all = values(points);
+        let contours = Spline::Linear.contours(&all).unwrap_or_default();
+        let Some(last) = contours.last() else { return };
+        let (first, end) = (&points[last.start], &points[last.end - 1]);
+        if last.len() == 1 || !sameness(&all)(first.value, end.value) {
+            let name = Word::Prism.name();
+            self.lint_open_outline(name, (&end.here, end.span), first.span);
+        }
+    }
+
+    /// An outline that ends elsewhere than it begins: POV-Ray closes it, and warns.
+    pub(super) fn lint_open_outline(
+        &mut self,
+        name: &str,
+        (here, end): (&Here, Span),
+        first: Span,
+    ) {
+        if self.options.dialect != Dialect::Pov {
+            return;
+        }
+        let point = self.sources.text(first).to_owned();
+        let message =
+            format!("the outline of this {name} does not end where it began; it is closed");
+        let diagnostic = Diagnostic::new(Code::OpenOutline, message)
+            .at(end, "the outline ends here")
+            .also(first, "it began here")
+            .help(format!("add the point `{point}` at its end, and count it"));
+        self.report(here, diagnostic);
     }
 
     /// The pieces of a closed curve meet end to end.

@@ -35,12 +35,16 @@ impl Evaluator<'_> {
         let mut line: Vec<Vector> = Vec::new();
         let announced = count.span;
         let (mut last, mut points) = (count.with(Vector::ZERO), 0u64);
+        let mut first = announced;
         for number in 1..=wanted {
             let name = format!("a vector for point {number} of {wanted}");
             self.announced = Some((announced, points as usize));
             let given = self.given(token, &name);
             self.announced = None;
             let point = self.as_vector(given?, &name)?;
+            if line.is_empty() {
+                first = point.span;
+            }
             if line.first() == Some(&point.value) {
                 polygon.lines.push(std::mem::take(&mut line));
             } else {
@@ -51,6 +55,9 @@ impl Evaluator<'_> {
                 return Err(self.too_much_memory(&token.here, token.span));
             }
             last = point;
+        }
+        if !line.is_empty() && !self.goes_on() {
+            self.lint_open_outline(Word::Polygon.name(), (&last.here, last.span), first);
         }
         if !line.is_empty() {
             polygon.lines.push(line);

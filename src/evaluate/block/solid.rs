@@ -263,6 +263,7 @@ impl Evaluator<'_> {
                     .at(minor.span, "expected a number more than 0");
             self.nothing(token, &minor.here, diagnostic)?;
         }
+        self.lint_spindle(&major, &minor);
         for radius in [&major, &minor].into_iter().filter(|radius| radius.value < 0.0) {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }

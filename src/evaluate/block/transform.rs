@@ -46,10 +46,15 @@ impl Evaluator<'_> {
 
     fn step(&mut self, token: &Token, word: Word) -> Outcome<Step> {
         match word {
-            Word::Translate => Ok(Step::Translate(self.vector_after(token, "a vector")?.value)),
+            Word::Translate => {
+                let given = self.vector_after(token, "a vector")?;
+                self.lint_axis_and_number(token, &given);
+                Ok(Step::Translate(given.value))
+            }
             Word::Rotate => {
                 let given = self.vector_after(token, "a vector of degrees")?;
                 self.no_angle_after(&given)?;
+                self.lint_axis_and_number(token, &given);
                 self.lint_rotation(&given);
                 Ok(Step::Rotate(given.value))
             }

@@ -93,6 +93,13 @@ impl Evaluator<'_> {
             return;
         }
         self.block_is_missing(token, word);
+        // An object, which has mistakes as any other.
+        if let Word::LooksLike | Word::ProjectedThrough = word
+            && self.is_before_block()
+            && self.judge_block(token, Word::Union)
+        {
+            return;
+        }
         self.skip_arguments(word);
     }
 

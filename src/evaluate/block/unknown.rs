@@ -13,7 +13,7 @@ use super::super::remembered::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
 use super::super::{Evaluator, Outcome, Reported, Symbol};
-use super::habit::custom;
+use super::habit::{custom, has_other_parts};
 use super::place::home;
 use super::{Place, opens_value};
 
@@ -53,10 +53,8 @@ impl Evaluator<'_> {
         has_block: bool,
         place: Place,
     ) {
-        // A face of four corners has too many for a triangle.
         let meant = near.filter(|_| has_block).and_then(Word::from_name);
-        let is_quad = self.sources.text(token.span).eq_ignore_ascii_case("quad");
-        let meant = meant.filter(|_| !is_quad);
+        let meant = meant.filter(|word| !has_other_parts(self.sources.text(token.span), *word));
         if let Some(word) = meant
             && self.judge_block(token, word)
         {

@@ -4,6 +4,7 @@ use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::Given;
 use crate::evaluate::stream::FrameKind;
+use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Here};
 use crate::math::Vector;
 use crate::source::{Site, Span};
@@ -53,7 +54,8 @@ impl Evaluator<'_> {
             return;
         }
         let text = self.sources.text(given.span);
-        if given.value == Vector::ZERO || !is_literal(text) {
+        let is_number = is_literal(text) || self.is_of_numbers(text);
+        if given.value == Vector::ZERO || !is_number {
             return;
         }
         // `rotate 45 degrees` is told as that.
@@ -66,6 +68,22 @@ impl Evaluator<'_> {
             .at(given.span, format!("this is <{text}, {text}, {text}>"))
             .help(format!("did you mean `rotate {text}*y`?"));
         self.report(&given.here, diagnostic);
+    }
+
+    /// Whether an expression is a calculation with numbers alone, and none of chance: `I*360/Teeth`.
+    fn is_of_numbers(&self, text: &str) -> bool {
+        let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+        let is_number = |word: &str| {
+            let symbol = self.scopes.symbol(word);
+            let held = symbol.and_then(|symbol| self.scopes.look(symbol));
+            word.is_empty()
+                || word.parse::<f64>().is_ok()
+                || matches!(word, "clock" | "pi")
+                || matches!(held, Some(Value::Number(_)))
+        };
+        text.contains(['*', '/'])
+            && text.chars().all(|c| of_name(c) || "+-*/ ".contains(c))
+            && text.split(|c: char| !of_name(c)).all(is_number)
     }
 
     /// Degrees are wanted; these look like radians. Says whether it said so.

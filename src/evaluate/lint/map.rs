@@ -76,6 +76,17 @@ impl Evaluator<'_> {
                 }),
             false => diagnostic.help("a pattern goes from 0 to 1; beyond it colours are cut off"),
         };
+        // `[0.4 …] [5 …] [1 …]`: a point was lost.
+        let at = rise.literal.iter().position(|given| std::ptr::eq(given, outside)).unwrap_or(0);
+        let before = at.checked_sub(1).map_or(0.0, |at| rise.literal[at].value);
+        let behind = rise.literal.get(at + 1).map_or(1.0, |given| given.value);
+        let text = self.sources.text(outside.span);
+        let meant = [10.0, 100.0].into_iter().map(|tenth| outside.value / tenth).find(|meant| {
+            before < *meant && *meant < behind && text.bytes().all(|b| b.is_ascii_digit())
+        });
+        if let Some(meant) = meant.filter(|_| !rise.computed && largest != 100.0) {
+            diagnostic = diagnostic.help(format!("did you mean `{meant}`?"));
+        }
         let here = outside.here.clone();
         self.report(&here, diagnostic);
     }

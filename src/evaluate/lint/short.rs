@@ -98,6 +98,40 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
+    /// `rotate y -20`: a number is taken from all three components of an axis, by a sign that touches it.
+    pub(in crate::evaluate) fn lint_axis_and_number(
+        &mut self,
+        token: &Token,
+        given: &Given<Vector>,
+    ) {
+        let Some(id) = given.expression else { return };
+        let ExpressionKind::Binary(BinaryOperator::Subtract, axis, number) =
+            given.here.unit.expression(id).kind
+        else {
+            return;
+        };
+        let kind = |id| given.here.unit.expression(id).kind;
+        let is_axis = matches!(kind(axis), ExpressionKind::Word(Word::X | Word::Y | Word::Z));
+        if !is_axis || !matches!(kind(number), ExpressionKind::Number(_)) {
+            return;
+        }
+        let text = self.sources.text(given.span);
+        let Some((axis, number)) = text
+            .split_once(" -")
+            .filter(|(_, number)| number.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
+        else {
+            return;
+        };
+        let right = format!("-{number}*{}", axis.trim_end());
+        let [x, y, z] = given.value.to_array();
+        let message = "a number is taken from all three components of this vector";
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(given.span, format!("this is <{x}, {y}, {z}>"))
+            .help(format!("is a `*` missing? write `{} {right}`", self.sources.text(token.span)))
+            .fix(given.span, right);
+        self.report(&given.here, diagnostic);
+    }
+
     /// `right 16/9`, typed: a side of the picture is a vector.
     pub(in crate::evaluate) fn lint_lone_side(
         &mut self,

@@ -69,12 +69,12 @@ facts! {
     a_pigment_is_a_function_to_a_colour:
         "#declare F = function { pigment { gradient x
             color_map { [0 rgbft <.1, .2, .3, .4, .5>] [1 rgb <1, .5, .25>] } scale 2 } }
-         C(F(.5, 0, 0)) P(F(.5, 0, 0).red) P(F(.5, 0, 0).transmit) P(F(.5, 0, 0).t) P(F(.5, 0, 0).gray)
+         Components(F(.5, 0, 0)) P(F(.5, 0, 0).red) P(F(.5, 0, 0).transmit) P(F(.5, 0, 0).t) P(F(.5, 0, 0).gray)
          #declare G = function { F(x, y, z).gray - F(x, y, z).u } P(G(.5, 0, 0))"
         => "(0.32,0.28,0.29,0.30,0.38) 0.325 0.375 0.300 0.291 -0.034";
     a_declared_pigment_goes_on_there:
         "#declare D = pigment { checker rgb .1, rgb .7 } #declare F = function { pigment { D scale 2 } }
-         C(F(2.3, .1, .1))" => "(0.70,0.70,0.70,0.00,0.00)";
+         Components(F(2.3, .1, .1))" => "(0.70,0.70,0.70,0.00,0.00)";
     a_transform_is_a_function_to_a_point:
         "#declare F = function { transform { rotate 90*z translate <1, 2, 3> } } V(F(1, 0, 0)) P(F(1, 0, 0).y)
          #declare G = function { F(x, y, z).z + F(x, y, z).x } P(G(1, 0, 0))"

@@ -160,7 +160,12 @@ impl Evaluator<'_> {
             return Err(self.report(&token.here, diagnostic));
         }
         self.meshes.painted = read.pigment.map(|pigment| (pigment, file.here.site(file.span)));
-        self.tell_of_degenerate(token, Word::Mesh, read.triangles.faces.len(), read.degenerate);
+        self.tell_of_degenerate(
+            token,
+            Word::Mesh,
+            read.triangles.faces.len(),
+            (read.degenerate, None),
+        );
         let triangles = match own.inside {
             None => read.triangles.clone(),
             Some(way) => {

@@ -135,7 +135,7 @@ impl Evaluator<'_> {
         let faces = faces.collect();
         let uvs = uvs.into_iter().map(|uv| [uv.x, uv.y]).collect();
         let triangles = Triangles { vertices, normals, uvs, faces, textures, inside };
-        self.whole_mesh(token, Word::Mesh2, triangles, degenerate)
+        self.whole_mesh(token, Word::Mesh2, triangles, (degenerate, None))
     }
 
     fn mesh2_list(&mut self, list: &Token, word: Word, lists: &mut Lists) -> Outcome<()> {

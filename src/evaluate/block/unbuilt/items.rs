@@ -122,9 +122,15 @@ impl Evaluator<'_> {
             self.poison = outer;
             return read.unwrap_or(());
         }
-        if block == Word::Fog && !is_of_fog(item) {
-            const FOG: Place = Place { word: Some(Word::Fog), families: &[], others: &[] };
-            self.unexpected_word(token, item, FOG);
+        let is_foreign = match block {
+            Word::Fog => !is_of_fog(item),
+            Word::Radiosity => item == Word::Samples,
+            _ => false,
+        };
+        if is_foreign {
+            let others: &[Word] = if block == Word::Radiosity { &[Word::Count] } else { &[] };
+            let place = Place { word: Some(block), families: &[], others };
+            self.unexpected_word(token, item, place);
             return;
         }
         let Some((least, most)) = numbers(item, block).filter(|_| !self.is_before_block()) else {
@@ -136,6 +142,16 @@ impl Evaluator<'_> {
     /// The numbers behind an item that is not built.
     fn numbers_not_built(&mut self, token: &Token, item: Word, least: usize, most: usize) {
         let outer = self.poison.take();
+        if item == Word::FogType {
+            if let Ok(kind) = self.number_after(token, "1 or 2")
+                && kind.value != 1.0
+                && kind.value != 2.0
+            {
+                self.out_of_range(&kind, item, "1, the same everywhere, or 2, on the ground");
+            }
+            self.poison = outer;
+            return;
+        }
         for count in 0..most {
             if count >= least && !self.is_before_value() {
                 break;
