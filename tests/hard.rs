@@ -52,6 +52,8 @@ mod solids;
 mod sturm;
 #[path = "hard/things.rs"]
 mod things;
+#[path = "hard/tips.rs"]
+mod tips;
 #[path = "hard/trees.rs"]
 mod trees;
 #[path = "hard/turns.rs"]

@@ -113,7 +113,7 @@ impl Geometry {
                 let mut all = placed.crossings_of_part(ray);
                 let inside = match all.first() {
                     Some(first) => first.leaving && !placed.body.is_sheet(),
-                    None => placed.body.reach() == f64::INFINITY && placed.contains(ray.origin),
+                    None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
                 };
                 if inside {
                     all.insert(0, from_inside);

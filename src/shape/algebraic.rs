@@ -163,6 +163,11 @@ impl Local for Algebraic {
     fn contains(&self, point: Vector) -> bool {
         self.at(&self.terms, point).0 < 0.0
     }
+
+    fn certainly_contains(&self, point: Vector) -> bool {
+        let (size, _) = self.at(&self.sizes, point.abs());
+        self.at(&self.terms, point).0 < -self.rounding() * size
+    }
 }
 
 #[cfg(test)]

@@ -58,6 +58,11 @@ pub trait Local {
     /// Whether a point lies inside. A sheet has no inside.
     fn contains(&self, point: Vector) -> bool;
 
+    /// Whether a point lies inside beyond all doubt: `false` where rounding may hide it, or where nobody asks.
+    fn certainly_contains(&self, _point: Vector) -> bool {
+        false
+    }
+
     /// What distinguishes it from others of its kind, for people to read; each after a blank.
     fn numbers(&self) -> String;
 
@@ -257,6 +262,12 @@ macro_rules! bodies {
             fn contains(&self, point: Vector) -> bool {
                 match self {
                     $(Self::$kind(body) => body.contains(point),)*
+                }
+            }
+
+            fn certainly_contains(&self, point: Vector) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.certainly_contains(point),)*
                 }
             }
 

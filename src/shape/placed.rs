@@ -163,4 +163,11 @@ impl Placed {
     pub fn contains(&self, point: Vector) -> bool {
         self.body.contains(self.placement.local_point(point))
     }
+
+    /// Whether a line that does not cross the surface lies inside, but for where it touches the surface: at the
+    /// tip of a cone, say. The ray may start just there, so that its start tells nothing.
+    pub fn holds(&self, ray: &Ray) -> bool {
+        let certainly = |point| self.body.certainly_contains(self.placement.local_point(point));
+        self.contains(ray.origin) || [1.0, -1.0].into_iter().any(|t| certainly(ray.at(t)))
+    }
 }

@@ -1,0 +1,47 @@
+//! A camera where a surface has no tangent plane: at the tip of a cone, where two planes cross.
+//!
+//! Every ray touches the surface at its start, and goes on inside, or outside.
+
+use crate::held::rendered;
+
+const BALL: &str =
+    "sphere { <0.05, 2, 0.03>, 0.25 pigment { rgb <0, 1, 0> } finish { emission 1 } }";
+
+/// What is seen of a ball, alone or in an intersection, by a camera at `place`.
+fn seen(solid: &str, place: &str) -> lucarne::film::Film {
+    let view = format!("location {place} right x up z direction <0.01, 2, 0.02>");
+    rendered(&format!("camera {{ {view} }} background {{ rgb 0.2 }} {solid}"), (40, 30))
+}
+
+/// Asserts that of the ball all is seen in an intersection with `inside`, and nothing without it.
+fn holds_the_ball(inside: &str) {
+    for (moved, place) in [
+        ("", "0"),
+        ("translate <1, 2, 3>", "<1, 2, 3>"),
+        ("translate 1e7", "1e7"),
+        ("", "<0, 1e-300, 0>"),
+    ] {
+        let scene = |operation: &str| format!("{operation} {{ {BALL} {inside} {moved} }}");
+        let (alone, nothing) = (seen(&scene("union").replace(inside, ""), place), seen("", place));
+        assert!(alone != nothing);
+        assert!(seen(&scene("intersection"), place) == alone, "{inside} {moved}");
+        assert!(seen(&scene("difference"), place) == nothing, "all but {inside} {moved}");
+    }
+}
+
+#[test]
+fn a_camera_at_the_tip_of_a_cone_sees_what_is_in_it() {
+    holds_the_ball("quadric { <1, -1, 1>, 0, 0, 0 }");
+    holds_the_ball("quadric { <1, -1, 1>, 0, 0, 0 rotate 20*x }");
+}
+
+#[test]
+fn a_camera_where_two_planes_cross_sees_what_is_between_them() {
+    holds_the_ball("quadric { <1, -1, 0>, 0, 0, 0 }");
+    holds_the_ball("quadric { <0, -1, 0>, 0, 0, 0 }");
+}
+
+#[test]
+fn a_camera_at_the_tip_of_a_quartic_sees_what_is_in_it() {
+    holds_the_ball("polynomial { 4, xyz(4, 0, 0): 1, xyz(0, 0, 4): 1, xyz(0, 4, 0): -1 }");
+}
