@@ -44,6 +44,8 @@ mod rows;
 mod scaled;
 #[path = "hard/scene.rs"]
 mod scene;
+#[path = "hard/seams.rs"]
+mod seams;
 #[path = "hard/sizes.rs"]
 mod sizes;
 #[path = "hard/solids.rs"]

@@ -10,7 +10,7 @@ use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
 use crate::function::Closed;
 use crate::math::double::{Double, DoubleVector, power_of_two};
-use crate::math::placement::Placement;
+use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::mesh::Triangles;
@@ -232,8 +232,9 @@ pub(super) fn frame(
 }
 
 /// Triangles around the middle of the box that holds them, of size about 1; `None` where not one is left
-/// that is no line or point. The middle is rounded to 1/256 of the size, and the size to a power of two, so
-/// that of most numbers no digit is lost.
+/// that is no line or point. The size is rounded to a power of two; and along an axis along which the farthest
+/// vertex is more than twice as far from 0 as the nearest, the middle is 0: so no vertex loses a digit, and one
+/// that two meshes have is the same in both (Sterbenz' lemma).
 pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     if triangles.faces.is_empty() {
         return Ok(None);
@@ -247,11 +248,12 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     if !(low.is_finite() && high.is_finite()) {
         return Err(Fault::not_finite("this mesh"));
     }
-    let inverse_size = reciprocal_power_of_two((high - low).max_element());
+    let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
+    let is_beside_0 = low.signum().cmpeq(high.signum()) & most.cmple(least * 2.0);
+    let middle = Vector::select(is_beside_0, low + high, Vector::ZERO);
+    let half = (middle - low * 2.0).abs().max((high * 2.0 - middle).abs());
+    let inverse_size = reciprocal_power_of_two(half.max_element());
     let size = 1.0 / inverse_size;
-    let step = size / 256.0;
-    let middle = ((low + high) / step).round() * step;
-    let middle = if middle.is_finite() { middle } else { low + high };
     let local = |vertex: &Vector| (*vertex * inverse_size - middle * inverse_size) * 0.5;
     let corners = triangles.vertices.iter().map(local).collect();
     let faces =
@@ -300,5 +302,8 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
         local_from_world: inverse.matrix(Double::ONE),
     };
     let placement = traceable(placement, &what)?;
-    Ok(Placed { body, placement, root_tolerance: 0.0 })
+    let has_edges = matches!(*body, Body::Mesh(_) | Body::HeightField(_));
+    let exact = || Box::new(ExactPlacement::new(map.rows(), map.offset(), &placement));
+    let exact = has_edges.then(exact);
+    Ok(Placed { body, placement, root_tolerance: 0.0, exact })
 }

@@ -3,7 +3,8 @@
 //! **Invariant:** every [`Placement`] is invertible and its two matrices undo each other within
 //! rounding.
 
-use super::{Matrix, Vector};
+use super::double::DoubleVector;
+use super::{Matrix, Vector, reciprocal_power_of_two};
 
 /// `p ↦ matrix · (p − centre)`.
 ///
@@ -81,9 +82,47 @@ impl Placement {
     /// By how many roundings the two matrices may be from undoing each other: the product of their Frobenius
     /// norms.
     pub fn condition(&self) -> f64 {
-        let norm = |Matrix { x_axis, y_axis, z_axis }: Matrix| {
-            (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
-        };
         norm(self.world_from_local) * norm(self.local_from_world)
+    }
+}
+
+/// The Frobenius norm.
+pub fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
+    (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
+}
+
+/// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
+/// world are so to the bit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactPlacement {
+    /// The rows of `world_from_local`.
+    pub rows: [DoubleVector; 3],
+    pub centre: DoubleVector,
+    /// The Frobenius norm of `local_from_world`.
+    pub norm: f64,
+    /// [`Placement::condition`].
+    pub condition: f64,
+    /// Left and right are swapped.
+    pub is_mirrored: bool,
+}
+
+impl ExactPlacement {
+    /// Of the place that `placement` is, rounded.
+    pub fn new(rows: [DoubleVector; 3], centre: DoubleVector, placement: &Placement) -> Self {
+        // Near 1, so that the product of three does not underflow.
+        let [x, y, z] = rows.map(|row| {
+            let row = row.round();
+            row * reciprocal_power_of_two(row.abs().max_element())
+        });
+        let norm = norm(placement.local_from_world);
+        let is_mirrored = x.cross(y).dot(z) < 0.0;
+        Self { rows, centre, norm, condition: placement.condition(), is_mirrored }
+    }
+
+    /// The way from a point of the world to a local one, rounded once.
+    pub fn way(&self, from: Vector, local: Vector) -> Vector {
+        let local = DoubleVector::from(local);
+        let [x, y, z] = self.rows.map(|row| row.dot(local));
+        (DoubleVector::new(x, y, z) + (self.centre - DoubleVector::from(from))).round()
     }
 }

@@ -26,9 +26,9 @@ use super::superellipsoid::Superellipsoid;
 use super::sweep::SphereSweep;
 use super::text::Text;
 use super::torus::Torus;
-use super::{Crossing, Ray, U};
+use super::{Crossing, Placed, Ray, U};
 use crate::math::Vector;
-use crate::math::placement::Placement;
+use crate::math::placement::ExactPlacement;
 
 /// What every body answers, in its own space.
 pub trait Local {
@@ -101,7 +101,7 @@ pub struct Height {
 
 /// A ray's line as a body sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LocalRay {
+pub struct LocalRay<'a> {
     /// The point of the line that is nearest to the local origin; s is 0 here.
     pub nearest: Vector,
     /// Of length 1.
@@ -113,9 +113,23 @@ pub struct LocalRay {
     /// A crossing need be found no better than this, of which [`Met::error`] tells; 0 asks for all that
     /// the arithmetic can tell.
     pub tolerance: f64,
+    /// For bodies whose edges others may share.
+    pub in_world: Option<InWorld<'a>>,
 }
 
-impl LocalRay {
+/// The ray itself, and where in the world the body stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InWorld<'a> {
+    pub ray: &'a Ray,
+    pub placement: &'a ExactPlacement,
+}
+
+impl LocalRay<'_> {
+    /// A line that is meant as it is.
+    pub fn exact(nearest: Vector, direction: Vector) -> Self {
+        Self { nearest, direction, blur: 0.0, turn: 0.0, tolerance: 0.0, in_world: None }
+    }
+
     pub fn at(&self, s: f64) -> Vector {
         self.nearest + self.direction * s
     }
@@ -329,8 +343,8 @@ bodies! {
 
 /// A ray as a placed body sees it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
-    pub line: LocalRay,
+pub(super) struct Seen<'a> {
+    pub line: LocalRay<'a>,
     /// Where on the line the ray starts.
     start: f64,
     /// Local lengths over those of the ray.
@@ -339,13 +353,14 @@ pub(super) struct Seen {
     start_error: f64,
 }
 
-impl Seen {
+impl<'a> Seen<'a> {
     /// The ray in local space, slid to its closest approach there. With |L| the matrix of absolute
     /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
     /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
     /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.) Both by
     /// `moved` more: how far, in local space, the centre may be from where it was meant.
-    pub fn new(placement: &Placement, ray: &Ray, tolerance: f64, moved: f64) -> Self {
+    pub fn new(placed: &'a Placed, ray: &'a Ray, moved: f64) -> Self {
+        let Placed { placement, root_tolerance: tolerance, .. } = *placed;
         let matrix = placement.local_from_world;
         let sizes = matrix.abs();
         let from_centre = ray.origin - placement.centre;
@@ -360,7 +375,8 @@ impl Seen {
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
         let blur = U * 6.0 * reach + turn * start.abs() + moved;
         let start_error = blur + turn * nearest.length();
-        let line = LocalRay { nearest, direction, blur, turn, tolerance };
+        let in_world = placed.exact.as_deref().map(|placement| InWorld { ray, placement });
+        let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };
         Self { line, start, speed, start_error }
     }
 

@@ -164,7 +164,7 @@ impl Parametric {
 /// What is looked for along one line.
 struct Search<'a> {
     surface: Surface<'a>,
-    ray: &'a LocalRay,
+    ray: &'a LocalRay<'a>,
     /// Two ways across the line.
     across: [Vector; 2],
     blur: f64,

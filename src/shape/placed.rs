@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::algebraic::HalfSpace;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
 use super::{Bounds, Plane, Ray, SurfacePoint, U};
-use crate::math::placement::Placement;
+use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Placed {
     pub placement: Placement,
     /// How near its crossings must be found, of its own size: [`super::body::LocalRay::tolerance`].
     pub root_tolerance: f64,
+    /// The placement again, of bodies whose edges others may share.
+    pub exact: Option<Box<ExactPlacement>>,
 }
 
 impl Placed {
@@ -43,7 +45,7 @@ impl Placed {
     #[inline(always)]
     fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
-        let seen = Seen::new(&self.placement, ray, self.root_tolerance, moved);
+        let seen = Seen::new(self, ray, moved);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;
@@ -57,7 +59,7 @@ impl Placed {
 
     /// The part of the surface that the ray crosses at `t`.
     fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
-        let seen = Seen::new(&self.placement, ray, self.root_tolerance, 0.0);
+        let seen = Seen::new(self, ray, 0.0);
         let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
         self.body.part_at(&seen.line, seen.place(t, 0.0)).unwrap_or_else(found)
     }

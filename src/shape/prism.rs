@@ -57,7 +57,7 @@ impl Wall {
 
 /// A line through space as the walls see it.
 struct Ruled<'a> {
-    ray: &'a LocalRay,
+    ray: &'a LocalRay<'a>,
     conic: bool,
 }
 

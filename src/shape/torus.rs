@@ -27,7 +27,7 @@ pub struct Torus {
 /// half of h″ is 1 − R·e²m²/ρ³. So h is convex but for the piece where ρ³ < R·e²m² around c.
 struct Line<'a> {
     torus: &'a Torus,
-    ray: &'a LocalRay,
+    ray: &'a LocalRay<'a>,
     /// e², with e the line's speed across the axis.
     speed2: f64,
     /// −c·e².
@@ -62,7 +62,7 @@ enum Seek {
 }
 
 impl<'a> Line<'a> {
-    fn new(torus: &'a Torus, ray: &'a LocalRay) -> Self {
+    fn new(torus: &'a Torus, ray: &'a LocalRay<'a>) -> Self {
         let (n, d) = (ray.nearest, ray.direction);
         let cross = n.x * d.y - n.y * d.x;
         let speed2 = d.x * d.x + d.y * d.y;

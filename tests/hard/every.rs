@@ -113,7 +113,8 @@ fn row_5_a_ray_that_starts_on_a_cylinder_or_a_cone_does_not_meet_it_there() {
             0 => (Body::Cylinder(Cylinder { open: dice.below(2) == 0 }), 0.5, 1.0),
             _ => (Body::Cone(Cone { cap: 0.0, open: dice.below(2) == 0 }), 0.0, 0.5),
         };
-        let placed = Placed { body: std::sync::Arc::new(body), placement, root_tolerance: 0.0 };
+        let placed =
+            Placed { body: std::sync::Arc::new(body), placement, root_tolerance: 0.0, exact: None };
         // On its side, or on its base.
         let on_side = dice.below(3) > 0;
         let signs = [dice.one_of(&[1.0, -1.0]), dice.one_of(&[1.0, -1.0])];

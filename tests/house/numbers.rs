@@ -148,7 +148,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/box_.rs", "STEEP", "a slope"),
     ("shape/box_.rs", "LEVEL", "a slope"),
     ("shape/mod.rs", "const U", "the roundoff itself"),
-    ("shape/mesh/pierce.rs", "if turn.abs()", "relative, and what underflows"),
+    ("shape/mesh/pierce.rs", "i32::from(turn > off", "relative, and what underflows"),
     ("shape/ovus.rs", "let away", "keeps 0/0 from the axis, where nothing is across"),
     ("shape/plane.rs", "let steep", "a slope"),
     ("shape/plane.rs", "size < t * 16_384.0", "relative: a distance to a distance"),

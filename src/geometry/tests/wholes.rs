@@ -16,7 +16,7 @@ fn add_cylinder(world: &mut World, centre: Vector, world_from_local: Matrix) {
     let local_from_world = world_from_local.inverse();
     let placement = Placement { centre, world_from_local, local_from_world };
     let body = std::sync::Arc::new(Body::Cylinder(Cylinder { open: false }));
-    world.placed.push(Placed { body, placement, root_tolerance: 0.0 });
+    world.placed.push(Placed { body, placement, root_tolerance: 0.0, exact: None });
     let shape = Shape::Placed(world.placed.len() as u32 - 1);
     add(world, shape);
 }

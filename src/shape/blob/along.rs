@@ -27,7 +27,7 @@ struct Part<'a> {
 }
 
 pub(super) struct Line<'a> {
-    ray: &'a LocalRay,
+    ray: &'a LocalRay<'a>,
     parts: SmallVec<[Part<'a>; 8]>,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Part<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub fn new(blob: &'a Blob, ray: &'a LocalRay) -> Self {
+    pub fn new(blob: &'a Blob, ray: &'a LocalRay<'a>) -> Self {
         let mut parts = SmallVec::new();
         blob.tree.along(ray, ray.blur + 4.0 * U, |run| {
             let part = |i: usize| Part::new(&blob.components[i], blob.stretches[i], ray);

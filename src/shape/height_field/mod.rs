@@ -110,8 +110,9 @@ impl HeightField {
 
     /// Every triangle that a line pierces, in no order.
     fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) {
-        let Some(track) = Track::new(ray, self.cells, self.range) else { return };
-        let view = View::along(ray);
+        // Of the box from which heights are told.
+        let view = View::along(ray, 1.0);
+        let Some(track) = Track::new(ray, view.doubt, self.cells, self.range) else { return };
         let apart = |[low, high]: [f32; 2], heights: [f64; 2]| {
             f64::from(low) > heights[1] || f64::from(high) < heights[0]
         };
@@ -153,11 +154,12 @@ impl HeightField {
             if certain && first.error.is_finite() && last.error.is_finite() {
                 enter = enter.later(first);
                 leave = leave.earlier(last);
-            } else if place.abs() > 0.5 {
+            } else if place.abs() > 0.5 + ray.blur_at(ray.nearest.length() + 2.0) {
                 return None;
             }
         }
-        (enter.t < leave.t).then_some([enter, leave])
+        // Where it may be along a wall, the triangles tell.
+        (enter.t - enter.error <= leave.t + leave.error).then_some([enter, leave])
     }
 
     /// What of a line lies under the triangles. They are entered and left in turn; what is inside where the

@@ -25,11 +25,16 @@ pub(super) struct Cells {
 }
 
 impl Track {
-    /// What of a line lies over the unit square about the origin and between two heights. `None` where
+    /// What of a line, which may be off by `doubt`, lies over the unit square about the origin and between two heights. `None` where
     /// nothing does.
-    pub fn new(ray: &LocalRay, cells: [usize; 2], [low, high]: [f64; 2]) -> Option<Self> {
+    pub fn new(
+        ray: &LocalRay,
+        doubt: f64,
+        cells: [usize; 2],
+        [low, high]: [f64; 2],
+    ) -> Option<Self> {
         let (n, d) = (ray.nearest, ray.direction);
-        let off = 64.0 * U * (2.0 + n.length());
+        let off = 64.0 * U * (2.0 + n.length()) + doubt;
         let sizes = cells.map(|count| count as f64);
         let mut track = Self {
             start: [(n.x + 0.5) * sizes[0], (n.z + 0.5) * sizes[1], n.y],

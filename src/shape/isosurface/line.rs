@@ -17,13 +17,13 @@ const GUESSES: u32 = 24;
 /// The function at work along one line.
 pub(super) struct Line<'a> {
     surface: &'a Isosurface,
-    ray: &'a LocalRay,
+    ray: &'a LocalRay<'a>,
     run: OnceCell<RefCell<Running<'a, Sloped<1>>>>,
     plain: OnceCell<RefCell<Running<'a, f64>>>,
 }
 
 impl<'a> Line<'a> {
-    pub fn new(surface: &'a Isosurface, ray: &'a LocalRay) -> Self {
+    pub fn new(surface: &'a Isosurface, ray: &'a LocalRay<'a>) -> Self {
         Self { surface, ray, run: OnceCell::new(), plain: OnceCell::new() }
     }
 

@@ -103,9 +103,9 @@ impl Mesh {
 
     /// Every face that a line pierces, in no order.
     fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) {
-        let view = View::along(ray);
+        let view = View::along(ray, self.reach);
         // What the view rounds corners by, generously.
-        let slack = 32.0 * U * (self.reach + ray.nearest.length());
+        let slack = 32.0 * U * (self.reach + ray.nearest.length()) + view.doubt;
         self.tree.along(ray, slack, |run| {
             for number in run {
                 let corners = self.corners_of(&self.faces[number]);
@@ -213,8 +213,7 @@ impl Local for Mesh {
         if point.length() > self.reach {
             return false;
         }
-        let ray =
-            LocalRay { nearest: point, direction: way.get(), blur: 0.0, turn: 0.0, tolerance: 0.0 };
+        let ray = LocalRay::exact(point, way.get());
         let mut ahead = 0u32;
         self.pierced(&ray, |met| ahead += u32::from(met.t > 0.0));
         ahead % 2 == 1

@@ -1,20 +1,28 @@
 //! Whether a line pierces a triangle, and where.
 //!
-//! **Invariant:** each corner is seen in the same place whichever triangle asks, and the answer is exact for
-//! what is seen. Where the line goes through an edge, it is taken to pass by (ε, ε²) of it, ε positive and
+//! **Invariant:** each corner is seen in the same place whichever triangle asks, of whichever mesh, and the
+//! answer is exact for what is seen. Where the line goes through an edge, it is taken to pass by (ε, ε²) of it, ε positive and
 //! less than any number: so no line goes through an edge, and neighbours never both have it or both not.
 //!
 //! **Source:** S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2 (1), 2013;
 //! H. Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9 (1), 1990.
 
 use super::super::U;
-use super::super::body::{LocalRay, Met};
+use super::super::body::{InWorld, LocalRay, Met};
 use super::Flat;
 use crate::math::Vector;
 use crate::math::double::Double;
 
 /// Looks along a line: the corners as seen across it.
-pub(in super::super) struct View {
+pub(in super::super) struct View<'a> {
+    across: Across,
+    /// How far a corner may be from where the world has it.
+    pub doubt: f64,
+    in_world: Option<InWorld<'a>>,
+}
+
+/// What is across a line.
+struct Across {
     start: Vector,
     /// The axis that the line is nearest to, and the other two in turn.
     axes: [usize; 3],
@@ -23,26 +31,24 @@ pub(in super::super) struct View {
     is_against: bool,
 }
 
-impl View {
-    pub fn along(ray: &LocalRay) -> Self {
-        let LocalRay { nearest: start, direction, .. } = *ray;
+impl Across {
+    fn new(start: Vector, direction: Vector) -> Self {
         let main = direction.abs().max_position();
         let axes = [main, (main + 1) % 3, (main + 2) % 3];
         let shear = [1, 2].map(|i| direction[axes[i]] / direction[main]);
         Self { start, axes, shear, is_against: direction[main] < 0.0 }
     }
 
-    /// Where a corner is, across the line.
+    /// Where a point is, across the line.
     #[inline]
-    fn seen(&self, corner: Vector) -> [f64; 2] {
-        let from_start = corner - self.start;
+    fn seen(&self, point: Vector) -> [f64; 2] {
+        let from_start = point - self.start;
         let [main, a, b] = self.axes.map(|axis| from_start[axis]);
         [a - self.shear[0] * main, b - self.shear[1] * main]
     }
 
-    /// Whether the line pierces the triangle, and how: true where it goes as the surface faces.
-    #[inline]
-    pub fn pierces(&self, corners: [Vector; 3]) -> Option<bool> {
+    /// As [`View::pierces`], whatever it takes.
+    fn pierces_exactly(&self, corners: [Vector; 3]) -> Option<bool> {
         let [a, b, c] = corners.map(|corner| self.seen(corner));
         let turn = turns_left(a, b)?;
         let all = turns_left(b, c)? == turn && turns_left(c, a)? == turn;
@@ -50,23 +56,66 @@ impl View {
     }
 }
 
-/// Whether the way from `p` to `q` turns left around the line; `None` where it does not move.
-///
-/// The sign of p.x·q.y − p.y·q.x: certain where that is over 2u of both products, whose roundings and its own
-/// it can then not owe it to; else found exactly.
-#[inline]
-fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
-    let (left, right) = (p[0] * q[1], p[1] * q[0]);
-    let turn = left - right;
-    // Half as much again; and room for products that underflow.
-    if turn.abs() > 3.0 * U * (left.abs() + right.abs()) + f64::MIN_POSITIVE {
-        return Some(turn > 0.0);
+impl<'a> View<'a> {
+    /// Of corners no farther than `size` from the local origin.
+    pub fn along(ray: &LocalRay<'a>, size: f64) -> Self {
+        let LocalRay { nearest, direction, blur, turn, in_world, .. } = *ray;
+        let across = Across::new(nearest, direction);
+        // The line's own error, what the local view rounds by, and what the world's does; as seen aslant, twice.
+        let doubt = in_world.map_or(0.0, |InWorld { ray, placement }| {
+            let reach = size + nearest.length();
+            let far = (ray.origin - placement.centre.round()).length();
+            let rounded = reach + placement.condition * size + placement.norm * far;
+            2.0 * (blur + turn * reach + 16.0 * U * rounded)
+        });
+        Self { across, doubt, in_world }
     }
-    turns_left_exactly(p, q)
+
+    /// Whether the line pierces the triangle, and how: true where it goes as the surface faces.
+    #[inline]
+    pub fn pierces(&self, corners: [Vector; 3]) -> Option<bool> {
+        let [a, b, c] = corners.map(|corner| self.across.seen(corner));
+        let (ab, bc) = (self.turns_surely(a, b), self.turns_surely(b, c));
+        if ab * bc < 0 {
+            return None;
+        }
+        let ca = self.turns_surely(c, a);
+        match ab + bc + ca {
+            3 => Some(self.across.is_against),
+            -3 => Some(!self.across.is_against),
+            _ if ca * ab < 0 || ca * bc < 0 => None,
+            _ => self.pierces_exactly(corners),
+        }
+    }
+
+    /// In the world, where others see the corners; where nothing stands there, here.
+    #[cold]
+    fn pierces_exactly(&self, corners: [Vector; 3]) -> Option<bool> {
+        let Some(InWorld { ray, placement }) = self.in_world else {
+            return self.across.pierces_exactly(corners);
+        };
+        let ways = corners.map(|corner| placement.way(ray.origin, corner));
+        let pierced = Across::new(Vector::ZERO, ray.direction).pierces_exactly(ways)?;
+        Some(pierced != placement.is_mirrored)
+    }
+
+    /// Which way it turns from `p` to `q` around the line, left 1 and right −1; 0 where that is in doubt.
+    ///
+    /// The sign of p.x·q.y − p.y·q.x: certain where that is over 2u of both products, whose roundings and its own
+    /// it can then not owe it to; and over what the corners' doubt comes to.
+    #[inline]
+    fn turns_surely(&self, p: [f64; 2], q: [f64; 2]) -> i32 {
+        let (left, right) = (p[0] * q[1], p[1] * q[0]);
+        let turn = left - right;
+        let sizes = p[0].abs() + p[1].abs() + q[0].abs() + q[1].abs();
+        let off = 3.0 * U * (left.abs() + right.abs()) + self.doubt * (sizes + 2.0 * self.doubt);
+        // And room for products that underflow.
+        i32::from(turn > off + f64::MIN_POSITIVE) - i32::from(turn < -off - f64::MIN_POSITIVE)
+    }
 }
 
-#[cold]
-fn turns_left_exactly(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
+/// Whether the way from `p` to `q` turns left around the line, exactly; `None` where it does not move.
+fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
     // Multiplied by powers of two, so that the products have all their digits.
     let [p_near_1, q_near_1] = [p, q].map(|[x, y]| {
         let by = crate::math::reciprocal_power_of_two(x.abs().max(y.abs()));

@@ -221,7 +221,7 @@ impl Local for SphereSweep {
     /// A line through the point tells.
     fn contains(&self, point: Vector) -> bool {
         let (nearest, direction) = (Vector::new(0.0, point.y, point.z), Vector::X);
-        let ray = LocalRay { nearest, direction, blur: 0.0, turn: 0.0, tolerance: 0.0 };
+        let ray = LocalRay::exact(nearest, direction);
         let mut found = Crossings::new();
         self.crossings(&ray, &mut found);
         found.iter().filter(|met| met.t < point.x).count() % 2 == 1

@@ -127,8 +127,15 @@ fn a_convex_quadric_is_left_for_good() {
     }
 }
 
-fn line(nearest: Vector, direction: Vector) -> LocalRay {
-    LocalRay { nearest, direction: direction.normalize(), blur: 1e-16, turn: 1e-16, tolerance: 0.0 }
+fn line(nearest: Vector, direction: Vector) -> LocalRay<'static> {
+    LocalRay {
+        nearest,
+        direction: direction.normalize(),
+        blur: 1e-16,
+        turn: 1e-16,
+        tolerance: 0.0,
+        in_world: None,
+    }
 }
 
 fn met(surface: &Algebraic, ray: &LocalRay) -> Vec<Met> {

@@ -87,7 +87,7 @@ fn a_lone_ball_is_a_sphere_and_a_ray_that_touches_it_misses() {
             local_from_world: Matrix::IDENTITY,
         };
         let body = std::sync::Arc::new(Body::Blob(blob));
-        let placed = Placed { body, placement, root_tolerance: 0.0 };
+        let placed = Placed { body, placement, root_tolerance: 0.0, exact: None };
         let direction = out.cross(aside).normalize_or(Vector::X);
         let origin = out * (radius * (1.0 + off)) - direction * 3.0;
         let ray = Ray { origin, direction };

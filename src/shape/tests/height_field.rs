@@ -81,7 +81,14 @@ fn no_line_slips_through_between_cells() {
         };
         let s = target.dot(direction);
         let nearest = target - direction * s;
-        let ray = LocalRay { nearest, direction, blur: 1e-15, turn: 1e-15, tolerance: 0.0 };
+        let ray = LocalRay {
+            nearest,
+            direction,
+            blur: 1e-15,
+            turn: 1e-15,
+            tolerance: 0.0,
+            in_world: None,
+        };
         let mut found = Crossings::new();
         field.crossings(&ray, &mut found);
         let surface: Vec<&Met> = found.iter().filter(|met| met.is_seen()).collect();
@@ -98,7 +105,14 @@ fn what_lies_under_the_water_is_not_seen_and_solid_all_the_same() {
     let field = HeightField::new(heights, 2, 0.0, false).expect("a landscape");
     let down = |z: f64| {
         let nearest = Vector::new(0.1, 0.0, z);
-        let ray = LocalRay { nearest, direction: -Vector::Y, blur: 0.0, turn: 0.0, tolerance: 0.0 };
+        let ray = LocalRay {
+            nearest,
+            direction: -Vector::Y,
+            blur: 0.0,
+            turn: 0.0,
+            tolerance: 0.0,
+            in_world: None,
+        };
         let mut found = Crossings::new();
         field.crossings(&ray, &mut found);
         found

@@ -160,10 +160,17 @@ fn a_torus_as_an_isosurface_is_crossed_where_exact_arithmetic_crosses_it() {
     assert!(crossed > tries_in(20) / 2, "{crossed}");
 }
 
-pub(super) fn line(random: &mut Random) -> LocalRay {
+pub(super) fn line(random: &mut Random) -> LocalRay<'static> {
     let direction = random.direction().get();
     let across = random.direction().get().cross(direction) * random.number(0.0, 0.9);
-    LocalRay { nearest: across, direction, blur: 1e-16, turn: 1e-16, tolerance: 0.0 }
+    LocalRay {
+        nearest: across,
+        direction,
+        blur: 1e-16,
+        turn: 1e-16,
+        tolerance: 0.0,
+        in_world: None,
+    }
 }
 
 fn met(surface: &Isosurface, ray: &LocalRay) -> Vec<Met> {
@@ -276,6 +283,7 @@ fn an_open_isosurface_ends_where_nothing_is_seen_and_a_closed_one_at_its_contain
         blur: 0.0,
         turn: 0.0,
         tolerance: 0.0,
+        in_world: None,
     };
     let seen =
         |open| met(&bar(open), &along).iter().map(|met| (met.t, met.is_seen())).collect::<Vec<_>>();
@@ -292,6 +300,7 @@ const ALONG_X: LocalRay = LocalRay {
     blur: 1e-16,
     turn: 1e-16,
     tolerance: 0.0,
+    in_world: None,
 };
 
 #[test]

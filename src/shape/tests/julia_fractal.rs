@@ -123,7 +123,8 @@ fn of_every_function_the_crossings_before_a_place_say_whether_it_is_inside() {
             let aside = random.direction().get() * random.number(0.0, 2.0);
             let nearest = aside - direction * aside.dot(direction);
             let blur = 16.0 * EPS;
-            let ray = LocalRay { nearest, direction, blur, turn: EPS, tolerance: 0.0 };
+            let ray =
+                LocalRay { nearest, direction, blur, turn: EPS, tolerance: 0.0, in_world: None };
             let mut all = Crossings::new();
             body.crossings(&ray, &mut all);
             let (mut wrong, mut looked) = (0, 0);
@@ -158,6 +159,7 @@ fn without_a_parameter_quaternions_whose_squares_stay_are_a_ball() {
             blur: EPS,
             turn: EPS,
             tolerance: 0.0,
+            in_world: None,
         };
         let mut all = Crossings::new();
         ball(distance).crossings(&ray, &mut all);

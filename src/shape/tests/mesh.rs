@@ -60,10 +60,10 @@ fn ball(times: u32, inside: bool) -> Mesh {
     Mesh::new(corners, normals, faces, inside).expect("a mesh")
 }
 
-fn line(through: Vector, toward: Vector) -> LocalRay {
+fn line(through: Vector, toward: Vector) -> LocalRay<'static> {
     let direction = UnitVector::from_direction(toward).unwrap_or(UnitVector::Z).get();
     let nearest = through - direction * through.dot(direction);
-    LocalRay { nearest, direction, blur: 4.0 * EPS, turn: EPS, tolerance: 0.0 }
+    LocalRay { nearest, direction, blur: 4.0 * EPS, turn: EPS, tolerance: 0.0, in_world: None }
 }
 
 fn crossings(mesh: &Mesh, ray: &LocalRay) -> Crossings {

@@ -81,6 +81,7 @@ fn a_sheet_ends_where_its_rectangle_and_its_container_do() {
         blur: 1e-16,
         turn: 1e-16,
         tolerance: 0.0,
+        in_world: None,
     };
     let whole = sheet(Container::Box(Vector::ONE));
     let found = met(&whole, &at(0.3, -0.49));

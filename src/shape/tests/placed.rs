@@ -31,7 +31,7 @@ pub(super) fn placed(random: &mut Random, body: Body) -> Placed {
     let far = [0.0, size, size * random.size(0.0, 6.0)][random.below(3)];
     let centre = random.direction().get() * far;
     let placement = Placement { centre, world_from_local, local_from_world };
-    Placed { body: std::sync::Arc::new(body), placement, root_tolerance: 0.0 }
+    Placed { body: std::sync::Arc::new(body), placement, root_tolerance: 0.0, exact: None }
 }
 
 /// A ray at a placed body: from near or far, onto it, past it, along its own axes.
@@ -402,6 +402,7 @@ fn a_torus_is_found_as_exactly_as_the_line_is_known() {
             body: std::sync::Arc::new(Body::Torus(torus_)),
             placement,
             root_tolerance: 0.0,
+            exact: None,
         };
         for met in placed.crossings(&ray) {
             let slope = placed.body.height(0, ray.at(met.t)).gradient.dot(direction).abs();

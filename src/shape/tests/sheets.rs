@@ -248,6 +248,7 @@ fn a_line_along_a_patch_ends() {
         blur: 1e-15,
         turn: 1e-15,
         tolerance: 0.0,
+        in_world: None,
     };
     for patch in [flat(|_, _| 0.0), flat(|x, y| x * y), flat(|x, _| x * x), flat(|x, _| x * x * x)]
     {

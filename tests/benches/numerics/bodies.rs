@@ -44,7 +44,7 @@ impl<F: Form> Subject for Stands<F> {
     fn new(dice: &mut Dice, _: f64) -> Self {
         let (placement, rows) = somewhere(dice, Vector::new(1.0, 0.8, 0.6));
         let body = Arc::new(F::body().expect("a body"));
-        let placed = Placed { body, placement, root_tolerance: 0.0 };
+        let placed = Placed { body, placement, root_tolerance: 0.0, exact: None };
         Self { placed, rows, form: std::marker::PhantomData }
     }
     fn centre(&self) -> Vector {
