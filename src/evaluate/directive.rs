@@ -338,10 +338,19 @@ impl Evaluator<'_> {
 
     /// Runs what is left of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
+        let mut is_color = false;
         loop {
             self.skip_run();
             let Some(Token { kind, here, span }) = self.next() else { break };
+            let before = std::mem::replace(
+                &mut is_color,
+                matches!(kind, TokenKind::Word(word) if word.family() == Family::Color),
+            );
             match kind {
+                // A colour is one, whatever it is for.
+                TokenKind::Expression(id) if before && self.unknown_name(&here, id).is_none() => {
+                    drop(self.expression(&here, id));
+                }
                 TokenKind::Expression(id) => match self.unknown_name(&here, id) {
                     Some(symbol) => drop(self.undeclared_among(&here, symbol, span, |word| {
                         word.family() != Family::Directive

@@ -9,14 +9,14 @@ mod map;
 mod short;
 mod switch;
 mod unit;
+mod version;
 
 use std::collections::BTreeMap;
 
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::Dialect;
 use crate::source::{Site, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
+use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
 use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 
 use super::scope::Owner;
@@ -34,6 +34,28 @@ impl Evaluator<'_> {
     /// Names that were declared in the main file and never used: the scene knows them, and there is
     /// a lint for each.
     pub(super) fn lint_declarations(&mut self, main: &Unit) {
+        self.tell_unused(main, |_| true);
+        self.lint_redeclared(main);
+    }
+
+    /// As [`Self::lint_declarations`], of a scene with mistakes: objects whose name nothing but their declaration
+    /// has, nor any message.
+    pub(super) fn lint_lone_objects(&mut self, main: &Unit) {
+        let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
+        let mut own: Vec<String> = own.skip(1).map(|(_, source)| source.text.clone()).collect();
+        for one in self.diagnostics.iter() {
+            own.push(one.message.clone());
+            own.extend(one.help.iter().chain(one.labels.iter().map(|label| &label.text)).cloned());
+        }
+        let has = |name: &str| {
+            let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            own.iter().any(|text| text.split(|c| !is_part(c)).any(|word| word == name))
+        };
+        self.tell_unused(main, |name| !has(name));
+    }
+
+    fn tell_unused(&mut self, main: &Unit, is_meant: impl Fn(&str) -> bool) {
+        let has_errors = self.diagnostics.has_errors();
         let mut unused: Vec<(String, Site, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
             if declared.used {
@@ -45,7 +67,11 @@ impl Evaluator<'_> {
                 Owner::Macro => self.is_only_declared(name, main),
                 Owner::Other => false,
             };
-            if !theirs || name.starts_with('_') {
+            if !theirs || name.starts_with('_') || !is_meant(name) {
+                continue;
+            }
+            let is_object = matches!(value, Some(Value::Object(_)));
+            if has_errors && !(is_object && self.is_only_declared(name, main)) {
                 continue;
             }
             // A word of the language cannot be declared; that has been told.
@@ -74,7 +100,6 @@ impl Evaluator<'_> {
             };
             unused.push((name.to_owned(), site, diagnostic));
         }
-        self.lint_redeclared(main);
         unused.sort_by_key(|(_, site, _)| site.span);
         for (name, site, diagnostic) in unused {
             let text = &self.sources.get(site.span.file).text;
@@ -127,53 +152,6 @@ impl Evaluator<'_> {
             .at(target.span, "replaced here, before anything asked for it")
             .help(help);
         self.report(here, diagnostic);
-    }
-
-    /// Whether a scene with mistakes has a version, and a gamma, in its text; `None` where that is not certain.
-    pub(super) fn certainly_says(&self) -> Option<(bool, bool)> {
-        let lacks_file = |one: &Diagnostic| {
-            matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile)
-        };
-        let main = &self.sources.iter().next()?.1.text;
-        let is_scene = main.contains("camera") && main.contains("global_settings");
-        if !is_scene || self.halted || self.diagnostics.iter().any(lacks_file) {
-            return None;
-        }
-        // A standard include's own version is not the scene's.
-        let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
-        let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
-        let says = |part: &str| own.iter().any(|text| text.contains(part));
-        Some((says("version"), says("gamma")))
-    }
-
-    /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
-    pub(super) fn warn_of_old_version(&mut self, main: &Unit, says: (bool, bool)) {
-        let file = main.ast.file;
-        let missing = match says {
-            _ if self.options.dialect == Dialect::Scene => return,
-            (true, true) => return,
-            (false, true) => "`#version`",
-            (true, false) => "`assumed_gamma`",
-            (false, false) => "`#version` and no `assumed_gamma`",
-        };
-        let message = format!("the file has no {missing}; it is read as version 3.7 with gamma 1");
-        let text = &self.sources.get(file).text;
-        let settings = Word::GlobalSettings.name();
-        let place = match (says, text.find(settings)) {
-            ((true, false), Some(at)) => Span::new(file, at, at + settings.len()),
-            _ => Span::new(file, 0, 0),
-        };
-        let mut diagnostic = Diagnostic::new(Code::OldVersion, message)
-            .at(place, "POV-Ray would read this as an old file")
-            .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
-        // What is included is not a scene, and says nothing for itself.
-        if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
-            let preamble = Preamble::of(&main.ast);
-            for (at, text) in preamble.completed(says.0, says.1) {
-                diagnostic = diagnostic.fix(Span::new(file, at, at), text);
-            }
-        }
-        self.diagnostics.push(diagnostic);
     }
 
     /// `A[0.5]`, typed; what is computed may be meant.
@@ -368,55 +346,6 @@ impl Evaluator<'_> {
         let diagnostic =
             Diagnostic::new(Code::LegacyForm, message).at(span, "an old form").help(help);
         self.report(here, diagnostic);
-    }
-}
-
-/// Where the main file says what it is written for, outside of all branches.
-#[derive(Default)]
-struct Preamble {
-    /// Behind the first `#version …;`.
-    version: Option<u32>,
-    /// Behind the brace of the first `global_settings`.
-    settings: Option<u32>,
-}
-
-impl Preamble {
-    /// What has to be inserted, and where.
-    fn completed(&self, says_version: bool, says_gamma: bool) -> Vec<(usize, &'static str)> {
-        let gamma = match (self.settings, self.version) {
-            _ if says_gamma => None,
-            (Some(at), _) => Some((at as usize, " assumed_gamma 1")),
-            (None, Some(at)) => Some((at as usize, "\nglobal_settings { assumed_gamma 1 }")),
-            (None, None) => Some((0, "global_settings { assumed_gamma 1 }\n")),
-        };
-        let version = (!says_version).then_some((0, "#version 3.7;\n"));
-        match gamma {
-            // Two insertions at one place are one.
-            Some((0, _)) if !says_version => {
-                vec![(0, "#version 3.7; global_settings { assumed_gamma 1 }\n")]
-            }
-            gamma => version.into_iter().chain(gamma).collect(),
-        }
-    }
-
-    fn of(ast: &Ast) -> Self {
-        let mut preamble = Self::default();
-        for two in ast.items(ast.root).windows(2) {
-            match (two[0].kind, two[1].kind) {
-                (ItemKind::Directive(id), next)
-                    if matches!(ast.directive(id).kind, DirectiveKind::Version(_)) =>
-                {
-                    let ends = next == ItemKind::Semicolon;
-                    let last = if ends { two[1].span } else { two[0].span };
-                    preamble.version.get_or_insert(last.end);
-                }
-                (ItemKind::Word(Word::GlobalSettings), ItemKind::Block(_)) => {
-                    preamble.settings.get_or_insert(two[1].span.start + 1);
-                }
-                _ => {}
-            }
-        }
-        preamble
     }
 }
 

@@ -381,8 +381,13 @@ impl<'a> Evaluator<'a> {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);
             self.warn_of_old_version(&here.unit, (self.says_version, self.says_gamma));
-        } else if let Some(says) = self.certainly_says() {
-            self.warn_of_old_version(&here.unit, says);
+        } else {
+            if let Some(says) = self.certainly_says() {
+                self.warn_of_old_version(&here.unit, says);
+            }
+            if !self.halted && !self.lacks_file() {
+                self.lint_lone_objects(&here.unit);
+            }
         }
     }
 

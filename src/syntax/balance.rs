@@ -67,11 +67,12 @@ pub(super) fn balance(
         tokens.truncate(at);
         return (tokens, true);
     }
-    if pairs(&tokens) {
+    let is_right = |tokens: &[Token]| pairs(tokens) && !holds_statements(tokens, text);
+    if is_right(&tokens) {
         return (tokens, false);
     }
     let tokens = loose::loosen(tokens, text);
-    if pairs(&tokens) {
+    if is_right(&tokens) {
         return (tokens, false);
     }
     (repair::repair(tokens, text, file, diagnostics), false)
@@ -90,6 +91,36 @@ pub(super) fn pairs(tokens: &[Token]) -> bool {
         }
     }
     open.is_empty()
+}
+
+/// Whether a `(` or a `[` is closed in another statement than its own.
+fn holds_statements(tokens: &[Token], text: &str) -> bool {
+    use super::token::{Bracket, Mark};
+    // What is open, and whether a directive begins inside, whose `;` it may be.
+    let mut open: Vec<(Opener, bool)> = Vec::new();
+    tokens.iter().enumerate().any(|(at, token)| {
+        match turn(token.kind) {
+            Some(Turn::Close(_)) => drop(open.pop()),
+            Some(Turn::Open(opener)) => open.push((opener, false)),
+            Some(Turn::Divide) | None => {}
+        }
+        match (token.kind, open.last_mut()) {
+            (TokenKind::Directive(_), Some((_, has_directive))) => *has_directive = true,
+            (
+                TokenKind::Mark(Mark::Semicolon),
+                Some((Opener::Bracket(Bracket::Round | Bracket::Square), false)),
+            ) => return ends_line(tokens, at, text),
+            _ => {}
+        }
+        false
+    })
+}
+
+/// Whether token `at` is the last of its line.
+pub(super) fn ends_line(tokens: &[Token], at: usize, text: &str) -> bool {
+    let next = tokens.get(at + 1).map_or(text.len(), |next| next.start as usize);
+    let between = text.get(tokens[at].end as usize..next).unwrap_or("");
+    between.contains(['\n', '\r'])
 }
 
 /// The first token that opens more than `limit` levels, and what most of them are.

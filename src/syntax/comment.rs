@@ -137,14 +137,15 @@ fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
 fn string_run_over_a_comma(text: &str, quote: usize) -> Option<Range<usize>> {
     let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
     let strings = &text[line..quote];
-    if strings.contains('\\') {
+    if strings.contains("\\\"") {
         return None;
     }
     let quotes: Vec<usize> = strings.match_indices('"').map(|(at, _)| at).collect();
     // Each second one should end a string; where a letter follows, it begins one.
     quotes.chunks_exact(2).find_map(|pair| {
         let [open, close] = *pair else { return None };
-        let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
+        let runs_on =
+            strings[close + 1..].trim_start().starts_with(|c: char| c.is_ascii_alphanumeric());
         let inside = strings[open..close].trim_end().strip_suffix(',')?;
         (runs_on && inside.len() > 1).then(|| line + open..line + open + inside.len())
     })

@@ -12,6 +12,7 @@ mod early;
 mod ends;
 mod opener;
 mod outside;
+mod owed;
 
 use self::early::close_later;
 use self::ends::match_directives;
@@ -54,6 +55,7 @@ pub(super) fn repair(
         ended,
         surplus: surplus(&tokens),
         owed: [0; 3],
+        owed_since: [0; 3],
         open: Vec::new(),
         inserted: Vec::new(),
         dropped: vec![false; tokens.len()],
@@ -103,6 +105,8 @@ struct Repair<'a> {
     surplus: [i32; 3],
     /// Closers that were added although their own may still come.
     owed: [u32; 3],
+    /// Where the last of them was added.
+    owed_since: [usize; 3],
     open: Vec<Open>,
     /// Closers to be put before the token of this number.
     inserted: Vec<(usize, TokenKind)>,
@@ -163,7 +167,7 @@ impl Repair<'_> {
             let surplus = |bracket: Bracket| self.surplus[bracket as usize];
             let unclosed = match top.opener {
                 Opener::Bracket(same) if same == bracket => {
-                    self.closes_an_outer_block(top, bracket, at)
+                    self.closes_an_outer_block(top, bracket, at) || self.is_of_another(top)
                 }
                 Opener::Bracket(other) => {
                     let outer = self.open_in_branch(bracket).is_some();
@@ -173,7 +177,7 @@ impl Repair<'_> {
                         return self.stray(bracket, at);
                     }
                     if surplus(other) <= 0 {
-                        self.owed[other as usize] += 1;
+                        self.owe(other, at);
                     }
                     true
                 }
@@ -253,7 +257,7 @@ impl Repair<'_> {
             }
             Opener::Directive => false,
         });
-        if self.owed[index] > 0 && !beside {
+        if self.is_owed(bracket, at) && !beside {
             self.owed[index] -= 1;
             return;
         }
@@ -344,7 +348,7 @@ impl Repair<'_> {
                 self.never_closed(top, at);
             }
             if self.surplus[bracket as usize] < 0 {
-                self.owed[bracket as usize] += 1;
+                self.owe(bracket, at);
             }
         }
     }

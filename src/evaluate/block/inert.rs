@@ -63,7 +63,11 @@ impl Evaluator<'_> {
             | Word::HfGray16
             | Word::MediaAttenuation
             | Word::MediaInteraction => self.optional_flag(token).map(drop),
-            _ => self.number_after(token, "a number").map(drop),
+            _ => {
+                let given = self.number_after(token, "a number")?;
+                self.within_bounds(&given, word);
+                Ok(())
+            }
         }
     }
 

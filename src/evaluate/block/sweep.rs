@@ -7,7 +7,7 @@ use crate::scene::Solid;
 use crate::scene::sweep::{Kind, Sweep};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::{Evaluator, Outcome};
+use super::super::{Evaluator, Outcome, Reported};
 
 impl Evaluator<'_> {
     /// `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
@@ -18,6 +18,12 @@ impl Evaluator<'_> {
             kinds.filter_map(|kind| Some((kind, self.take_word(kind.word())?))).next()
         else {
             let found = self.peek().cloned();
+            // A misspelt kind is told as that.
+            if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = &found
+                && self.unknown_name(here, *id).is_some()
+            {
+                return Err(Reported);
+            }
             let wanted = "`linear_spline`, `b_spline` or `cubic_spline`";
             return Err(self.expected(wanted, found.as_ref(), (&token.here, token.span.after())));
         };

@@ -3,6 +3,8 @@
 //! **Invariant:** it is poison, whatever is found in it.
 
 mod items;
+mod picture;
+mod ranges;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -90,6 +92,10 @@ impl Evaluator<'_> {
                 evaluator.items_not_built(token, word);
             });
             self.openers.pop();
+            return;
+        }
+        // `density_file df3 "smoke.df3" interpolate 1`: any number will do there.
+        if word != Word::Interpolate && self.modifier_not_built(token, word) {
             return;
         }
         self.block_is_missing(token, word);
@@ -262,6 +268,11 @@ impl Evaluator<'_> {
             && let Some(reported) = self.bare_points(1, 0)
         {
             return Err(reported);
+        }
+        if wanted.starts_with("a number of lights") {
+            let given = self.number_after(token, wanted)?;
+            self.lights_of_a_side(&given);
+            return Ok(());
         }
         let given = self.given(token, wanted)?;
         match &given.value {

@@ -29,7 +29,11 @@ impl Evaluator<'_> {
         if !matches!(word.family(), Family::Shape | Family::Camera | Family::Light) {
             return;
         }
-        let here = &given.here;
+        self.tell_two_numbers(&given.here, id);
+    }
+
+    /// As [`Self::lint_two_numbers`], in a list of places.
+    pub(in crate::evaluate) fn tell_two_numbers(&mut self, here: &Here, id: ExpressionId) {
         let expression = here.unit.expression(id);
         let ExpressionKind::Vector(components) = expression.kind else { return };
         let arguments = here.unit.ast.arguments(components);

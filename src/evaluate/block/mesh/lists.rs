@@ -203,6 +203,9 @@ impl Evaluator<'_> {
                     Some(numbers) if matches!(given.value, Value::Vector(_)) => {
                         let mut entry = [0.0; 3];
                         let numbers = numbers.as_slice();
+                        if let (true, Some(id)) = (numbers.len() < width, given.expression) {
+                            evaluator.tell_two_numbers(&given.here, id);
+                        }
                         if numbers.len() > width {
                             let wanted = format!("a vector of {width} numbers");
                             let Given { value, span, here, .. } = &given;

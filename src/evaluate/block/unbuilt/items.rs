@@ -4,21 +4,17 @@
 //! program refuses.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::{FileError, Span};
+use crate::source::Span;
 use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Family, Word};
 
-use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
 use super::super::pigment::colors_of;
 use super::super::place::home;
-
-/// The endings that may be left out of a picture's name.
-const ENDINGS: &[&str] =
-    &[".png", ".jpg", ".jpeg", ".gif", ".tga", ".ppm", ".pgm", ".tiff", ".hdr"];
+use super::ranges;
 
 /// How many numbers stand behind an item of `block`: at least, and at most.
 fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
@@ -136,27 +132,30 @@ impl Evaluator<'_> {
         let Some((least, most)) = numbers(item, block).filter(|_| !self.is_before_block()) else {
             return self.pass_not_built(token, item);
         };
-        self.numbers_not_built(token, item, least, most);
+        self.numbers_not_built(token, item, block, (least, most));
     }
 
     /// The numbers behind an item that is not built.
-    fn numbers_not_built(&mut self, token: &Token, item: Word, least: usize, most: usize) {
+    fn numbers_not_built(
+        &mut self,
+        token: &Token,
+        item: Word,
+        block: Word,
+        (least, most): (usize, usize),
+    ) {
         let outer = self.poison.take();
-        if item == Word::FogType {
-            if let Ok(kind) = self.number_after(token, "1 or 2")
-                && kind.value != 1.0
-                && kind.value != 2.0
-            {
-                self.out_of_range(&kind, item, "1, the same everywhere, or 2, on the ground");
-            }
-            self.poison = outer;
-            return;
-        }
+        let mut range = ranges::of_item(item, block);
         for count in 0..most {
             if count >= least && !self.is_before_value() {
                 break;
             }
-            if self.unbuilt_part(token, "a number").is_err() {
+            let read = match range.take() {
+                Some(range) => self.number_after(token, "a number").map(|given| {
+                    self.within(&given, item, &range);
+                }),
+                None => self.unbuilt_part(token, "a number"),
+            };
+            if read.is_err() {
                 self.poison = outer;
                 return;
             }
@@ -228,58 +227,6 @@ impl Evaluator<'_> {
             .help(format!("write `{right}`"))
             .fix(whole.span, right);
         self.report(&first.here, diagnostic);
-    }
-
-    /// `image_map { png "file" … }`: whether there is such a file.
-    fn picture_not_built(&mut self) {
-        while let Some(token) = self.next() {
-            match token.kind {
-                TokenKind::Word(word) if word.family() == Family::FileKind => {
-                    self.picture_of(&token);
-                }
-                TokenKind::Expression(id) => {
-                    if !self.misspelt_kind(&token, id) {
-                        self.run_expression(&token.here, id);
-                    }
-                }
-                TokenKind::Word(word) => self.skip_arguments(word),
-                TokenKind::Block(contents) => {
-                    self.inside_block(&token.here, contents, token.span, Self::run_items);
-                }
-                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
-                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
-            }
-        }
-    }
-
-    /// `jpg "file"`: the kind of a picture as others call it.
-    fn misspelt_kind(&mut self, token: &Token, id: ExpressionId) -> bool {
-        if self.unknown_name(&token.here, id).is_none() {
-            return false;
-        }
-        let name = self.sources.text(token.span).to_owned();
-        let kinds = Word::ALL.iter().filter(|word| word.family() == Family::FileKind);
-        let near = suggest::closest(&name, kinds.map(|word| word.name()));
-        let Some(near) = near else { return false };
-        let message = format!("`{name}` is not a kind of picture");
-        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-            .at(token.span, format!("did you mean `{near}`?"))
-            .help(format!("replace it with `{near}`"))
-            .fix(token.span, near);
-        self.report(&token.here, diagnostic);
-        self.skip_values();
-        true
-    }
-
-    fn picture_of(&mut self, token: &Token) {
-        if !matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Expression(_))) {
-            return;
-        }
-        let Ok(file) = self.named_file(token, "the name of a picture's file") else { return };
-        if let Err(error @ FileError::NotFound { .. }) = self.read_named(&file, ENDINGS) {
-            let diagnostic = missing_file(&file.name, file.span, error);
-            self.report(&file.here, diagnostic);
-        }
     }
 
     /// Whether a value comes next, behind a comma or not; a name that is not declared is none.

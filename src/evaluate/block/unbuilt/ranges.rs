@@ -1,0 +1,112 @@
+//! Between which numbers those of what is not built must be.
+//!
+//! **Source:** what POV-Ray 3.7 refuses, one number after the other; manual, 3.4.3.3 "Radiosity", 3.4.7.6 "Pattern Modifiers",
+//! 3.4.8.1 "Media".
+
+use crate::vocabulary::Word;
+
+use super::super::super::Evaluator;
+use super::super::super::stream::Token;
+use super::super::part::Given;
+
+/// Numbers that may stand behind a word, and how that is said.
+pub(super) struct Range {
+    holds: fn(f64) -> bool,
+    wanted: &'static str,
+}
+
+const POSITIVE: Range = Range { holds: |n| n > 0.0, wanted: "a positive number" };
+const ONE_OR_MORE: Range = Range { holds: |n| n >= 1.0, wanted: "1 or more" };
+const UP_TO_20: Range = Range { holds: |n| (1.0..=20.0).contains(&n), wanted: "from 1 to 20" };
+const UP_TO_1: Range = Range { holds: |n| n > 0.0 && n <= 1.0, wanted: "above 0, and 1 or less" };
+const NOT_NEGATIVE: Range = Range { holds: |n| n >= 0.0, wanted: "0 or more" };
+
+/// Those of the first number behind an item of a block.
+pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
+    use Word as W;
+    Some(match (block, item) {
+        (W::Radiosity, W::RecursionLimit | W::NearestCount) => UP_TO_20,
+        (W::Radiosity, W::PretraceStart | W::PretraceEnd) => UP_TO_1,
+        (W::Radiosity, W::MinimumReuse) => NOT_NEGATIVE,
+        (W::Radiosity, W::GrayThreshold) => {
+            Range { holds: |n| (0.0..=1.0).contains(&n), wanted: "from 0 to 1" }
+        }
+        (
+            W::Radiosity,
+            W::Count
+            | W::ErrorBound
+            | W::Brightness
+            | W::AdcBailout
+            | W::MaximumReuse
+            | W::LowErrorFactor,
+        ) => POSITIVE,
+        (W::Media, W::Intervals | W::Samples | W::AaLevel) => ONE_OR_MORE,
+        (W::Media, W::AaThreshold) => POSITIVE,
+        (W::Media, W::Method) => Range { holds: |n| (1.0..4.0).contains(&n), wanted: "1, 2 or 3" },
+        (W::Media, W::Confidence) => {
+            Range { holds: |n| (0.0..1.0).contains(&n), wanted: "0 or more, and less than 1" }
+        }
+        (W::Fog, W::FogType) => Range {
+            holds: |n| n == 1.0 || n == 2.0,
+            wanted: "1, the same everywhere, or 2, on the ground",
+        },
+        _ => return None,
+    })
+}
+
+/// Those of the number behind a modifier of a pattern or of an interior.
+fn of_modifier(word: Word) -> Option<Range> {
+    Some(match word {
+        Word::MapType => {
+            Range { holds: |n| [0.0, 1.0, 2.0, 5.0].contains(&n), wanted: "0, 1, 2 or 5" }
+        }
+        Word::Interpolate => Range { holds: |n| [2.0, 3.0, 4.0].contains(&n), wanted: "2, 3 or 4" },
+        Word::NoiseGenerator => {
+            Range { holds: |n| (0.0..4.0).contains(&n), wanted: "0, 1, 2 or 3" }
+        }
+        Word::DispersionSamples => Range { holds: |n| n >= 2.0, wanted: "2 or more" },
+        Word::NumberOfSides => {
+            Range { holds: |n| [3.0, 4.0, 6.0].contains(&n), wanted: "3, 4 or 6" }
+        }
+        Word::NumberOfTiles => Range { holds: |n| (1.0..=6.0).contains(&n), wanted: "from 1 to 6" },
+        _ => return None,
+    })
+}
+
+impl Evaluator<'_> {
+    /// Tells a number that cannot stand behind `word`; not the 0 of `0,04`, which is told as that.
+    pub(super) fn within(&mut self, given: &Given<f64>, word: Word, range: &Range) {
+        let text = &self.sources.get(given.span.file).text;
+        let mut behind = text.get(given.span.end as usize..).unwrap_or("").chars();
+        let is_whole =
+            behind.next() != Some(',') || !behind.next().is_some_and(|c| c.is_ascii_digit());
+        if is_whole && !(range.holds)(given.value) {
+            self.out_of_range(given, word, range.wanted);
+        }
+    }
+
+    /// As [`Self::within`], of a modifier of a pattern or of an interior.
+    pub(in crate::evaluate::block) fn within_bounds(&mut self, given: &Given<f64>, word: Word) {
+        if let Some(range) = of_modifier(word) {
+            self.within(given, word, &range);
+        }
+    }
+
+    /// The number behind a modifier that is not built; `false` where it is none whose numbers have bounds.
+    pub(super) fn modifier_not_built(&mut self, token: &Token, word: Word) -> bool {
+        if of_modifier(word).is_none() || !self.is_before_value() {
+            return false;
+        }
+        let outer = self.poison.take();
+        if let Ok(given) = self.number_after(token, "a number") {
+            self.within_bounds(&given, word);
+        }
+        self.poison = outer;
+        true
+    }
+
+    /// As many lights as an `area_light` has along a side.
+    pub(super) fn lights_of_a_side(&mut self, given: &Given<f64>) {
+        self.within(given, Word::AreaLight, &ONE_OR_MORE);
+    }
+}
