@@ -161,6 +161,7 @@ impl<'a> Road<'a> {
         let lowered = lower(scene, &options, &mut self.diagnostics);
         self.tell_blind();
         self.tell_dark();
+        self.tell_empty();
         self.silence(before);
         lowered
     }

@@ -72,6 +72,13 @@ impl Lowering<'_, '_> {
                 .help("place it: `object { Name }`")
                 .traced(site, self.reporter.expansions);
             self.reporter.diagnostics.push(diagnostic);
+        } else if world.objects.is_empty()
+            && !world.lights.is_empty()
+            && self.origins.dropped.is_empty()
+            && !self.tells_why_empty()
+        {
+            let message = "the scene has no object: its lights shine on nothing";
+            self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
             let message = "nothing gives light, so the picture is dark";
             let mut diagnostic = Diagnostic::new(Code::NoLight, message)

@@ -1,13 +1,13 @@
-//! What is certain of a whole scene though it has mistakes: that nothing in it is written to give light, or that
-//! it is seen by no camera.
+//! What is certain of a whole scene though it has mistakes: that nothing in it is written to give light, that
+//! it is seen by no camera, or that no object is in it.
 //!
 //! **Invariant:** a scene whose text, or an include of it, has any word of light is said nothing of, and so is
 //! one that is not whole; likewise of a camera.
 
 use super::Road;
 use crate::diagnostic::suggest::closest;
-use crate::diagnostic::{Code, Diagnostic};
-use crate::vocabulary::{is_standard_source, standard_include_of};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::vocabulary::{Family, Word, is_standard_source, standard_include_of};
 
 /// Parts of the words by which a scene, or its author's macros, give light.
 const OF_LIGHT: &[&str] = &[
@@ -36,6 +36,8 @@ fn without_comments(text: &str) -> String {
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
 }
+
+const NO_OBJECT: &str = "the scene has no object: its lights shine on nothing";
 
 const AMBIENT: &str = "ambient";
 
@@ -116,6 +118,32 @@ impl Road<'_> {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
             self.diagnostics.push(Diagnostic::new(Code::NoCamera, message).help(help));
+        }
+    }
+
+    /// That a scene with lights, of which something is not built yet, has no object, nor any call that might
+    /// place one.
+    pub(super) fn tell_empty(&mut self) {
+        let is_built_later = |one: &Diagnostic| {
+            matches!(one.code, Code::NotSupportedYet) || one.code.severity() != Severity::Error
+        };
+        if !self.diagnostics.has_errors() || !self.diagnostics.iter().all(is_built_later) {
+            return;
+        }
+        let texts: Vec<String> =
+            self.own_texts().iter().map(|text| without_comments(text)).collect();
+        let places = |word: &str| {
+            let of_object = |word: Word| {
+                matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object
+            };
+            Word::from_name(word).is_some_and(of_object)
+        };
+        let has_object = |text: &str| text.contains('(') || words(text).any(places);
+        let whole = texts
+            .first()
+            .is_some_and(|main| is_whole(main) && words(main).any(|word| word == "light_source"));
+        if whole && !texts.iter().any(|text| has_object(text)) {
+            self.diagnostics.push(Diagnostic::new(Code::EmptyScene, NO_OBJECT));
         }
     }
 

@@ -236,7 +236,7 @@ impl<'a> Nest<'a> {
         let message = "`#fopen` takes a handle, a file name and a mode";
         let behind = self.tokens.get(self.at).map(|next| self.span(*next)).filter(|next| {
             let gap = self.slice(Span { start: file.end, end: next.start, ..file });
-            let starts = |c: char| c.is_ascii_alphabetic();
+            let starts = |c: char| c.is_ascii_alphabetic() || c == '"';
             !gap.contains(['\n', '\r']) && self.slice(*next).starts_with(starts)
         });
         let Some(behind) = behind else {
@@ -245,7 +245,7 @@ impl<'a> Nest<'a> {
         };
         let mut diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
             .at(behind, "expected `read`, `write` or `append`");
-        let theirs = self.slice(behind).to_lowercase();
+        let theirs = self.slice(behind).trim_matches('"').to_lowercase();
         let meant = match theirs.as_str() {
             "input" | "in" | "load" => Some("read"),
             "output" | "out" | "save" | "create" => Some("write"),

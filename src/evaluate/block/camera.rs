@@ -112,9 +112,8 @@ impl Evaluator<'_> {
         }
         // A spherical camera has one across, and one from top to bottom.
         if self.poison.is_some_and(|poison| poison.word == Word::Spherical)
-            && let Some(Token { kind: TokenKind::Comma, .. }) = self.peek()
+            && self.is_before_value()
         {
-            self.skip_commas();
             self.number_after(token, "degrees from top to bottom")?;
         }
         if given.value >= 180.0 && kind == CameraKind::Perspective && self.poison.is_none() {

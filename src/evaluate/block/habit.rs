@@ -227,7 +227,11 @@ impl Evaluator<'_> {
             found.push(Span::new(first.file, at + blank, at + blank + number.len()));
             at += blank + number.len();
         }
-        if found.len() != wanted {
+        // `cone { 0, 0.6, 1.2*y, 0.25 }`: the last is the begin of a vector.
+        let goes_on = text.get(at..)?.trim_start();
+        let is_product = goes_on.starts_with('*') || goes_on.starts_with('/');
+        let is_comment = goes_on.starts_with("//") || goes_on.starts_with("/*");
+        if found.len() != wanted || is_product && !is_comment && wanted == 3 * points {
             return None;
         }
         let mut diagnostic =

@@ -214,13 +214,16 @@ impl Evaluator<'_> {
                     None => self.expression(&next.here, id)?,
                 }
             }
-            // It stays, and is read as what it is.
+            // What an object may have stays, and is read as what it is.
             _ => {
-                return Err(self.expected(
-                    "a declared object",
-                    Some(&next),
-                    (&token.here, token.span),
-                ));
+                if let TokenKind::Word(word) = next.kind
+                    && word.family() == Family::Pattern
+                {
+                    self.next();
+                    return Err(self.word_for_object(&next, word));
+                }
+                let at = (&token.here, token.span);
+                return Err(self.expected("a declared object", Some(&next), at));
             }
         };
         match value {
@@ -231,6 +234,22 @@ impl Evaluator<'_> {
             }
             other => Err(self.wrong_type(&next.here, next.span, "an object", &other)),
         }
+    }
+
+    /// `object { marble }`, of a `Marble` that is declared.
+    fn word_for_object(&mut self, next: &Token, word: Word) -> Reported {
+        let name = word.name();
+        let message = format!("expected a declared object, found `{name}`");
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message);
+        let meant = self.scopes.visible().find(|declared| declared.eq_ignore_ascii_case(name));
+        let diagnostic = match meant.map(str::to_owned) {
+            Some(meant) => diagnostic
+                .at(next.span, format!("did you mean `{meant}`?"))
+                .help(format!("replace it with `{meant}`"))
+                .fix(next.span, meant),
+            None => diagnostic.at(next.span, "expected a declared object"),
+        };
+        self.report(&next.here, diagnostic)
     }
 
     fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {

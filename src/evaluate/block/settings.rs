@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::noise::NoiseGenerator;
-use crate::scene::{Background, SkySphere};
+use crate::scene::{Background, Dialect, SkySphere};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -13,6 +13,9 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::finish::list_once;
+
+/// The deepest `max_trace_level` that POV-Ray goes by; it warns of more.
+const DEEPEST: f64 = 256.0;
 
 impl Evaluator<'_> {
     pub(super) fn global_settings(&mut self, token: &Token) -> Outcome<()> {
@@ -59,6 +62,16 @@ impl Evaluator<'_> {
                         Word::MaxTraceLevel,
                         "a whole number from 1 to 1000000",
                     ));
+                }
+                if given.value > DEEPEST && self.options.dialect == Dialect::Pov {
+                    let message = format!(
+                        "`max_trace_level` is {}, and POV-Ray follows no ray deeper than {DEEPEST}",
+                        given.value
+                    );
+                    let diagnostic = Diagnostic::new(Code::DeepTrace, message)
+                        .at(given.span, format!("expected {DEEPEST} or less"))
+                        .help("here rays go as deep as they are told to");
+                    self.report(&given.here, diagnostic);
                 }
                 self.scene.settings.max_trace_level = given.value as u32;
                 self.scene.settings.max_trace_level_site = Some(given.site());

@@ -7,6 +7,8 @@ use crate::source::Span;
 use crate::syntax::ast::{Ast, DirectiveKind, ItemKind};
 use crate::vocabulary::{Word, is_standard_source};
 
+const VERSION: &str = "#version";
+
 impl Evaluator<'_> {
     /// Whether a file is not there that may say more.
     pub(in crate::evaluate) fn lacks_file(&self) -> bool {
@@ -18,8 +20,8 @@ impl Evaluator<'_> {
     /// Whether a scene with mistakes has a version, and a gamma, in its text; `None` where that is not certain.
     pub(in crate::evaluate) fn certainly_says(&self) -> Option<(bool, bool)> {
         let main = &self.sources.iter().next()?.1.text;
-        let is_scene = main.contains("camera")
-            && (main.contains("global_settings") || main.contains("#version"));
+        let is_scene =
+            main.contains("camera") && (main.contains("global_settings") || main.contains(VERSION));
         if !is_scene || self.halted || self.lacks_file() {
             return None;
         }
@@ -28,7 +30,11 @@ impl Evaluator<'_> {
         let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
         let says = |part: &str| own.iter().any(|text| text.contains(part));
         // `assumed_gama` is told as that.
-        Some((says("version"), says("gamma") || says("assumed")))
+        let says_version = own.iter().any(|text| {
+            let mut directives = text.split('#').skip(1);
+            directives.any(|directive| directive.trim_start().starts_with("version"))
+        });
+        Some((says_version, says("gamma") || says("assumed")))
     }
 
     /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
