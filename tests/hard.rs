@@ -56,6 +56,8 @@ mod sturm;
 mod things;
 #[path = "hard/tips.rs"]
 mod tips;
+#[path = "hard/touching.rs"]
+mod touching;
 #[path = "hard/trees.rs"]
 mod trees;
 #[path = "hard/turns.rs"]

@@ -28,7 +28,6 @@ use super::text::Text;
 use super::torus::Torus;
 use super::{Crossing, Placed, Ray, U};
 use crate::math::Vector;
-use crate::math::placement::ExactPlacement;
 
 /// What every body answers, in its own space.
 pub trait Local {
@@ -113,15 +112,15 @@ pub struct LocalRay<'a> {
     /// A crossing need be found no better than this, of which [`Met::error`] tells; 0 asks for all that
     /// the arithmetic can tell.
     pub tolerance: f64,
-    /// For bodies whose edges others may share.
+    /// `None` of a line that nothing in the world is.
     pub in_world: Option<InWorld<'a>>,
 }
 
-/// The ray itself, and where in the world the body stands.
+/// The ray itself, and the body where it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InWorld<'a> {
     pub ray: &'a Ray,
-    pub placement: &'a ExactPlacement,
+    pub placed: &'a Placed,
 }
 
 impl LocalRay<'_> {
@@ -375,7 +374,7 @@ impl<'a> Seen<'a> {
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
         let blur = U * 6.0 * reach + turn * start.abs() + moved;
         let start_error = blur + turn * nearest.length();
-        let in_world = placed.exact.as_deref().map(|placement| InWorld { ray, placement });
+        let in_world = Some(InWorld { ray, placed });
         let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };
         Self { line, start, speed, start_error }
     }

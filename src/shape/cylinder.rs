@@ -3,6 +3,7 @@
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::slab::Slab;
 use crate::math::Vector;
 
 /// The parts of its surface.
@@ -25,7 +26,7 @@ impl Local for Cylinder {
     /// Across the axis, with q the nearest point and e the direction: m = |q × e| / |e| is the
     /// distance to the axis, and the chord reaches h = √((1 − m)(1 + m)) to each side. **Error** of
     /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·|q|, and
-    /// δ again, over |e|; of an end B + 2u·(1 + |z|) over |d.z|.
+    /// δ again, over |e|.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((enter, leave)) = round(ray) else { return };
         let Some((first, last)) = ends(ray) else { return };
@@ -110,25 +111,6 @@ pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
 }
 
 /// Where the line is between two heights, of a body that goes no farther than √2.
-pub(super) fn between(ray: &LocalRay, [low, high]: [f64; 2]) -> Option<(Met, Met)> {
-    let (place, speed) = (ray.nearest.z, ray.direction.z);
-    let flat_off = ray.blur_at(2.0) + 2.0 * U * (1.0 + place.abs());
-    let met = |end: f64, leaving| {
-        let t = (end - place) / speed;
-        // Certainly beyond all of the body, which ends at √2; for all that is known of a line so flat,
-        // its crossing might be anywhere else beyond.
-        if (t.abs() - 2.0) * speed.abs() > flat_off {
-            return Met { t: t * f64::INFINITY, error: 0.0, leaving, part: CAP };
-        }
-        let off = ray.blur_at(t) + 2.0 * U * (1.0 + place.abs());
-        let part = if end == high { CAP } else { BASE };
-        Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
-    };
-    if speed == 0.0 {
-        let endless = |t, leaving| Met { t, error: 0.0, leaving, part: CAP };
-        return (low < place - flat_off && place + flat_off < high)
-            .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
-    }
-    let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };
-    Some((met(near, false), met(far, true)))
+pub(super) fn between(ray: &LocalRay, heights: [f64; 2]) -> Option<(Met, Met)> {
+    Slab { axis: 2, heights, far: 2.0, parts: [BASE, CAP] }.chord(ray)
 }

@@ -25,6 +25,7 @@ pub mod placed;
 pub mod plane;
 pub mod polygon;
 pub mod prism;
+mod slab;
 pub mod sor;
 pub mod sphere;
 pub mod superellipsoid;

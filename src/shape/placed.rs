@@ -15,7 +15,7 @@ pub struct Placed {
     pub placement: Placement,
     /// How near its crossings must be found, of its own size: [`super::body::LocalRay::tolerance`].
     pub root_tolerance: f64,
-    /// The placement again, of bodies whose edges others may share.
+    /// The placement again, of bodies whose edges or flat ends others may share.
     pub exact: Option<Box<ExactPlacement>>,
 }
 

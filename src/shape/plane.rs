@@ -1,5 +1,6 @@
 //! Plane: N·P = d; its inside is the half space N·P < d, and N points out of it.
 
+use super::slab::falls_inside;
 use super::{Chord, Crossing, Ray, SurfacePoint, U};
 use crate::math::{Real, UnitVector, Vector, Vector3};
 
@@ -66,8 +67,8 @@ impl Plane {
 }
 
 /// The part of the ray's line inside the half space: from −∞, or to +∞, or both when the line runs
-/// inside and parallel (v not to be told from ±0, or the crossing farther off than any number). In
-/// the plane itself, or outside, it misses.
+/// inside and parallel (v not to be told from ±0, or the crossing farther off than any number); outside,
+/// it misses, and in the plane itself it is inside of the one half space or of the other.
 ///
 /// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by
 /// ν = 6u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
@@ -84,7 +85,9 @@ pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Ch
     let t = inside / speed;
     if speed.abs() <= speed_error || t.abs() == R::INFINITY {
         let whole = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
-        return (inside > R::ZERO).then_some(whole);
+        // Of two that share the plane, one has what lies in it.
+        let is_inside = inside > R::ZERO || inside == R::ZERO && falls_inside(normal.to_vector());
+        return is_inside.then_some(whole);
     }
     let inside_error =
         u * (number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs());

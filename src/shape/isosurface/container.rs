@@ -5,6 +5,7 @@ use super::SURFACE;
 use crate::math::Vector;
 use crate::shape::U;
 use crate::shape::body::{Height, LocalRay, Met};
+use crate::shape::slab::Slab;
 
 /// What an isosurface is looked for in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +26,10 @@ impl Container {
                 let whole = (endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true));
                 let reach = half.length();
                 (0..3).try_fold(whole, |(enter, leave), axis| {
-                    let (first, last) = slab(ray, axis, half[axis], reach)?;
+                    let part = SURFACE + 1 + 2 * axis as u32;
+                    let heights = [-half[axis], half[axis]];
+                    let slab = Slab { axis, heights, far: 2.0 * reach, parts: [part, part + 1] };
+                    let (first, last) = slab.chord(ray)?;
                     Some((enter.later(first), leave.earlier(last)))
                 })
             }
@@ -75,28 +79,6 @@ fn ball(ray: &LocalRay, radius: f64) -> Option<(Met, Met)> {
     let error = (off * miss / half).min((2.0 * off * miss + off * off).sqrt()) + off;
     let met = |t, leaving| Met { t, error, leaving, part: SURFACE + 1 };
     Some((met(-half, false), met(half, true)))
-}
-
-/// Between two faces across an axis. What is certainly met beyond all of the body is met nowhere.
-fn slab(ray: &LocalRay, axis: usize, half: f64, reach: f64) -> Option<(Met, Met)> {
-    let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
-    let met = |end: f64, leaving| {
-        let part = SURFACE + 1 + 2 * axis as u32 + u32::from(end > 0.0);
-        let t = (end - place) / speed;
-        let flat = ray.blur_at(2.0 * reach) + 2.0 * U * (half + place.abs());
-        if (t.abs() - 2.0 * reach) * speed.abs() > flat {
-            return Met { t: t * f64::INFINITY, error: 0.0, leaving, part };
-        }
-        let off = ray.blur_at(t) + 2.0 * U * (half + place.abs());
-        Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
-    };
-    if speed == 0.0 {
-        let endless = |t, leaving| Met { t, error: 0.0, leaving, part: SURFACE + 1 };
-        return (place.abs() < half)
-            .then_some((endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true)));
-    }
-    let near = if speed > 0.0 { -half } else { half };
-    Some((met(near, false), met(-near, true)))
 }
 
 impl Container {

@@ -7,18 +7,19 @@
 //! **Source:** S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2 (1), 2013;
 //! H. Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9 (1), 1990.
 
-use super::super::U;
 use super::super::body::{InWorld, LocalRay, Met};
+use super::super::{Ray, U};
 use super::Flat;
 use crate::math::Vector;
 use crate::math::double::Double;
+use crate::math::placement::ExactPlacement;
 
 /// Looks along a line: the corners as seen across it.
 pub(in super::super) struct View<'a> {
     across: Across,
     /// How far a corner may be from where the world has it.
     pub doubt: f64,
-    in_world: Option<InWorld<'a>>,
+    in_world: Option<(&'a Ray, &'a ExactPlacement)>,
 }
 
 /// What is across a line.
@@ -60,9 +61,12 @@ impl<'a> View<'a> {
     /// Of corners no farther than `size` from the local origin.
     pub fn along(ray: &LocalRay<'a>, size: f64) -> Self {
         let LocalRay { nearest, direction, blur, turn, in_world, .. } = *ray;
+        let in_world = in_world.and_then(|InWorld { ray, placed }| {
+            placed.exact.as_deref().map(|placement| (ray, placement))
+        });
         let across = Across::new(nearest, direction);
         // The line's own error, what the local view rounds by, and what the world's does; as seen aslant, twice.
-        let doubt = in_world.map_or(0.0, |InWorld { ray, placement }| {
+        let doubt = in_world.map_or(0.0, |(ray, placement)| {
             let reach = size + nearest.length();
             let far = (ray.origin - placement.centre.round()).length();
             let rounded = reach + placement.condition * size + placement.norm * far;
@@ -91,7 +95,7 @@ impl<'a> View<'a> {
     /// In the world, where others see the corners; where nothing stands there, here.
     #[cold]
     fn pierces_exactly(&self, corners: [Vector; 3]) -> Option<bool> {
-        let Some(InWorld { ray, placement }) = self.in_world else {
+        let Some((ray, placement)) = self.in_world else {
             return self.across.pierces_exactly(corners);
         };
         let ways = corners.map(|corner| placement.way(ray.origin, corner));

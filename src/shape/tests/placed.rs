@@ -69,6 +69,17 @@ pub(super) fn blur(placed: &Placed, ray: &Ray) -> f64 {
             .max(start.length() + 1.0)
 }
 
+/// Whether rounding hardly tells a ray from one across the axis of a body with ends.
+fn is_level(placed: &Placed, ray: &Ray) -> bool {
+    let step = placed.placement.local_direction(ray.direction);
+    let level = match *placed.body {
+        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) => step.z.abs(),
+        Body::Isosurface(_) => step.abs().min_element(),
+        _ => return false,
+    };
+    level <= blur(placed, ray) * step.length()
+}
+
 /// Each crossing has the inside on one hand and the outside on the other, within its bound; and wherever
 /// one looks along the line, the crossings before say whether it is inside.
 pub(super) fn assert_crossed_where_it_is(
@@ -89,7 +100,9 @@ pub(super) fn assert_crossed_where_it_is(
         }
         let (before, after) = (height(t, -error).0, height(t, error).0);
         let (outer, inner) = if leaving { (after, before) } else { (before, after) };
-        assert!(outer >= 0.0 && inner <= 0.0, "{before:e} {after:e}: {met:?} {placed:?} {ray:?}");
+        // In the plane of an end it is taken to pass on one side of it: where it is crossed, it is near.
+        let off = if is_level(placed, ray) { blur(placed, ray) } else { 0.0 };
+        assert!(outer >= -off && inner <= off, "{before:e} {after:e}: {met:?} {placed:?} {ray:?}");
     }
     if !placed.body.is_sheet() {
         assert_inside_where_it_says(random, placed, ray, inside);
