@@ -4,6 +4,7 @@
 
 mod dress;
 mod file;
+mod flaw;
 mod lists;
 
 pub(in crate::evaluate) use file::MeshFiles;
@@ -11,18 +12,17 @@ pub(in crate::evaluate) use file::MeshFiles;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::math::Vector;
-use crate::math::double::DoubleVector;
 use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
-use crate::source::Site;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 use dress::{Dress, Textures};
+use flaw::{Flaws, is_degenerate};
 
 /// Triangles as they are written one by one: equal vertices become one.
 #[derive(Default)]
@@ -30,15 +30,19 @@ struct Gathered {
     triangles: Triangles,
     known: HashMap<[u64; 3], u32>,
     textures: Textures,
-    degenerate: u32,
-    first_degenerate: Option<Site>,
+    flaws: Flaws,
 }
 
+/// Three corners, and the normals there where it is smooth.
+type Triangle = ([Given<Vector>; 3], Option<[Given<Vector>; 3]>);
+
 impl Gathered {
-    fn add(&mut self, corners: [Vector; 3], normals: Option<[Vector; 3]>, dress: Dress) {
+    /// Adds what `token` opened; `false` where it is a line or a point, which is left out.
+    fn add(&mut self, token: &Token, (corners, normals): &Triangle, dress: Dress) -> bool {
+        let corners = corners.each_ref().map(|corner| corner.value);
         if is_degenerate(corners) {
-            self.degenerate += 1;
-            return;
+            self.flaws.degenerate.add(token.here.site(token.span));
+            return false;
         }
         let vertices = corners.map(|corner| {
             let list = &mut self.triangles.vertices;
@@ -49,9 +53,12 @@ impl Gathered {
                 list.len() as u32 - 1
             })
         });
-        let normals = normals.map(|all| {
+        for normal in normals.iter().flatten().filter(|normal| normal.value == Vector::ZERO) {
+            self.flaws.aimless.add(normal.site());
+        }
+        let normals = normals.as_ref().map(|all| {
             let first = self.triangles.normals.len() as u32;
-            self.triangles.normals.extend(all);
+            self.triangles.normals.extend(all.each_ref().map(|normal| normal.value));
             [first, first + 1, first + 2]
         });
         let uvs = dress.uvs.map(|all| {
@@ -60,31 +67,25 @@ impl Gathered {
             [first, first + 1, first + 2]
         });
         self.triangles.faces.push(Face { vertices, normals, paint: dress.paint, uvs });
+        true
     }
 }
 
 impl Evaluator<'_> {
     pub(super) fn triangle(&mut self, token: &Token) -> Outcome<Solid> {
         let corners = self.corners(token)?;
-        self.lone_triangle(token, Word::Triangle, corners, None)
+        self.lone_triangle(token, Word::Triangle, &(corners, None))
     }
 
     pub(super) fn smooth_triangle(&mut self, token: &Token) -> Outcome<Solid> {
-        let (corners, normals) = self.smooth_corners(token)?;
-        self.lone_triangle(token, Word::SmoothTriangle, corners, Some(normals))
+        let triangle = self.smooth_corners(token)?;
+        self.lone_triangle(token, Word::SmoothTriangle, &triangle)
     }
 
-    fn lone_triangle(
-        &mut self,
-        token: &Token,
-        word: Word,
-        corners: [Given<Vector>; 3],
-        normals: Option<[Vector; 3]>,
-    ) -> Outcome<Solid> {
+    fn lone_triangle(&mut self, token: &Token, word: Word, triangle: &Triangle) -> Outcome<Solid> {
         let mut gathered = Gathered::default();
-        gathered.add(corners.each_ref().map(|corner| corner.value), normals, Dress::default());
-        if gathered.degenerate > 0 {
-            let [first, .., last] = &corners;
+        if !gathered.add(token, triangle, Dress::default()) {
+            let [first, .., last] = &triangle.0;
             let diagnostic = Diagnostic::new(
                 self.sizeless(),
                 "a triangle whose corners lie in a line is nothing",
@@ -93,6 +94,7 @@ impl Evaluator<'_> {
             .also(first.span, "the first corner");
             self.nothing(token, &last.here, diagnostic)?;
         }
+        self.tell_of_aimless(gathered.flaws.aimless, word, token.here.site(token.span));
         Ok(Solid::Triangles { word, triangles: Arc::new(gathered.triangles) })
     }
 
@@ -106,15 +108,15 @@ impl Evaluator<'_> {
         Ok([a?, b?, c?])
     }
 
-    fn smooth_corners(&mut self, token: &Token) -> Outcome<([Given<Vector>; 3], [Vector; 3])> {
+    fn smooth_corners(&mut self, token: &Token) -> Outcome<Triangle> {
         let mut corner = |name: &str| {
             let corner = self.vector_after(token, &format!("a vector for the {name} corner"));
             let normal = self.vector_after(token, &format!("a vector for the {name} normal"));
-            Ok((corner?, normal?.value))
+            Ok((corner?, normal?))
         };
         let (a, b, c) = (corner("first"), corner("second"), corner("third"));
         let ((a, m), (b, n), (c, o)) = (a?, b?, c?);
-        Ok(([a, b, c], [m, n, o]))
+        Ok(([a, b, c], Some([m, n, o])))
     }
 
     /// `mesh { triangle { … } smooth_triangle { … } … inside_vector … }`, or `mesh { file "…" … }`.
@@ -146,22 +148,19 @@ impl Evaluator<'_> {
         if failed {
             return Err(Reported);
         }
-        let Gathered { mut triangles, degenerate, first_degenerate, textures, .. } = gathered;
+        let Gathered { mut triangles, flaws, textures, .. } = gathered;
         triangles.textures = textures.into_list();
         match from_file {
             Some((file, read)) => self.mesh_of_file(token, &file, &read, triangles),
-            None => self.whole_mesh(token, Word::Mesh, triangles, (degenerate, first_degenerate)),
+            None => self.whole_mesh(token, Word::Mesh, triangles, flaws),
         }
     }
 
     /// One triangle of a mesh. A texture of its own, and coordinates for one, it may have.
     fn mesh_triangle(&mut self, token: &Token, word: Word, all: &mut Gathered) -> Outcome<()> {
         self.block(token, word, |evaluator| {
-            let (corners, normals) = match word {
-                Word::SmoothTriangle => {
-                    let (corners, normals) = evaluator.smooth_corners(token)?;
-                    (corners, Some(normals))
-                }
+            let triangle = match word {
+                Word::SmoothTriangle => evaluator.smooth_corners(token)?,
                 _ => (evaluator.corners(token)?, None),
             };
             let mut dress = Dress::default();
@@ -179,11 +178,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            let before = all.degenerate;
-            all.add(corners.map(|corner| corner.value), normals, dress);
-            if all.degenerate > before {
-                all.first_degenerate.get_or_insert(token.here.site(token.span));
-            }
+            all.add(token, &triangle, dress);
             Ok(())
         })
     }
@@ -206,43 +201,10 @@ impl Evaluator<'_> {
         token: &Token,
         word: Word,
         triangles: Triangles,
-        degenerate: (u32, Option<Site>),
+        flaws: Flaws,
     ) -> Outcome<Solid> {
         self.stored += triangles.bytes();
-        self.tell_of_degenerate(token, word, triangles.faces.len(), degenerate);
+        self.tell_of_flaws(token, word, triangles.faces.len(), flaws);
         Ok(Solid::Triangles { word, triangles: Arc::new(triangles) })
     }
-
-    /// Says that a mesh has nothing to be seen, or less than was written.
-    fn tell_of_degenerate(
-        &mut self,
-        token: &Token,
-        word: Word,
-        left: usize,
-        (degenerate, first): (u32, Option<Site>),
-    ) {
-        if left == 0 && self.poison.is_none() {
-            let message = format!("this `{}` has no triangle", word.name());
-            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
-                .at(token.span, "nothing is left of it");
-            self.scene.sizeless.push((word.name(), token.here.site(token.span)));
-            // Unless its triangles stand too late.
-            self.owed = Some((token.here.clone(), diagnostic));
-        } else if degenerate > 0 {
-            let message = match degenerate {
-                1 => "a triangle of this mesh is a line or a point".to_owned(),
-                count => format!("{count} triangles of this mesh are lines or points"),
-            };
-            let site = first.unwrap_or(token.here.site(token.span));
-            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
-                .at(site.span, "left out: nothing of it could be seen");
-            self.report_in(site.expansion, diagnostic);
-        }
-    }
-}
-
-/// Whether three corners lie in a line.
-fn is_degenerate(corners: [Vector; 3]) -> bool {
-    let [a, b, c] = corners.map(DoubleVector::from);
-    (b - a).cross(c - a).is_zero()
 }

@@ -18,7 +18,7 @@ use crate::vocabulary::Word;
 use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Here, Outcome, Reported};
-use super::is_degenerate;
+use super::flaw::{Flawed, Flaws, is_degenerate};
 
 /// What meshes were read from files.
 #[derive(Debug, Default)]
@@ -160,12 +160,9 @@ impl Evaluator<'_> {
             return Err(self.report(&token.here, diagnostic));
         }
         self.meshes.painted = read.pigment.map(|pigment| (pigment, file.here.site(file.span)));
-        self.tell_of_degenerate(
-            token,
-            Word::Mesh,
-            read.triangles.faces.len(),
-            (read.degenerate, None),
-        );
+        let degenerate = Flawed { count: read.degenerate, first: None };
+        let flaws = Flaws { degenerate, ..Flaws::default() };
+        self.tell_of_flaws(token, Word::Mesh, read.triangles.faces.len(), flaws);
         let triangles = match own.inside {
             None => read.triangles.clone(),
             Some(way) => {

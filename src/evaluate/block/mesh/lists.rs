@@ -1,5 +1,7 @@
 //! `mesh2`: lists of vertices, normals and faces.
 
+use std::collections::BTreeSet;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::mesh::{Face, Triangles};
@@ -11,7 +13,7 @@ use super::super::super::stream::Token;
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::Given;
-use super::is_degenerate;
+use super::flaw::{Flawed, Flaws, is_degenerate};
 
 /// What stands in a `mesh2`.
 const OF_MESH2: &[Word] = &[
@@ -81,6 +83,7 @@ impl Evaluator<'_> {
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         };
+        let of_normals = normals.as_ref().map(|(list, _)| list.clone());
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
             (None, None) => None,
@@ -132,10 +135,26 @@ impl Evaluator<'_> {
             let paint = paint.get(i).copied().flatten();
             (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
-        let faces = faces.collect();
+        let faces: Vec<Face> = faces.collect();
+        let flaws = Flaws {
+            degenerate: Flawed { count: degenerate, first: None },
+            aimless: self.aimless(of_normals.as_ref(), &normals, &faces),
+        };
         let uvs = uvs.into_iter().map(|uv| [uv.x, uv.y]).collect();
         let triangles = Triangles { vertices, normals, uvs, faces, textures, inside };
-        self.whole_mesh(token, Word::Mesh2, triangles, (degenerate, None))
+        self.whole_mesh(token, Word::Mesh2, triangles, flaws)
+    }
+
+    /// Normals of length 0 among those that faces have; what no face has may be anything.
+    fn aimless(&self, list: Option<&Token>, normals: &[Vector], faces: &[Face]) -> Flawed {
+        let used = faces.iter().filter_map(|face| face.normals).flatten();
+        let zero = used.filter(|&i| normals[i as usize] == Vector::ZERO);
+        let zero: BTreeSet<u32> = zero.collect();
+        let first = zero.first().zip(list).map(|(&first, list)| {
+            let entry = self.entry_in(list, normals.len(), first as usize);
+            list.here.site(entry.unwrap_or(list.span))
+        });
+        Flawed { count: zero.len() as u32, first }
     }
 
     fn mesh2_list(&mut self, list: &Token, word: Word, lists: &mut Lists) -> Outcome<()> {
@@ -269,8 +288,8 @@ impl Evaluator<'_> {
         Ok(indices.iter().map(|all| all.map(|index| index as u32)).collect())
     }
 
-    /// Where number `part` of entry `entry` is written, in a list of plain vectors.
-    fn place_in(&self, list: &Token, entries: usize, entry: usize, part: usize) -> Option<Span> {
+    /// Where entry `entry` is written, in a list of plain vectors.
+    fn entry_in(&self, list: &Token, entries: usize, entry: usize) -> Option<Span> {
         let text = &self.sources.get(list.span.file).text;
         let rest = text.get(list.span.range().end..)?;
         let block = rest.get(..rest.find('}')?)?;
@@ -278,12 +297,20 @@ impl Evaluator<'_> {
             return None;
         }
         let (open, _) = block.match_indices('<').nth(entry)?;
-        let mut numbers = block[open + 1..].split('>').next()?.split(',');
+        let length = block[open..].find('>')? + 1;
+        let start = list.span.range().end + open;
+        Some(Span::new(list.span.file, start, start + length))
+    }
+
+    /// Where number `part` of entry `entry` is written, likewise.
+    fn place_in(&self, list: &Token, entries: usize, entry: usize, part: usize) -> Option<Span> {
+        let entry = self.entry_in(list, entries, entry)?;
+        let mut numbers = self.sources.text(entry).strip_prefix('<')?.strip_suffix('>')?.split(',');
         let before: usize = numbers.by_ref().take(part).map(|number| number.len() + 1).sum();
         let number = numbers.next()?;
         let blank = number.len() - number.trim_start().len();
-        let start = list.span.range().end + open + 1 + before + blank;
-        Some(Span::new(list.span.file, start, start + number.trim().len()))
+        let start = entry.range().start + 1 + before + blank;
+        Some(Span::new(entry.file, start, start + number.trim().len()))
     }
 
     fn one_for_each(

@@ -1,0 +1,84 @@
+//! Flaws of a mesh that it can be drawn with: triangles that are nothing, normals that point nowhere.
+//!
+//! **Invariant:** each is told once a mesh, however many of its triangles have it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::math::double::DoubleVector;
+use crate::source::Site;
+use crate::vocabulary::Word;
+
+use super::super::super::Evaluator;
+use super::super::super::stream::Token;
+
+/// How many have a flaw, and where the first of them stands, if that is known.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Flawed {
+    pub count: u32,
+    pub first: Option<Site>,
+}
+
+impl Flawed {
+    pub fn add(&mut self, site: Site) {
+        self.count += 1;
+        self.first.get_or_insert(site);
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Flaws {
+    /// Triangles that are lines or points.
+    pub degenerate: Flawed,
+    /// Normals of length 0, at corners of the other triangles.
+    pub aimless: Flawed,
+}
+
+impl Evaluator<'_> {
+    /// Tells what is wrong with some of a mesh's triangles, of which `left` are there to be seen.
+    pub(super) fn tell_of_flaws(&mut self, token: &Token, word: Word, left: usize, flaws: Flaws) {
+        let Flaws { degenerate, aimless } = flaws;
+        let mesh = token.here.site(token.span);
+        if left == 0 && self.poison.is_none() {
+            let message = format!("this `{}` has no triangle", word.name());
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                .at(token.span, "nothing is left of it");
+            self.scene.sizeless.push((word.name(), mesh));
+            // Unless its triangles stand too late.
+            self.owed = Some((token.here.clone(), diagnostic));
+        } else if degenerate.count > 0 {
+            let message = match degenerate.count {
+                1 => "a triangle of this mesh is a line or a point".to_owned(),
+                count => format!("{count} triangles of this mesh are lines or points"),
+            };
+            let site = degenerate.first.unwrap_or(mesh);
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                .at(site.span, "left out: nothing of it could be seen");
+            self.report_in(site.expansion, diagnostic);
+        }
+        self.tell_of_aimless(aimless, word, mesh);
+    }
+
+    /// Normals of length 0, which `lower` leaves out.
+    pub(super) fn tell_of_aimless(&mut self, normals: Flawed, word: Word, mesh: Site) {
+        let message = match normals.count {
+            0 => return,
+            1 => "a normal of length 0 points nowhere".to_owned(),
+            count => format!("{count} normals of length 0 point nowhere"),
+        };
+        let site = normals.first.unwrap_or(mesh);
+        let help = match word {
+            Word::Mesh2 => "write the way that the surface faces there; POV-Ray takes `x` for it",
+            _ => "write the way that the surface faces there",
+        };
+        let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+            .at(site.span, "left out: its face is lit by the other normals, or as a flat one")
+            .help(help);
+        self.report_in(site.expansion, diagnostic);
+    }
+}
+
+/// Whether three corners lie in a line.
+pub(super) fn is_degenerate(corners: [Vector; 3]) -> bool {
+    let [a, b, c] = corners.map(DoubleVector::from);
+    (b - a).cross(c - a).is_zero()
+}
