@@ -124,6 +124,7 @@ codes! {
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255, or is negative";
     UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
     UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";
+    EnclosedLight "enclosed-light" lint "a light stands inside an opaque object, and lights nothing outside of it";
     TooClear "too-clear" lint "a colour is clearer than it can be";
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";

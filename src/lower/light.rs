@@ -26,6 +26,7 @@ impl Lowering<'_, '_> {
             self.origins.attenuation.extend(beam.chain(fade));
         }
         self.world.lights.push(light);
+        self.lamps.push(site);
         self.origins.lights.push(item);
         let pieces = if color_sites.is_empty() { vec![item] } else { color_sites.clone() };
         self.origins.light_pieces.push(pieces);

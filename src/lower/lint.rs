@@ -95,6 +95,7 @@ impl Lowering<'_, '_> {
                 self.lint_view();
             }
             self.lint_far();
+            self.lint_enclosed();
             self.lint_pigment();
         }
     }

@@ -12,6 +12,7 @@ mod coinciding;
 mod csg;
 mod faces;
 mod finish;
+mod inside;
 mod interior;
 mod light;
 mod lint;
@@ -70,6 +71,7 @@ pub fn lower(
         dropped: HashMap::new(),
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
+        lamps: Vec::new(),
         building: None,
         shared: BTreeMap::new(),
         meshes: HashMap::new(),
@@ -106,6 +108,8 @@ struct Lowering<'s, 'd> {
     fillings: Vec<interior::Filling>,
     /// Where solids stand that have no pigment and do not mirror.
     unpainted: BTreeMap<Span, Site>,
+    /// The word of each light.
+    lamps: Vec<Site>,
     /// The solid made of others that is under way.
     building: Option<csg::Building>,
     /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of

@@ -5,13 +5,12 @@
 //! reaches everywhere is always in view.
 
 use super::Lowering;
-use super::lint::DEFAULT_AMBIENT;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::math::{Matrix, Vector};
 use crate::scene::CameraItemKind;
-use crate::shape::{Bounds, Shape};
-use crate::world::{Camera, CameraKind, Light, LightKind, Object};
+use crate::shape::Bounds;
+use crate::world::{Camera, CameraKind};
 
 /// Where objects are that are not in view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +20,7 @@ enum Outside {
 }
 
 /// How far outside a corner has to be, relative to its place: 2⁻³⁰, far more than was rounded on the way.
-const CLEARLY: f64 = 1.0 / (1u64 << 30) as f64;
+pub(super) const CLEARLY: f64 = 1.0 / (1u64 << 30) as f64;
 
 /// Angles that may be meant in radians: of less than a degree or two up to about π.
 const LIKE_RADIANS: std::ops::Range<f64> = 0.2..3.2;
@@ -69,60 +68,6 @@ impl Lowering<'_, '_> {
         .traced(site, self.reporter.expansions);
         self.reporter.diagnostics.push(diagnostic);
         true
-    }
-
-    /// A camera inside of a solid that neither light nor anything else comes into. Whether it is told.
-    pub(super) fn lint_inside(&mut self) -> bool {
-        // Without one, that is what is said.
-        let Some(camera) = self.origins.camera else { return false };
-        let world = &self.world;
-        let here = world.camera.location;
-        let is_dark = |object: &Object| {
-            let material = world.materials.get(object.material as usize);
-            let dark = material.is_some_and(|m| {
-                !m.pigment.is_clear() && m.finish.glow.largest() <= DEFAULT_AMBIENT
-            });
-            dark && object.in_image && object.casts_shadow && !object.double_illuminate
-        };
-        let contains =
-            |solid: u32, place| world.whole_contains(&world.objects[solid as usize], place);
-        // Under a ground it is as dark as in a room.
-        let is_plane = |solid: u32| {
-            let object = &world.objects[solid as usize];
-            object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
-        };
-        let is_shut = |solid: u32| {
-            world.parts(solid).iter().all(is_dark)
-                && (bounds(world, solid).is_some() || is_plane(solid))
-                && !self.is_inverse(solid)
-                && contains(solid, here)
-        };
-        let comes_in = |solid: u32, light: &Light| match light.kind {
-            _ if !light.casts_shadows => true,
-            LightKind::Point { position } => contains(solid, position),
-            // It may come from as far below.
-            LightKind::Directional { .. } | LightKind::Parallel { .. } => is_plane(solid),
-        };
-        let around = world.solids().find(|&solid| {
-            is_shut(solid) && !world.lights.iter().any(|light| comes_in(solid, light))
-        });
-        let Some(site) = around.and_then(|i| self.origins.objects.get(i as usize)).copied() else {
-            return false;
-        };
-        let diagnostic =
-            Diagnostic::new(Code::NothingInView, "the camera is inside an object, in the dark")
-                .at(site.span, "the camera stands in this, and no light does")
-                .also(camera.span, "the camera")
-                .help("move the camera's `location` out of it, or a light in");
-        let diagnostic = diagnostic.traced(site, self.reporter.expansions);
-        self.reporter.diagnostics.push(diagnostic);
-        true
-    }
-
-    /// What is outside of it has no end. (A whole that has none has no bounds.)
-    fn is_inverse(&self, solid: u32) -> bool {
-        let object = &self.world.objects[solid as usize];
-        object.whole.is_none() && object.inverse
     }
 
     pub(super) fn lint_view(&mut self) {

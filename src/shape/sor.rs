@@ -64,7 +64,7 @@ pub struct Sor {
     /// Rising, end to end.
     segments: Vec<Segment>,
     /// Its ends are not seen, though it is as solid as ever.
-    open: bool,
+    pub open: bool,
     /// A bound of |F″|.
     bend: f64,
 }

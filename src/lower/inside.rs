@@ -1,0 +1,185 @@
+//! What stands inside of an opaque solid: a camera that sees only that, a light that lights only that.
+//!
+//! **In:** the World. **Out:** lints. **Invariant:** told only of a solid whose surface is certainly all
+//! around, and lets nothing through.
+
+use super::Lowering;
+use super::lint::DEFAULT_AMBIENT;
+use super::view::CLEARLY;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::bounds;
+use crate::math::Vector;
+use crate::shape::csg::Node;
+use crate::shape::{Body, Shape};
+use crate::source::Site;
+use crate::world::{CameraKind, Light, LightKind, Object};
+
+/// How many lights are looked at.
+const MOST_LIGHTS: usize = 1000;
+
+impl Lowering<'_, '_> {
+    /// A camera inside of a solid that neither light nor anything else comes into. Whether it is told.
+    pub(super) fn lint_inside(&mut self) -> bool {
+        // Without one, that is what is said.
+        let Some(camera) = self.origins.camera else { return false };
+        let world = &self.world;
+        let is_dim = |object: &Object| {
+            let material = world.materials.get(object.material as usize);
+            material.is_some_and(|m| m.finish.glow.largest() <= DEFAULT_AMBIENT)
+        };
+        // Under a ground it is as dark as in a room.
+        let is_plane = |solid: u32| {
+            let object = &world.objects[solid as usize];
+            object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
+        };
+        let is_around = |solid: u32| {
+            world.parts(solid).iter().all(is_dim)
+                && (bounds(world, solid).is_some() || is_plane(solid))
+                && self.is_shut(solid)
+                && self.holds(solid, world.camera.location)
+        };
+        let comes_in = |solid: u32, light: &Light| match light.kind {
+            _ if !light.casts_shadows => true,
+            LightKind::Point { position } => self.holds(solid, position),
+            // It may come from as far below.
+            LightKind::Directional { .. } | LightKind::Parallel { .. } => is_plane(solid),
+        };
+        let around = world.solids().find(|&solid| {
+            is_around(solid) && !world.lights.iter().any(|light| comes_in(solid, light))
+        });
+        let Some(site) = around.and_then(|i| self.origins.objects.get(i as usize)).copied() else {
+            return false;
+        };
+        let diagnostic =
+            Diagnostic::new(Code::NothingInView, "the camera is inside an object, in the dark")
+                .at(site.span, "the camera stands in this, and no light does")
+                .also(camera.span, "the camera")
+                .help("move the camera's `location` out of it, or a light in");
+        let diagnostic = diagnostic.traced(site, self.reporter.expansions);
+        self.reporter.diagnostics.push(diagnostic);
+        true
+    }
+
+    /// Lights inside of solids that no light leaves, and that are seen from outside.
+    pub(super) fn lint_enclosed(&mut self) {
+        if self.origins.camera.is_none() {
+            return;
+        }
+        for (light, solid) in self.enclosed() {
+            let Some(&object) = self.origins.objects.get(solid as usize) else { continue };
+            let message =
+                "this light stands inside an opaque object, and lights nothing outside of it";
+            let diagnostic = Diagnostic::new(Code::EnclosedLight, message)
+                .at(light.span, "its light does not get out")
+                .also(object.span, "this is opaque, and all around it")
+                .help("give the object `no_shadow`, and light goes through; or move the light out")
+                .traced(light, self.reporter.expansions);
+            self.reporter.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Each such light, and the solid around it.
+    fn enclosed(&self) -> Vec<(Site, u32)> {
+        let world = &self.world;
+        let lights = world.lights.iter().zip(&self.lamps).take(MOST_LIGHTS);
+        let lamps = lights.filter_map(|(light, &site)| match light.kind {
+            LightKind::Point { position } if light.casts_shadows => Some((position, site)),
+            // Theirs comes from outside.
+            LightKind::Point { .. }
+            | LightKind::Directional { .. }
+            | LightKind::Parallel { .. } => None,
+        });
+        let lamps: Vec<(Vector, Site)> = lamps.collect();
+        let mut found = Vec::new();
+        for solid in world.solids().filter(|_| !lamps.is_empty()) {
+            let Some(bounds) = bounds(world, solid) else { continue };
+            let size = (bounds.high - bounds.low).max_element();
+            let within = lamps.iter().filter(|(place, _)| {
+                bounds.contains(*place)
+                    && self.is_shut(solid)
+                    && !self.may_be_seen_inside(solid)
+                    && self.clearly_holds(solid, *place, size)
+            });
+            found.extend(within.map(|&(_, site)| (site, solid)));
+        }
+        found
+    }
+
+    /// Whether light neither comes into a solid nor leaves it: it is opaque all around, and not inside out.
+    fn is_shut(&self, solid: u32) -> bool {
+        let world = &self.world;
+        let is_wall = |object: &Object| {
+            let material = world.materials.get(object.material as usize);
+            material.is_some_and(|m| !m.pigment.is_clear())
+                && object.in_image
+                && object.casts_shadow
+                && !object.double_illuminate
+                && self.is_closed(object)
+        };
+        let whole = world.objects[solid as usize].whole.map(|i| &world.wholes[i as usize]);
+        // What is clipped is open where it is cut.
+        let is_clip = |node: &Node| matches!(node, Node::Clip { .. });
+        !self.is_inverse(solid)
+            && !whole.is_some_and(|whole| whole.nodes.iter().any(is_clip))
+            && world.parts(solid).iter().all(is_wall)
+    }
+
+    /// Whether an object's surface is all around its inside; `false` where that is not certain.
+    fn is_closed(&self, object: &Object) -> bool {
+        let body = match object.shape {
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => {
+                return true;
+            }
+            Shape::Placed(i) => &*self.world.placed[i as usize].body,
+        };
+        match body {
+            Body::Cone(cone) => !cone.open,
+            Body::Cylinder(cylinder) => !cylinder.open,
+            Body::Isosurface(surface) => !surface.open,
+            Body::Prism(prism) => !prism.open,
+            Body::Sor(sor) => !sor.open,
+            Body::Blob(_)
+            | Body::JuliaFractal(_)
+            | Body::Ovus(_)
+            | Body::SphereSweep(_)
+            | Body::Superellipsoid(_)
+            | Body::Text(_)
+            | Body::Torus(_) => true,
+            // Outlines, meshes and fields may have holes, and sheets have no inside.
+            Body::Algebraic(_)
+            | Body::BicubicPatch(_)
+            | Body::Disc(_)
+            | Body::HeightField(_)
+            | Body::Lathe(_)
+            | Body::Mesh(_)
+            | Body::Parametric(_)
+            | Body::Polygon(_) => false,
+        }
+    }
+
+    /// Whether the camera may see a solid's inside. Which points are an orthographic one's is not asked.
+    fn may_be_seen_inside(&self, solid: u32) -> bool {
+        let camera = &self.world.camera;
+        let is_seen = self.world.parts(solid).iter().all(|object| object.in_reflections);
+        !is_seen || camera.kind == CameraKind::Orthographic || self.holds(solid, camera.location)
+    }
+
+    fn holds(&self, solid: u32, place: Vector) -> bool {
+        self.world.whole_contains(&self.world.objects[solid as usize], place)
+    }
+
+    /// Whether a place lies inside of a solid of this size by more than was rounded on the way.
+    fn clearly_holds(&self, solid: u32, place: Vector, size: f64) -> bool {
+        let off = (size + place.abs().max_element()) * CLEARLY;
+        let axes = [Vector::X, Vector::Y, Vector::Z];
+        axes.into_iter().all(|axis| {
+            self.holds(solid, place - axis * off) && self.holds(solid, place + axis * off)
+        })
+    }
+
+    /// What is outside of it has no end. (A whole that has none has no bounds.)
+    pub(super) fn is_inverse(&self, solid: u32) -> bool {
+        let object = &self.world.objects[solid as usize];
+        object.whole.is_none() && object.inverse
+    }
+}
