@@ -393,5 +393,10 @@ pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
     Extent::of(world, object).bounds()
 }
 
+/// A box that holds all that an object counts for as a part of a whole; `None` where that has no end.
+pub fn bounds_of_part(world: &World, object: u32) -> Option<Bounds> {
+    Extent::of_part(world, object).bounds()
+}
+
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@
 //! one leaf is no whole.
 
 use super::Lowering;
+use super::empty::Known;
 use crate::scene::Operation;
 use crate::shape::csg::Node;
 use crate::source::Site;
@@ -22,6 +23,8 @@ pub(super) struct Building {
     parts: u32,
     /// The operations that make it, as they are written.
     operations: Vec<OperationOrigin>,
+    /// What is known of the parts, as operations end: one of each.
+    pub(super) known: Vec<Known>,
 }
 
 /// What an operation comes to, on solids or on what is outside of them.
@@ -36,7 +39,12 @@ enum Kind {
 /// An operation on parts that are still to come.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Open {
-    inverse: bool,
+    pub(super) making: Making,
+    pub(super) inverse: bool,
+    /// The word that opened it.
+    pub(super) site: Site,
+    /// How many parts were known before.
+    pub(super) known: usize,
     /// The operation around it, and its parts; `None` where it began the whole.
     outer: Option<(Kind, u32)>,
 }
@@ -103,25 +111,29 @@ impl Lowering<'_, '_> {
         let kind = making.kind(inverse);
         let written = OperationOrigin { word: making.word(), site };
         if let Some(building) = &mut self.building {
-            let outer = (building.kind, building.parts);
+            let outer = Some((building.kind, building.parts));
+            let known = building.known.len();
             (building.kind, building.parts) = (kind, 0);
             building.operations.extend((making != Making::Union).then_some(written));
-            return Some(Open { inverse, outer: Some(outer) });
+            return Some(Open { making, inverse, site, known, outer });
         }
         if kind == Kind::Union {
             return None;
         }
         let first = self.world.objects.len() as u32;
-        self.building =
-            Some(Building { first, nodes: Vec::new(), kind, parts: 0, operations: vec![written] });
-        Some(Open { inverse, outer: None })
+        let (nodes, known) = (Vec::new(), Vec::new());
+        let operations = vec![written];
+        self.building = Some(Building { first, nodes, kind, parts: 0, operations, known });
+        Some(Open { making, inverse, site, known: 0, outer: None })
     }
 
     /// Ends an operation: all of its parts are there.
-    pub(super) fn close(&mut self, Open { inverse, outer }: Open) {
+    pub(super) fn close(&mut self, open: Open) {
+        let Open { inverse, outer, site, .. } = open;
         if self.building.as_ref().is_some_and(|building| building.parts == 0) {
-            self.nothing(inverse);
+            self.nothing(inverse, site);
         }
+        self.know_operation(&open);
         let Some(building) = &mut self.building else { return };
         let (kind, parts) = (building.kind, building.parts);
         // (A ∩ B) ∩ C is A ∩ B ∩ C.
@@ -139,7 +151,8 @@ impl Lowering<'_, '_> {
     }
 
     /// A part that is nowhere, or everywhere.
-    pub(super) fn nothing(&mut self, inverse: bool) {
+    pub(super) fn nothing(&mut self, inverse: bool, site: Site) {
+        self.know_nothing(inverse, site);
         if let Some(building) = &mut self.building {
             building.nodes.push(if inverse { Node::Intersection(0) } else { Node::Merge(0) });
             building.parts += 1;

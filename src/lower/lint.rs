@@ -45,6 +45,7 @@ impl Lowering<'_, '_> {
         }
         self.lint_picture_shape();
         self.lint_clear();
+        self.lint_emptied();
         let telescope = self.lint_angle();
         let world = &self.world;
         let empty_sky = world.sky.is_none() && world.background.is_black();

@@ -10,6 +10,7 @@ mod body;
 mod camera;
 mod coinciding;
 mod csg;
+mod empty;
 mod faces;
 mod finish;
 mod inside;
@@ -72,6 +73,7 @@ pub fn lower(
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         lamps: Vec::new(),
+        emptied: BTreeMap::new(),
         building: None,
         shared: BTreeMap::new(),
         meshes: HashMap::new(),
@@ -110,6 +112,8 @@ struct Lowering<'s, 'd> {
     unpainted: BTreeMap<Span, Site>,
     /// The word of each light.
     lamps: Vec<Site>,
+    /// Of each operation of which nothing may be left, by its place: what is to be said, if nothing is of any.
+    emptied: BTreeMap<Span, Option<(Diagnostic, Site)>>,
     /// The solid made of others that is under way.
     building: Option<csg::Building>,
     /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of

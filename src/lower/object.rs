@@ -235,7 +235,7 @@ impl<'s> Lowering<'s, '_> {
         (word, why): (&'static str, &'static str),
     ) -> Result<(), Fault> {
         self.drop_part(site, word, why);
-        self.nothing(here.flags.inverse);
+        self.nothing(here.flags.inverse, site);
         Ok(())
     }
 
@@ -271,7 +271,7 @@ impl<'s> Lowering<'s, '_> {
         let may_be_nothing =
             self.scene.dialect == Dialect::Pov || matches!(solid, Solid::Text { .. });
         if may_be_nothing && solid.is_sizeless() {
-            self.nothing(here.flags.inverse);
+            self.nothing(here.flags.inverse, site);
             return Ok(());
         }
         match *solid {

@@ -80,6 +80,9 @@ impl Lowering<'_, '_> {
         let object = Object { material, texture_from_world, faces, interior, whole, ..object };
         self.world.objects.push(object);
         self.origins.objects.push(site);
+        if whole.is_some() {
+            self.know_leaf(inverse, site);
+        }
         Ok(())
     }
 

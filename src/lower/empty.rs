@@ -1,0 +1,339 @@
+//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away.
+//!
+//! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
+//! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
+//! loop or a macro makes again and again is told only where nothing is left of any.
+
+use std::f64::consts::PI;
+
+use super::Lowering;
+use super::csg::{Making, Open};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::bounds_of_part;
+use crate::math::Vector;
+use crate::math::elementary::{cos, sin};
+use crate::scene::Operation;
+use crate::shape::{Body, Bounds, Box_, Plane, Shape};
+use crate::source::Site;
+use crate::world::Object;
+
+const NOWHERE: Bounds = Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY };
+const EVERYWHERE: Bounds = Bounds { low: Vector::NEG_INFINITY, high: Vector::INFINITY };
+
+/// What is thinner than this, relative, is not there: it may all be rounding.
+const THIN: f64 = 64.0 * f64::EPSILON;
+/// Corners of the polygon that is drawn around a circle.
+const CORNERS: usize = 32;
+
+/// What is known of a part of a whole.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known {
+    /// The word that made it.
+    site: Site,
+    /// Boxes around what is in it, and around what is not.
+    inside: Bounds,
+    outside: Bounds,
+    /// The object that it is, where it is one, and whether it is what that is not.
+    object: Option<(u32, bool)>,
+}
+
+impl Known {
+    fn nothing(site: Site) -> Self {
+        Self { site, inside: NOWHERE, outside: EVERYWHERE, object: None }
+    }
+
+    /// All that is not in it, where `turns`.
+    fn turned(self, turns: bool) -> Self {
+        let Self { site, inside, outside, object } = self;
+        match turns {
+            false => self,
+            true => Self {
+                site,
+                inside: outside,
+                outside: inside,
+                object: object.map(|(object, turned)| (object, !turned)),
+            },
+        }
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.inside.low.cmpgt(self.inside.high).any()
+    }
+
+    /// How far from 0 it ends along an axis.
+    fn size(&self, axis: usize) -> f64 {
+        let ends = [self.inside.low[axis], self.inside.high[axis]].map(f64::abs);
+        ends.into_iter().filter(|end| end.is_finite()).fold(0.0, f64::max)
+    }
+}
+
+/// Two of some parts that do not meet.
+struct Gap {
+    touching: bool,
+    parts: [usize; 2],
+}
+
+impl Lowering<'_, '_> {
+    /// Notes a part of the whole under way: the object placed last.
+    pub(super) fn know_leaf(&mut self, inverse: bool, site: Site) {
+        let object = self.world.objects.len() as u32 - 1;
+        let around = |bounds: Option<Bounds>| [bounds.unwrap_or(EVERYWHERE), EVERYWHERE];
+        let [inside, outside] = match self.world.objects[object as usize].shape {
+            Shape::Plane(i) => half_spaces(&self.world.planes[i as usize]),
+            Shape::Sphere(_) | Shape::Box(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => {
+                around(bounds_of_part(&self.world, object))
+            }
+        };
+        let shape = Known { site, inside, outside, object: None };
+        let known = Known { object: Some((object, false)), ..shape.turned(inverse) };
+        self.note_known(known);
+    }
+
+    /// Likewise, one that is nowhere, or everywhere.
+    pub(super) fn know_nothing(&mut self, inverse: bool, site: Site) {
+        self.note_known(Known::nothing(site).turned(inverse));
+    }
+
+    fn note_known(&mut self, known: Known) {
+        self.building.iter_mut().for_each(|building| building.known.push(known));
+    }
+
+    /// Makes one of the parts of an operation that ends, and notes whether anything is left of it.
+    pub(super) fn know_operation(&mut self, open: &Open) {
+        let Open { making, inverse, site, known: first, .. } = *open;
+        let Some(building) = &mut self.building else { return };
+        // As its author sees them.
+        let parts = building.known.drain(first..).map(|part| part.turned(inverse));
+        let parts: Vec<Known> = parts.collect();
+        if let Making::Operation(operation @ (Operation::Intersection | Operation::Difference)) =
+            making
+        {
+            let told = self.nothing_left(operation, &parts, site);
+            self.emptied
+                .entry(site.span)
+                .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
+                .or_insert(told.map(|told| (told, site)));
+        }
+        self.note_known(whole(making, &parts, inverse, site).turned(inverse));
+    }
+
+    /// Says that nothing is left of an operation, where that is certain, and not for a part that is nothing.
+    fn nothing_left(
+        &self,
+        operation: Operation,
+        parts: &[Known],
+        site: Site,
+    ) -> Option<Diagnostic> {
+        if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
+            return None;
+        }
+        let word = operation.word().name();
+        let told = |why: &str| {
+            let message = format!("this `{word}` is empty: {why}");
+            Diagnostic::new(Code::DegenerateShape, message).at(site.span, "nothing is left of it")
+        };
+        if operation == Operation::Difference {
+            // Each of the others is here what it leaves.
+            let others = &parts[1..];
+            let by_one = others.iter().find(|other| self.takes_all(&parts[0], other));
+            if by_one.is_none() && gap(parts).is_none() {
+                return None;
+            }
+            let told = told("what is taken away holds all of the first").help(
+                "the first is kept, and the others are taken from it: are two of them swapped?",
+            );
+            return Some(match by_one {
+                Some(other) if other.site.span != parts[0].site.span => told
+                    .also(parts[0].site.span, "the first")
+                    .also(other.site.span, "this holds all of it"),
+                _ => told,
+            });
+        }
+        let Gap { touching, parts: [a, b] } = gap(parts)?;
+        let told = match touching {
+            true => told("its parts only touch"),
+            false => told("its parts do not meet"),
+        };
+        let told = told.help("let them overlap; a `union` is all of them together");
+        let [a, b] = [a, b].map(|part| parts[part].site.span);
+        Some(match a == b {
+            true => told,
+            false => told.also(a, "one of them").also(b, "another, beside it"),
+        })
+    }
+
+    /// Whether nothing of a part is left where `rest` is what another leaves.
+    fn takes_all(&self, first: &Known, rest: &Known) -> bool {
+        gap(&[*first, *rest]).is_some() || self.is_within(first, rest)
+    }
+
+    /// Whether a part lies all in a convex object, of which `rest` is what is not in it.
+    fn is_within(&self, first: &Known, rest: &Known) -> bool {
+        let world = &self.world;
+        let Some((index, turned)) = rest.object else { return false };
+        let holder = &world.objects[index as usize];
+        if !self.is_convex(holder, holder.inverse != turned) {
+            return false;
+        }
+        if let (Some(Shape::Sphere(i)), Shape::Sphere(j)) = (self.shape(first), holder.shape) {
+            let [inner, outer] = [i, j].map(|i| world.spheres[i as usize]);
+            let reach = inner.centre.distance(outer.centre) + inner.radius;
+            return reach <= outer.radius * (1.0 + THIN);
+        }
+        let corners = self.corners(first);
+        let middle = corners.iter().fold(Vector::ZERO, |sum, corner| sum + *corner)
+            / corners.len().max(1) as f64;
+        let is_held = |corner: &Vector| {
+            let inner = middle + (*corner - middle) * (1.0 - THIN);
+            world.contains(holder, inner) == turned
+        };
+        !corners.is_empty() && corners.iter().all(is_held)
+    }
+
+    /// Whether what is in an object, or all that is not, is convex.
+    fn is_convex(&self, object: &Object, inside: bool) -> bool {
+        match object.shape {
+            Shape::Plane(_) => true,
+            Shape::Sphere(_) | Shape::Ellipsoid(_) | Shape::Box(_) => inside,
+            Shape::Placed(i) => {
+                let is_convex = match &*self.world.placed[i as usize].body {
+                    Body::Cylinder(_) | Body::Ovus(_) => true,
+                    Body::Cone(cone) => cone.cap >= 0.0,
+                    Body::Algebraic(_)
+                    | Body::BicubicPatch(_)
+                    | Body::Blob(_)
+                    | Body::Disc(_)
+                    | Body::HeightField(_)
+                    | Body::Isosurface(_)
+                    | Body::JuliaFractal(_)
+                    | Body::Lathe(_)
+                    | Body::Mesh(_)
+                    | Body::Parametric(_)
+                    | Body::Polygon(_)
+                    | Body::Prism(_)
+                    | Body::Sor(_)
+                    | Body::SphereSweep(_)
+                    | Body::Superellipsoid(_)
+                    | Body::Text(_)
+                    | Body::Torus(_) => false,
+                };
+                inside && is_convex
+            }
+        }
+    }
+
+    /// The shape that a part is.
+    fn shape(&self, part: &Known) -> Option<Shape> {
+        let (object, turned) = part.object?;
+        let object = &self.world.objects[object as usize];
+        (object.inverse == turned).then_some(object.shape)
+    }
+
+    /// Corners of a polyhedron that a part lies in; none where it has no end.
+    fn corners(&self, part: &Known) -> Vec<Vector> {
+        match self.shape(part) {
+            Some(Shape::Box(i)) => return corners_of_box(&self.world.boxes[i as usize]),
+            Some(Shape::Placed(i)) => {
+                let placed = &self.world.placed[i as usize];
+                let (base, cap) = match &*placed.body {
+                    Body::Cylinder(_) => (1.0, 1.0),
+                    Body::Cone(cone) => (1.0, cone.cap),
+                    _ => return corners_of(&part.inside),
+                };
+                let local = [ring(base, -1.0), ring(cap, 1.0)].concat();
+                let place = &placed.placement;
+                let world = |corner: &Vector| place.centre + place.world_from_local * *corner;
+                return local.iter().map(world).collect();
+            }
+            Some(Shape::Sphere(_) | Shape::Ellipsoid(_) | Shape::Plane(_)) | None => {}
+        }
+        corners_of(&part.inside)
+    }
+
+    pub(super) fn lint_emptied(&mut self) {
+        for (told, site) in std::mem::take(&mut self.emptied).into_values().flatten() {
+            self.reporter.diagnostics.push(told.traced(site, self.reporter.expansions));
+        }
+    }
+}
+
+/// What is known of all that an operation makes of its parts, as its author sees them.
+fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
+    if let ([only], false) = (parts, making == Making::Clip) {
+        return *only;
+    }
+    let shared = |box_: fn(&Known) -> Bounds| parts.iter().map(box_).fold(EVERYWHERE, both);
+    let united = |box_: fn(&Known) -> Bounds| {
+        parts.iter().map(box_).fold(NOWHERE, |all, one| all.union(&one))
+    };
+    let (inside, outside) = match making {
+        Making::Union | Making::Operation(Operation::Merge) => {
+            (united(|part| part.inside), shared(|part| part.outside))
+        }
+        // What a difference takes away is turned already.
+        Making::Operation(Operation::Intersection | Operation::Difference) => {
+            (shared(|part| part.inside), united(|part| part.outside))
+        }
+        Making::Clip if inverse => (EVERYWHERE, EVERYWHERE),
+        Making::Clip => (shared(|part| part.inside), EVERYWHERE),
+    };
+    Known { site, inside, outside, object: None }
+}
+
+/// Two of some parts that are apart, or else that only touch; `None` where boxes around all have a box in common.
+fn gap(parts: &[Known]) -> Option<Gap> {
+    let gaps = [0, 1, 2].map(|axis| gap_along(parts, axis));
+    gaps.into_iter().flatten().min_by_key(|gap| gap.touching)
+}
+
+/// Between the part that begins last and the one that ends first, where not even touching boxes overlap. What
+/// is thin itself may lie in a face.
+fn gap_along(parts: &[Known], axis: usize) -> Option<Gap> {
+    let (low, high) =
+        (|part: usize| parts[part].inside.low[axis], |part: usize| parts[part].inside.high[axis]);
+    let last = (0..parts.len()).max_by(|&a, &b| low(a).total_cmp(&low(b)))?;
+    let first = (0..parts.len()).min_by(|&a, &b| high(a).total_cmp(&high(b)))?;
+    let overlap = high(first) - low(last);
+    let thin = THIN * parts[first].size(axis).max(parts[last].size(axis));
+    let is_thick = |part: usize| high(part) - low(part) > thin;
+    let is_gap = overlap < 0.0 || overlap <= thin && (0..parts.len()).all(is_thick);
+    is_gap.then_some(Gap { touching: overlap >= -thin, parts: [first, last] })
+}
+
+fn both(a: Bounds, b: Bounds) -> Bounds {
+    Bounds { low: a.low.max(b.low), high: a.high.min(b.high) }
+}
+
+/// Boxes around what is inside of a plane, and around what is not.
+fn half_spaces(plane: &Plane) -> [Bounds; 2] {
+    let normal = plane.normal.get();
+    let (mut below, mut above) = (EVERYWHERE, EVERYWHERE);
+    let Some(axis) = (0..3).find(|&axis| normal[axis].abs() == 1.0) else { return [below, above] };
+    let place = plane.distance * normal[axis];
+    (below.high[axis], above.low[axis]) = (place, place);
+    if normal[axis] > 0.0 { [below, above] } else { [above, below] }
+}
+
+fn corners_of(&Bounds { low, high }: &Bounds) -> Vec<Vector> {
+    if !(low.is_finite() && high.is_finite()) {
+        return Vec::new();
+    }
+    let side = |i: usize, axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
+    (0..8).map(|i| Vector::new(side(i, 0), side(i, 1), side(i, 2))).collect()
+}
+
+fn corners_of_box(solid: &Box_) -> Vec<Vector> {
+    let halves = [0, 1, 2].map(|axis| solid.face(axis).centre - solid.centre);
+    let way = |i: usize, axis: usize| if i >> axis & 1 == 0 { -halves[axis] } else { halves[axis] };
+    (0..8).map(|i| solid.centre + way(i, 0) + way(i, 1) + way(i, 2)).collect()
+}
+
+/// Corners of a polygon around a circle about the z axis.
+fn ring(radius: f64, z: f64) -> Vec<Vector> {
+    let reach = radius / cos(PI / CORNERS as f64);
+    let corner = |i: usize| {
+        let angle = 2.0 * PI * i as f64 / CORNERS as f64;
+        Vector::new(reach * cos(angle), reach * sin(angle), z)
+    };
+    (0..CORNERS).map(corner).collect()
+}
