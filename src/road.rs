@@ -158,9 +158,10 @@ impl<'a> Road<'a> {
         let Options { picture, coinciding, ref evaluate, .. } = self.options;
         let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
         let before = self.diagnostics.len();
+        let unused = scene.unused.clone();
         let lowered = lower(scene, &options, &mut self.diagnostics);
         self.tell_blind();
-        self.tell_dark();
+        self.tell_dark(&unused);
         self.tell_empty();
         self.silence(before);
         lowered

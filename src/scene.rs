@@ -65,12 +65,23 @@ pub struct Scene {
     pub finishes: Vec<Finish>,
     /// Where each finish was written; a finish without an entry is a default.
     pub finish_origins: Vec<FinishOrigin>,
-    /// Names of the main file that nothing used, where they were declared.
-    pub unused: Vec<(String, Site)>,
+    /// Names of the main file that nothing used.
+    pub unused: Vec<Unused>,
     /// Shapes without size, told and left out: the word of each, and where.
     pub sizeless: Vec<(&'static str, Site)>,
     pub interiors: Vec<Interior>,
     pub expansions: Expansions,
+}
+
+/// A name that was declared, and that nothing used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unused {
+    /// `declare`, `local`, `macro`.
+    pub directive: &'static str,
+    pub name: String,
+    pub site: Site,
+    /// What it stands for is a light.
+    pub is_light: bool,
 }
 
 /// One object placed in the scene.

@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::{ObjectId, ObjectKind, Unused};
 use crate::source::{Site, Span};
 use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
 use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
@@ -56,7 +57,7 @@ impl Evaluator<'_> {
 
     fn tell_unused(&mut self, main: &Unit, is_meant: impl Fn(&str) -> bool) {
         let has_errors = self.diagnostics.has_errors();
-        let mut unused: Vec<(String, Site, Diagnostic)> = Vec::new();
+        let mut unused: Vec<(Unused, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
             if declared.used {
                 continue;
@@ -71,6 +72,7 @@ impl Evaluator<'_> {
                 continue;
             }
             let is_object = matches!(value, Some(Value::Object(_)));
+            let is_light = matches!(value, Some(&Value::Object(object)) if self.is_light(object));
             if has_errors && !(is_object && self.is_only_declared(name, main)) {
                 continue;
             }
@@ -86,27 +88,45 @@ impl Evaluator<'_> {
                 )
                 .at(site.span, "declared here"),
                 Some(Value::Broken) | None => continue,
-                Some(Value::Object(_)) => Diagnostic::new(
-                    Code::NeverPlaced,
-                    format!("`{name}` is declared and never placed in the scene"),
-                )
-                .at(site.span, "this object is not seen")
-                .help(format!("place it with `object {{ {name} }}`")),
+                Some(Value::Object(_)) => {
+                    let (word, label) = match is_light {
+                        true => (Word::LightSource, "this light does not shine"),
+                        false => (Word::Object, "this object is not seen"),
+                    };
+                    let message = format!("`{name}` is declared and never placed in the scene");
+                    Diagnostic::new(Code::NeverPlaced, message)
+                        .at(site.span, label)
+                        .help(format!("place it with `{} {{ {name} }}`", word.name()))
+                }
                 Some(_) => Diagnostic::new(
                     Code::UnusedDeclaration,
                     format!("`{name}` is declared and never used"),
                 )
                 .at(site.span, "declared here"),
             };
-            unused.push((name.to_owned(), site, diagnostic));
-        }
-        unused.sort_by_key(|(_, site, _)| site.span);
-        for (name, site, diagnostic) in unused {
             let text = &self.sources.get(site.span.file).text;
             let before = text[..site.span.start as usize].trim_end();
-            let word = ["macro", "local"].into_iter().find(|word| before.ends_with(word));
-            self.scene.unused.push((format!("#{} {name}", word.unwrap_or("declare")), site));
+            let directive = ["macro", "local"].into_iter().find(|word| before.ends_with(word));
+            let directive = directive.unwrap_or("declare");
+            let name = name.to_owned();
+            unused.push((Unused { directive, name, site, is_light }, diagnostic));
+        }
+        unused.sort_by_key(|(one, _)| one.site.span);
+        for (one, diagnostic) in unused {
+            self.scene.unused.push(one);
             self.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn is_light(&self, mut object: ObjectId) -> bool {
+        loop {
+            match self.scene.objects[object.index()].kind {
+                ObjectKind::Use(used) => object = used,
+                ObjectKind::LightSource(_) => return true,
+                ObjectKind::Solid(_) | ObjectKind::Union(_) | ObjectKind::Csg { .. } => {
+                    return false;
+                }
+            }
         }
     }
 

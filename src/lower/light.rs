@@ -13,6 +13,7 @@ impl Lowering<'_, '_> {
     /// A black light gives nothing and is dropped. `item` is all of what it stands in.
     pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site, item: Site) {
         if light.color.is_black() {
+            self.black.get_or_insert(light.color_site.unwrap_or(site));
             return self.drop_part(site, "light_source", "its colour is black");
         }
         if matches!(light.kind, LightKind::Cylinder { beam, .. } if beam.falloff <= 0.0) {

@@ -65,7 +65,7 @@ impl Lowering<'_, '_> {
             let before = |site: &Site| {
                 site.span.file == object.span.file && site.span.start < object.span.start
             };
-            let names = self.scene.unused.iter().map(|(_, site)| *site).filter(before);
+            let names = self.scene.unused.iter().map(|one| one.site).filter(before);
             let site = names.max_by_key(|site| site.span.start).unwrap_or(object);
             let message = "the scene shows no object: what is declared is never placed in it";
             let diagnostic = Diagnostic::new(Code::EmptyScene, message)
@@ -81,16 +81,7 @@ impl Lowering<'_, '_> {
             let message = "the scene has no object: its lights shine on nothing";
             self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
         } else if world.lights.is_empty() && empty_sky && !self.glows() {
-            let message = "nothing gives light, so the picture is dark";
-            let mut diagnostic = Diagnostic::new(Code::NoLight, message)
-                .help("a light such as `light_source { <10, 20, 10> rgb 1 }`");
-            if let Some(dropped) =
-                self.origins.dropped.iter().find(|part| part.what == "light_source")
-            {
-                diagnostic =
-                    diagnostic.at(dropped.site.span, format!("of this light {}", dropped.why));
-            }
-            self.reporter.diagnostics.push(diagnostic);
+            self.lint_unlit();
         } else {
             if !telescope && !self.lint_inside() {
                 self.lint_view();
@@ -132,8 +123,8 @@ impl Lowering<'_, '_> {
 
     /// Whether it was told that an object is never placed, or a macro never called: the scene is empty by that.
     fn tells_why_empty(&self) -> bool {
-        let macros = self.scene.unused.iter().filter(|(what, _)| what.starts_with("#macro"));
-        let macros: Vec<_> = macros.map(|(_, site)| site.span).collect();
+        let macros = self.scene.unused.iter().filter(|one| one.directive == "macro");
+        let macros: Vec<_> = macros.map(|one| one.site.span).collect();
         self.reporter.diagnostics.iter().any(|told| match told.code {
             Code::NeverPlaced => true,
             Code::UnusedDeclaration => {

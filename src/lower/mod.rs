@@ -26,6 +26,7 @@ mod shape;
 mod sweep;
 mod texture;
 mod transform;
+pub mod unlit;
 mod unseen;
 mod view;
 
@@ -35,7 +36,7 @@ use std::sync::Arc;
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::mesh::Triangles;
-use crate::scene::{ObjectId, Scene, TransformId};
+use crate::scene::{ObjectId, Scene, TransformId, Unused};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
 use crate::world::{Dropped, NearSingular, Origins, Settings, World};
@@ -73,6 +74,7 @@ pub fn lower(
         fillings: Vec::new(),
         unpainted: BTreeMap::new(),
         lamps: Vec::new(),
+        black: None,
         emptied: BTreeMap::new(),
         building: None,
         shared: BTreeMap::new(),
@@ -112,6 +114,8 @@ struct Lowering<'s, 'd> {
     unpainted: BTreeMap<Span, Site>,
     /// The word of each light.
     lamps: Vec<Site>,
+    /// The colour of the first light that is black.
+    black: Option<Site>,
     /// Of each operation of which nothing may be left, by its place: what is to be said, if nothing is of any.
     emptied: BTreeMap<Span, Option<(Diagnostic, Site)>>,
     /// The solid made of others that is under way.
@@ -162,8 +166,8 @@ impl Lowering<'_, '_> {
         for &(word, site) in &scene.sizeless {
             self.drop_part(site, word, NO_SIZE);
         }
-        for (what, site) in &scene.unused {
-            let (what, why) = (what.clone(), "nothing uses it".to_owned());
+        for Unused { directive, name, site, .. } in &scene.unused {
+            let (what, why) = (format!("#{directive} {name}"), "nothing uses it".to_owned());
             self.origins.dropped.push(Dropped { site: *site, what, why, calls: Vec::new() });
         }
     }

@@ -7,6 +7,8 @@
 use super::Road;
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::lower::unlit::tell_unlit;
+use crate::scene::Unused;
 use crate::vocabulary::{Family, Word, is_standard_source, standard_include_of};
 
 /// Parts of the words by which a scene, or its author's macros, give light.
@@ -147,7 +149,8 @@ impl Road<'_> {
         }
     }
 
-    pub(super) fn tell_dark(&mut self) {
+    /// That a scene with mistakes has no light; `unused` are the names that nothing uses.
+    pub(super) fn tell_dark(&mut self, unused: &[Unused]) {
         let lacking = |one: &Diagnostic| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::NoLight)
                 || self.is_cut_off(one)
@@ -167,8 +170,6 @@ impl Road<'_> {
         if !whole || texts.iter().any(|text| has_light(&without_comments(text))) {
             return;
         }
-        let message = "nothing gives light, so the picture is dark";
-        let help = "a light such as `light_source { <10, 20, 10> rgb 1 }`";
-        self.diagnostics.push(Diagnostic::new(Code::NoLight, message).help(help));
+        tell_unlit(unused, &mut self.diagnostics);
     }
 }

@@ -9,6 +9,8 @@ use crate::vocabulary::Word;
 pub struct LightSource {
     /// Linear intensity; may exceed 1.
     pub color: Rgb,
+    /// All of that, where it is written.
+    pub color_site: Option<Site>,
     pub kind: LightKind,
     pub shadowless: bool,
     /// `None`: as bright at any distance.
@@ -26,8 +28,8 @@ impl LightSource {
     /// Without further words.
     pub fn new(kind: LightKind, color: Rgb) -> Self {
         let (color_sites, beam_sites, fade_sites) = (Vec::new(), Vec::new(), Vec::new());
-        let (shadowless, fade) = (false, None);
-        Self { color, kind, shadowless, fade, color_sites, beam_sites, fade_sites }
+        let (shadowless, fade, color_site) = (false, None, None);
+        Self { color, color_site, kind, shadowless, fade, color_sites, beam_sites, fade_sites }
     }
 }
 

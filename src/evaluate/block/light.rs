@@ -96,15 +96,18 @@ impl Evaluator<'_> {
         let late = self.late_color(opener);
         let color = match late {
             // It is told where it comes, or that it never does.
-            Some(_) => Ok((Rgb::BLACK, None)),
+            Some(_) => Ok((Rgb::BLACK, None, None)),
             None => self.written_color_after(opener, "a colour for the light").map(|given| {
                 let black = given.value.without(|color| color.rgb.is_black());
-                (given.value.color().rgb, black)
+                let first = given.site();
+                let all = self.joined(first, self.taken.unwrap_or(first));
+                (given.value.color().rgb, Some(all), black)
             }),
         };
         let light = kind.and_then(|kind| {
-            let (color, black) = color?;
+            let (color, color_site, black) = color?;
             Ok(LightSource {
+                color_site,
                 color_sites: black.unwrap_or_default(),
                 ..LightSource::new(kind, color)
             })
