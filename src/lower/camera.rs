@@ -49,9 +49,9 @@ impl Lowering<'_, '_> {
         };
         self.origins.camera = Some(camera.site);
         let spent = self.spend_camera(camera);
-        if let Some(camera) = self.reporter.made_there(spent) {
-            self.world.camera = camera;
-        }
+        let camera = self.reporter.made_there(spent);
+        self.is_blind = camera.is_none();
+        self.world.camera = camera.unwrap_or(self.world.camera);
     }
 
     fn spend_camera(&mut self, camera: &scene::Camera) -> Result<Camera, (Fault, Site)> {

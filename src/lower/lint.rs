@@ -1,10 +1,11 @@
 //! What lowering has to say about the scene as a whole.
 //!
-//! **Invariant:** only what is certain; after a fault nothing about the whole is.
+//! **Invariant:** only what is certain: after a fault of another object that is what each is by itself, and
+//! nothing about the whole; after one of the camera all but what it sees.
 
 use super::{Fault, Lowering};
 use crate::color::Rgb;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
@@ -19,10 +20,58 @@ const NEARLY_SQUARE: f64 = 0.01;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
-        // After a mistake nothing about the whole is certain: its camera may be what failed.
-        if self.reporter.diagnostics.has_errors() {
+        // What a mistake kept from being read may be what is missing.
+        if !self.is_sound {
             return;
         }
+        let is_error = |told: &&Diagnostic| told.code.severity() == Severity::Error;
+        let errors = self.reporter.diagnostics.iter().filter(is_error).count();
+        // A camera that cannot be built is missed by nothing but what it would see.
+        let is_whole = errors == usize::from(self.is_blind);
+        if is_whole {
+            self.lint_cameras();
+        }
+        if is_whole && !self.is_blind {
+            self.lint_picture_shape();
+        }
+        self.lint_clear();
+        if is_whole {
+            self.lint_whole();
+        } else {
+            self.lint_pigment();
+        }
+    }
+
+    /// What all that is there comes to.
+    fn lint_whole(&mut self) {
+        self.lint_emptied();
+        let is_telescope = !self.is_blind && self.lint_angle();
+        let world = &self.world;
+        let empty_sky = world.sky.is_none() && world.background.is_black();
+        if world.objects.is_empty() {
+            return self.lint_empty(empty_sky);
+        }
+        let is_dark = world.lights.is_empty() && empty_sky && !self.glows();
+        if is_dark {
+            self.lint_unlit();
+            // Without a camera too it is rather a shape that is tried.
+            if self.origins.camera.is_none() {
+                return;
+            }
+        }
+        if !self.is_blind {
+            // In a scene without light, that is why it is dark inside.
+            if !is_telescope && (is_dark || !self.lint_inside()) {
+                self.lint_view();
+            }
+            self.lint_far();
+            self.lint_enclosed();
+        }
+        self.lint_pigment();
+    }
+
+    /// No camera, or more than one.
+    fn lint_cameras(&mut self) {
         let cameras = &self.scene.cameras;
         if cameras.is_empty() {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
@@ -43,53 +92,33 @@ impl Lowering<'_, '_> {
             let told = told.traced(last.site, self.reporter.expansions);
             self.reporter.diagnostics.push(told);
         }
-        self.lint_picture_shape();
-        self.lint_clear();
-        self.lint_emptied();
-        let telescope = self.lint_angle();
-        let world = &self.world;
-        let empty_sky = world.sky.is_none() && world.background.is_black();
-        if world.objects.is_empty() && empty_sky {
-            if self.tells_why_empty() {
-                return;
-            }
-            let message = "the scene shows nothing: no object, no background, no sky";
-            self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
-        } else if world.objects.is_empty()
-            && let Some(declared) = self.only_declared()
-        {
-            if self.tells_why_empty() {
-                return;
-            }
-            let object = declared.site;
-            let before = |site: &Site| {
-                site.span.file == object.span.file && site.span.start < object.span.start
-            };
-            let names = self.scene.unused.iter().map(|one| one.site).filter(before);
-            let site = names.max_by_key(|site| site.span.start).unwrap_or(object);
-            let message = "the scene shows no object: what is declared is never placed in it";
-            let diagnostic = Diagnostic::new(Code::EmptyScene, message)
-                .at(site.span, "declared, and not placed")
-                .help("place it: `object { Name }`")
-                .traced(site, self.reporter.expansions);
-            self.reporter.diagnostics.push(diagnostic);
-        } else if world.objects.is_empty()
-            && !world.lights.is_empty()
-            && self.origins.dropped.is_empty()
-            && !self.tells_why_empty()
-        {
-            let message = "the scene has no object: its lights shine on nothing";
-            self.reporter.diagnostics.push(Diagnostic::new(Code::EmptyScene, message));
-        } else if world.lights.is_empty() && empty_sky && !self.glows() {
-            self.lint_unlit();
-        } else {
-            if !telescope && !self.lint_inside() {
-                self.lint_view();
-            }
-            self.lint_far();
-            self.lint_enclosed();
-            self.lint_pigment();
+    }
+
+    /// A scene without an object.
+    fn lint_empty(&mut self, empty_sky: bool) {
+        if self.tells_why_empty() {
+            return;
         }
+        let told = |message: &str| Diagnostic::new(Code::EmptyScene, message);
+        let has_lights = !self.world.lights.is_empty() && self.origins.dropped.is_empty();
+        let told = match self.only_declared() {
+            _ if empty_sky => told("the scene shows nothing: no object, no background, no sky"),
+            Some(declared) => {
+                let object = declared.site;
+                let before = |site: &Site| {
+                    site.span.file == object.span.file && site.span.start < object.span.start
+                };
+                let names = self.scene.unused.iter().map(|one| one.site).filter(before);
+                let site = names.max_by_key(|site| site.span.start).unwrap_or(object);
+                told("the scene shows no object: what is declared is never placed in it")
+                    .at(site.span, "declared, and not placed")
+                    .help("place it: `object { Name }`")
+                    .traced(site, self.reporter.expansions)
+            }
+            None if has_lights => told("the scene has no object: its lights shine on nothing"),
+            None => return,
+        };
+        self.reporter.diagnostics.push(told);
     }
 
     /// Says so where there is nothing of an isosurface; `false` where that is proven.

@@ -64,7 +64,10 @@ pub fn lower(
     options: &LowerOptions,
     diagnostics: &mut Diagnostics,
 ) -> (World, Origins) {
+    let is_sound = !diagnostics.has_errors();
     let mut lowering = Lowering {
+        is_sound,
+        is_blind: false,
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter { diagnostics, expansions: &scene.expansions },
@@ -100,6 +103,10 @@ pub fn lower(
 struct Lowering<'s, 'd> {
     scene: &'s Scene,
     options: LowerOptions,
+    /// It was read without a mistake: what is not in the Scene was not written.
+    is_sound: bool,
+    /// The camera could not be built.
+    is_blind: bool,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,

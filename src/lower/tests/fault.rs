@@ -71,7 +71,7 @@ fn things_without_size_are_reported() {
     assert_eq!(codes(box_(point, v(1.0, 2.0, 4.0)), vec![]), [Code::ZeroSize]);
     assert_eq!(
         codes(box_(point, v(1.0, 4.0, 4.0)), vec![]),
-        [Code::DegenerateShape, Code::NoLight]
+        [Code::DegenerateShape, Code::NoLight, Code::NothingInView]
     );
 }
 
