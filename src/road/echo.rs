@@ -2,7 +2,7 @@
 //!
 //! A bracket without its partner shifts what follows it: what evaluation then finds out of place is
 //! the same mistake once more, up to where the text is certainly read as its author meant it. So is what
-//! it misses on the line of any other fault.
+//! it misses on the line of any other fault, but for the statements behind the block that holds that.
 //! **In:** a file's tree, and what was said of it. **Out:** the messages that are mistakes of their own.
 //! **Invariant:** a name that is no word of the language is wrong wherever it stands, and stays told.
 
@@ -23,6 +23,8 @@ struct Fault {
     line: usize,
     /// Where what stands out of place may be its consequence.
     doubt: Range<u32>,
+    /// From where on its line holds other statements.
+    others: u32,
 }
 
 /// Drops the echoes of the first `parsed` messages, which are about `ast`, from those behind them.
@@ -43,7 +45,8 @@ pub(super) fn drop_echoes(
         .take(MOST_FAULTS)
         .map(|(code, span)| {
             let doubt = statements.doubt(code, span);
-            Fault { code, span, line: line(span), doubt }
+            let others = statements.others(code, span);
+            Fault { code, span, line: line(span), doubt, others }
         })
         .collect();
     if let (MOST_FAULTS, Some(last)) = (faults.len(), faults.last_mut()) {
@@ -86,7 +89,7 @@ pub(super) fn drop_echoes(
                 true if is_name => fault.code == Code::UnclosedString && beside,
                 true => beside || fault.doubt.contains(&place.start),
                 false if is_block => false,
-                false => beside,
+                false => beside && place.start < fault.others,
             }
         })
     };
@@ -164,6 +167,14 @@ impl<'a> Statements<'a> {
                 fault.start..left.map_or(end, |left| end.min(left + 1))
             }
             _ => self.start(code, fault)..self.certain_after(fault),
+        }
+    }
+
+    /// From where on statements have nothing to do with a fault within a block.
+    fn others(&self, code: Code, fault: Span) -> u32 {
+        match self.block_around(fault) {
+            Some(_) if !code.shifts_what_follows() => self.certain_after(fault),
+            _ => u32::MAX,
         }
     }
 
