@@ -57,6 +57,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("geometry/tree.rs", "let padding", "roundings of the ray's start, relative"),
     ("geometry/tree.rs", "let least", "relative: of the tree's size"),
     ("lower/camera.rs", "PARALLEL", "relative: between directions"),
+    ("lower/empty.rs", "THIN", "relative: of a part's size"),
     ("lower/view.rs", "CLEARLY", "relative: to the place of a corner"),
     ("lower/view.rs", "SHOWS", "of a half width"),
     ("lower/view.rs", "SEEN", "of a picture's width"),
