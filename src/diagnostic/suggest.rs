@@ -61,6 +61,22 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, _, candidate)| candidate)
 }
 
+/// The one candidate that begins as `word` does and is two edits away, of four letters or more: `Cole` and `Coal`.
+pub fn alike<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = word.to_lowercase();
+    let mut near = candidates.into_iter().filter(|candidate| {
+        let other = candidate.to_lowercase();
+        word.len() >= 4
+            && other.len() >= 4
+            && other.len().abs_diff(lower.len()) <= 1
+            && other.chars().next() == lower.chars().next()
+            && other != lower
+            && !are_of_a_series(word, candidate)
+            && strsim::osa_distance(&lower, &other) <= 2
+    });
+    near.next().filter(|_| near.next().is_none())
+}
+
 /// Whether two words are made of the same letters.
 fn same_letters(a: &str, b: &str) -> bool {
     let sorted = |word: &str| {

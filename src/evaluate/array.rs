@@ -217,13 +217,22 @@ impl Evaluator<'_> {
     ) -> Outcome<Option<Value>> {
         let size = array.dimensions[dimension] as usize;
         let last = dimension + 1 == array.dimensions.len();
-        let (mut found, mut poison, mut surplus) = (0, None, None);
+        let (mut found, mut poison, mut surplus, mut missing) = (0, None, None, None);
         loop {
-            self.skip_commas();
+            if found > 0 {
+                self.skip_comma();
+            }
+            while let Some(told) = self.value_missing_here(found > 0) {
+                missing = Some(told);
+                found += 1;
+                *at += usize::from(found <= size && last);
+            }
             let Some(token) = self.next() else { break };
             found += 1;
             if found > size {
                 surplus = surplus.or(Some(token.span));
+                // What begins one value is no value more.
+                let _ = last.then(|| self.value_of(&token));
                 continue;
             }
             match token.kind {
@@ -248,6 +257,9 @@ impl Evaluator<'_> {
                     *at += 1;
                 }
             }
+        }
+        if let Some(told) = missing {
+            return Err(told);
         }
         if found == size {
             return Ok(poison);
@@ -277,6 +289,18 @@ impl Evaluator<'_> {
                 None => "without braces the elements may be set one by one".to_owned(),
             });
         Err(self.report(here, diagnostic))
+    }
+
+    /// `{ 1, , 3 }`
+    fn value_missing_here(&mut self, behind_comma: bool) -> Option<Reported> {
+        let Some(Token { kind: TokenKind::Comma, .. }) = self.peek() else { return None };
+        let comma = self.next()?;
+        let between = if behind_comma { "between two commas" } else { "before the first comma" };
+        let diagnostic =
+            Diagnostic::new(Code::ExpectedExpression, format!("a value is missing {between}"))
+                .at(comma.span, "expected a value before it")
+                .help("put the value there, or leave the comma out");
+        Some(self.report(&comma.here, diagnostic))
     }
 
     pub(super) fn other_kind(

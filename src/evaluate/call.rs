@@ -141,8 +141,12 @@ impl Evaluator<'_> {
                 let [Argument::Expression(id)] = list else {
                     return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
                 };
-                let ExpressionKind::Name(name) = here.unit.expression(*id).kind else {
-                    return Ok(Value::truth(true));
+                let name = match here.unit.expression(*id).kind {
+                    ExpressionKind::Name(name) => name,
+                    ExpressionKind::Index(..) => {
+                        return Ok(Value::truth(self.is_set(here, *id)));
+                    }
+                    _ => return Ok(Value::truth(true)),
                 };
                 let symbol = here.symbol(name);
                 self.scopes.mark_used(symbol);

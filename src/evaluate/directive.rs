@@ -82,6 +82,7 @@ impl Evaluator<'_> {
             }
             DirectiveKind::Switch { value, lead, cases } => {
                 let value = self.number(here, *value)?;
+                self.tell_case_lacking(here, *lead, cases, directive.head);
                 let chosen = self.chosen_case(here, value, cases)?.unwrap_or(cases.len());
                 self.lint_runs_on(here, &cases[chosen..]);
                 self.push_switch(here, Items::default());
@@ -114,6 +115,7 @@ impl Evaluator<'_> {
             DirectiveKind::Version(version) => {
                 self.says_version |= self.in_main();
                 self.version = self.number(here, *version)?;
+                self.end_of_version(here, *version);
                 self.check_version(here, here.unit.expression(*version).span)
             }
             DirectiveKind::Debug(text) => self.say(here, Code::AuthorDebug, *text, directive.head),

@@ -150,6 +150,14 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `defined(A[1])`
+    pub(super) fn is_set(&mut self, here: &Here, id: ExpressionId) -> bool {
+        let before = self.told();
+        let value = self.expression(here, id);
+        self.take_back(before);
+        !matches!(value, Err(Reported) | Ok(Value::Broken))
+    }
+
     /// `dimensions(A)` and `dimension_size(A, 1)`.
     pub(super) fn dimensions(
         &mut self,

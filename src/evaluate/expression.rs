@@ -6,6 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{ExpressionId, ExpressionKind, UnaryOperator};
 use crate::vocabulary::Word;
 
+use super::comparison::Comparison;
 use super::stream::TokenKind;
 use super::value::{self, Components, OperationError, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
@@ -53,7 +54,7 @@ impl Evaluator<'_> {
             ExpressionKind::Binary(operator, left, right) => {
                 let left = self.plain_operand(here, left, depth)?;
                 let right = self.plain_operand(here, right, depth)?;
-                value::numbers_meet(operator, left, right).ok()
+                value::numbers_meet(operator, left, right, self.comparison()).ok()
             }
             _ => None,
         }
@@ -93,7 +94,7 @@ impl Evaluator<'_> {
                 if let Value::Poison(_) = value {
                     return Ok(value);
                 }
-                value::unary(operator, &value).map_err(|error| {
+                value::unary(operator, &value, self.comparison()).map_err(|error| {
                     self.operation_error(
                         here,
                         error,
@@ -107,7 +108,8 @@ impl Evaluator<'_> {
             ExpressionKind::Binary(..) => self.sum(here, id),
             ExpressionKind::Conditional(condition, then, otherwise) => {
                 let condition = self.expression(here, condition);
-                let truth = condition.as_ref().ok().and_then(Value::as_truth);
+                let comparison = self.comparison();
+                let truth = condition.as_ref().ok().and_then(|value| value.as_truth(comparison));
                 // Both arms are evaluated, as POV-Ray does, since both may draw from random streams;
                 // what the arm not taken complains of is no mistake: `B = 0 ? 0 : A / B`.
                 let then = self.arm(here, then, truth != Some(false));
@@ -190,7 +192,7 @@ impl Evaluator<'_> {
         match (value, operand) {
             (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
             (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
-            (Ok(a), Ok(b)) => value::binary(operator, &a, &b).map_err(|error| {
+            (Ok(a), Ok(b)) => value::binary(operator, &a, &b, self.comparison()).map_err(|error| {
                 let symbol = format!("`{}`", operator.symbol());
                 self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
             }),
@@ -367,14 +369,18 @@ impl Evaluator<'_> {
         }
     }
 
+    pub(super) fn comparison(&self) -> Comparison {
+        Comparison::of(self.options.dialect)
+    }
+
     /// A condition must have a value at once: poison is an error here.
     pub(super) fn condition(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
         if let Some(number) = self.plain_number(here, id) {
-            return Ok(value::is_true(number));
+            return Ok(self.comparison().is_true(number));
         }
         let value = self.any_value(here, id)?;
         let span = here.unit.expression(id).span;
-        match value.as_truth() {
+        match value.as_truth(self.comparison()) {
             Some(truth) => Ok(truth),
             None => Err(self.wrong_type(here, span, "a number as condition", &value)),
         }

@@ -77,6 +77,14 @@ impl Evaluator<'_> {
             };
             let value = evaluator.function_body(token, &first, parameters);
             if let Some(extra) = evaluator.next() {
+                if let TokenKind::Semicolon = extra.kind {
+                    let message = "no `;` stands in a function";
+                    let told = Diagnostic::new(Code::ExtraPart, message)
+                        .at(extra.span, "expected `}`")
+                        .help("leave it out: a function is one formula")
+                        .fix(extra.span, "");
+                    return Err(evaluator.report(&extra.here, told));
+                }
                 let message = "a function is one formula, and there is more";
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                     .at(extra.span, "this is more than one formula");

@@ -65,7 +65,7 @@ impl Evaluator<'_> {
                     let told = told.clone();
                     return Err(self.report_again(here, &told));
                 }
-                let found = match self.files.read(&name, &from).or_else(embedded(&name)) {
+                let found = match self.found(&name, &from) {
                     Ok(found) => found,
                     Err(_) if self.unwritten.contains(&name) => {
                         self.lacks_include = true;
@@ -85,14 +85,27 @@ impl Evaluator<'_> {
                         } else {
                             diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
                         };
-                        self.lacks_include = true;
-                        self.unread.insert(name.clone());
+                        let meant = match &diagnostic.fixes[..] {
+                            [fix] => fix.text.trim_matches('"').to_owned(),
+                            _ => String::new(),
+                        };
                         let told = Rc::new(diagnostic);
-                        self.remembered.missing.insert(span, (name, told.clone()));
-                        return Err(self.report_again(here, &told));
+                        self.remembered.missing.insert(span, (name.clone(), told.clone()));
+                        let reported = self.report_again(here, &told);
+                        // With the file that was meant nothing behind it is lacking.
+                        match self.files.read(&meant, &from).or_else(embedded(&meant)) {
+                            Ok(found) => found,
+                            Err(_) => {
+                                self.lacks_include = true;
+                                self.unread.insert(name);
+                                return Err(reported);
+                            }
+                        }
                     }
                 };
-                self.found.insert((name.clone(), head.file), found.name.clone());
+                if !self.remembered.missing.contains_key(&span) {
+                    self.found.insert((name.clone(), head.file), found.name.clone());
+                }
                 let unit = match self.parsed.get(&found.name) {
                     Some(unit) => unit.clone(),
                     None => self.read_unit(here, [head, span], &found.name, found.bytes),
@@ -106,6 +119,18 @@ impl Evaluator<'_> {
             self.scene.expansions.add(here.expansion, call, ExpansionKind::Include, name);
         self.push_include(&unit, expansion, path);
         Ok(())
+    }
+
+    /// A file, also where its name lacks the `.inc`.
+    fn found(&self, name: &str, from: &str) -> Result<Found, FileError> {
+        let as_named = self.files.read(name, from).or_else(embedded(name));
+        match as_named {
+            Err(FileError::NotFound { .. }) if !name.contains('.') => {
+                let whole = format!("{name}.inc");
+                self.files.read(&whole, from).or_else(embedded(&whole)).or(as_named)
+            }
+            found => found,
+        }
     }
 
     /// What stands on the line behind `#include`, without the signs around it: `“colors.inc”`.

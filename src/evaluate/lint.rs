@@ -370,7 +370,7 @@ impl Evaluator<'_> {
 }
 
 /// Whether a piece of text is one number as it is typed: what is computed may be meant.
-fn is_literal(text: &str) -> bool {
+pub(in crate::evaluate) fn is_literal(text: &str) -> bool {
     let text = text.trim_start_matches(['-', '+']).trim();
     text.starts_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()
 }

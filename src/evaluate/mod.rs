@@ -10,6 +10,7 @@ mod array;
 mod block;
 mod builtin;
 mod call;
+mod comparison;
 mod concat;
 mod directive;
 mod element;

@@ -106,6 +106,9 @@ impl Evaluator<'_> {
             (Value::Object(_), "a vector or a colour before the dot") => Some(format!(
                 "what moves or changes an object stands in its block: `object {{ {text} translate x }}`"
             )),
+            (Value::Transform(_), "a vector") => {
+                Some(format!("a declared transform is applied by `transform {{ {text} }}`"))
+            }
             (Value::Vector(_), "a string") => {
                 Some(format!("write `vstr(3, {text}, \", \", 0, 3)` for it as a string"))
             }

@@ -7,13 +7,13 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
-use crate::syntax::ast::ItemKind;
+use crate::syntax::ast::{ExpressionId, ItemKind};
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
-use super::Evaluator;
 use super::block::Place;
 use super::stream::{Token, TokenKind};
 use super::value::Value;
+use super::{Evaluator, Here};
 
 impl Evaluator<'_> {
     /// Takes the `;` behind the value of a `#declare`, which a number has to have.
@@ -61,6 +61,22 @@ impl Evaluator<'_> {
             return;
         }
         self.report_in(last.expansion, diagnostic);
+    }
+
+    /// `#version 3.7`, of which POV-Ray says no more than that it may be a mistake.
+    pub(super) fn end_of_version(&mut self, here: &Here, version: ExpressionId) {
+        let span = here.unit.expression(version).span;
+        let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
+        let ends = behind.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']);
+        if !ends || !self.in_main() || self.options.dialect != Dialect::Pov {
+            return;
+        }
+        let place = span.after();
+        let diagnostic = Diagnostic::new(Code::Semicolon, "`#version` ends with `;`")
+            .at(place, "expected `;` here")
+            .help("POV-Ray warns of it")
+            .fix(place, ";");
+        self.report(here, diagnostic);
     }
 
     /// `sphere { <0, 0, 0>; 1 }`: takes the sign where a comma is meant, before a value or a function.

@@ -291,6 +291,14 @@ impl Evaluator<'_> {
         if self.peek().is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
     }
 
+    /// Takes one comma, if there is one.
+    pub(super) fn skip_comma(&mut self) {
+        let is_next = |token: &Token| matches!(token.kind, TokenKind::Comma);
+        if !self.pass(ItemKind::Comma) && self.peek().is_some_and(is_next) {
+            self.next();
+        }
+    }
+
     /// Takes commas: they may stand between parts, and may be left out.
     pub(super) fn skip_commas(&mut self) {
         while self.pass(ItemKind::Comma) {}

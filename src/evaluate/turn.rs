@@ -1,9 +1,13 @@
 //! Turns of loops, and the chosen case of a switch.
 
-use crate::diagnostic::Code;
-use crate::syntax::ast::{Argument, Callee, Case, CaseKind, ExpressionId, ExpressionKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{
+    Argument, Callee, Case, CaseKind, ExpressionId, ExpressionKind, ItemKind, Items,
+};
 use crate::vocabulary::Word;
 
+use super::comparison::Comparison;
 use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, endless};
@@ -20,6 +24,7 @@ impl Evaluator<'_> {
         };
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
+        let comparison = Comparison::of(self.options.dialect);
         self.turns += 1;
         if self.turns > limit.saturating_mul(Limits::TOGETHER) {
             let directive = match kind {
@@ -89,7 +94,7 @@ impl Evaluator<'_> {
                 };
                 let now = set.map_or(*value, |set| set + *step);
                 *value = now;
-                let reached = super::value::same(now, *to)
+                let reached = comparison.same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (now - *to).abs() <= 1e-9 * step.abs();
                 let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
@@ -138,6 +143,33 @@ impl Evaluator<'_> {
         self.scopes.look(here.symbol(name)) == Some(&Value::Broken)
     }
 
+    /// `#switch (A) sphere { 0, 1 } #case (1) …`: a value, a word or a block before the first case, or no case at all.
+    pub(super) fn tell_case_lacking(
+        &mut self,
+        here: &Here,
+        lead: Items,
+        cases: &[Case],
+        head: Span,
+    ) {
+        let ast = &here.unit.ast;
+        let stray = ast
+            .items(lead)
+            .iter()
+            .find(|item| !matches!(item.kind, ItemKind::Directive(_) | ItemKind::Semicolon));
+        let place = match stray {
+            Some(item) => item.span,
+            None if cases.is_empty() => head,
+            None => return,
+        };
+        let message = "`#switch` is followed by `#case` or `#range`";
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message);
+        let diagnostic = match stray {
+            Some(_) => diagnostic.at(place, "expected `#case (…)` before this"),
+            None => diagnostic.at(place, "this one has no case"),
+        };
+        self.report(here, diagnostic);
+    }
+
     /// Whether a loop has had enough turns since the first mistake in it.
     fn is_worn_out(&mut self, turns: u64, faults: u64) -> bool {
         let faulty = turns > 0 && self.faults > faults;
@@ -154,7 +186,10 @@ impl Evaluator<'_> {
     ) -> Outcome<Option<usize>> {
         for (index, case) in cases.iter().enumerate() {
             let chosen = match case.kind {
-                CaseKind::Value(id) => super::value::same(value, self.number(here, id)?),
+                CaseKind::Value(id) => {
+                    let case = self.number(here, id)?;
+                    self.comparison().same(value, case)
+                }
                 CaseKind::Range(low, high) => {
                     let span = here.unit.expression(low).span.to(here.unit.expression(high).span);
                     let (low, high) = (self.number(here, low)?, self.number(here, high)?);

@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word};
+use crate::vocabulary::{Family, Role, Word, standard_include_of};
 
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
@@ -60,6 +60,15 @@ impl Evaluator<'_> {
         self.scopes.assign(symbol, Value::Broken);
         self.assumed.push(symbol);
         Reported
+    }
+
+    /// The one name of the author's that one with a capital is somewhat like.
+    pub(super) fn one_alike(&self, name: &str) -> Option<&str> {
+        let own = self.scopes.visible().filter(|other| {
+            let is_standard = || standard_include_of(other).is_some();
+            other.starts_with(char::is_uppercase) && !is_standard()
+        });
+        name.starts_with(char::is_uppercase).then(|| suggest::alike(name, own))?
     }
 
     /// How much was told so far, for [`Self::take_back`].
@@ -111,6 +120,7 @@ impl Evaluator<'_> {
         let of_others = is_called && suggest::foreign(name).next().is_some();
         let close = suggest::closest(name, self.scopes.visible())
             .or_else(|| suggest::abridged(name, self.scopes.visible()))
+            .or_else(|| self.one_alike(name))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
             // `arctan(b, a)` is rather another language's function than a colour.
             .filter(|close| {

@@ -16,6 +16,7 @@ use crate::vocabulary::Word;
 
 use super::array::Array;
 use super::block::WrittenMap;
+use super::comparison::Comparison;
 use super::file::FileHandle;
 use super::function::FunctionId;
 use super::spline::SplineValue;
@@ -232,14 +233,9 @@ impl Value {
     }
 
     /// True and false as `#if` sees them.
-    pub fn as_truth(&self) -> Option<bool> {
-        self.as_number().map(is_true)
+    pub fn as_truth(&self, comparison: Comparison) -> Option<bool> {
+        self.as_number().map(|number| comparison.is_true(number))
     }
-}
-
-/// Anything nearer to zero than 1e-10 is false in POV-Ray; here a number is false only when it is zero.
-pub fn is_true(number: f64) -> bool {
-    number != 0.0
 }
 
 /// Why an operation has no result.
@@ -253,12 +249,16 @@ pub enum OperationError {
 }
 
 /// `-a`, `+a`, `!a`.
-pub fn unary(operator: UnaryOperator, operand: &Value) -> Result<Value, OperationError> {
+pub fn unary(
+    operator: UnaryOperator,
+    operand: &Value,
+    comparison: Comparison,
+) -> Result<Value, OperationError> {
     let numbers = operand.numbers().ok_or(OperationError::NotNumeric(0))?;
     let result = match operator {
         UnaryOperator::Plus => numbers,
         UnaryOperator::Minus => numbers.map(|c| -c),
-        UnaryOperator::Not => numbers.map(|c| f64::from(u8::from(c == 0.0))),
+        UnaryOperator::Not => numbers.map(|c| f64::from(u8::from(!comparison.is_true(c)))),
     };
     Ok(same_kind(result, matches!(operand, Value::Color(_))))
 }
@@ -268,9 +268,10 @@ pub fn binary(
     operator: BinaryOperator,
     left: &Value,
     right: &Value,
+    comparison: Comparison,
 ) -> Result<Value, OperationError> {
     if let (Value::Number(a), Value::Number(b)) = (left, right) {
-        return numbers_meet(operator, *a, *b).map(Value::Number);
+        return numbers_meet(operator, *a, *b, comparison).map(Value::Number);
     }
     if let (Value::String(a), Value::String(b)) = (left, right)
         && let Some(answer) = strings_meet(operator, a, b)
@@ -284,7 +285,7 @@ pub fn binary(
     let (a, b) = (promoted(a), promoted(b));
     let mut values = [0.0; 5];
     for i in 0..usize::from(len) {
-        values[i] = finite(apply(operator, a[i], b[i])?)?;
+        values[i] = numbers_meet(operator, a[i], b[i], comparison)?;
     }
     let color = matches!(left, Value::Color(_)) || matches!(right, Value::Color(_));
     Ok(same_kind(Components { values, len }, color))
@@ -310,8 +311,13 @@ fn strings_meet(operator: BinaryOperator, a: &str, b: &str) -> Option<bool> {
 }
 
 /// [`binary`] of two numbers.
-pub fn numbers_meet(operator: BinaryOperator, a: f64, b: f64) -> Result<f64, OperationError> {
-    finite(apply(operator, a, b)?)
+pub fn numbers_meet(
+    operator: BinaryOperator,
+    a: f64,
+    b: f64,
+    comparison: Comparison,
+) -> Result<f64, OperationError> {
+    finite(apply(operator, a, b, comparison)?)
 }
 
 fn finite(value: f64) -> Result<f64, OperationError> {
@@ -328,7 +334,14 @@ fn same_kind(numbers: Components, color: bool) -> Value {
     }
 }
 
-fn apply(operator: BinaryOperator, a: f64, b: f64) -> Result<f64, OperationError> {
+fn apply(
+    operator: BinaryOperator,
+    a: f64,
+    b: f64,
+    comparison: Comparison,
+) -> Result<f64, OperationError> {
+    let same = |a, b| comparison.same(a, b);
+    let is_true = |number| comparison.is_true(number);
     let truth = |value: bool| f64::from(u8::from(value));
     Ok(match operator {
         BinaryOperator::Add => a + b,
@@ -342,22 +355,18 @@ fn apply(operator: BinaryOperator, a: f64, b: f64) -> Result<f64, OperationError
         BinaryOperator::NotEqual => truth(!same(a, b)),
         BinaryOperator::GreaterOrEqual => truth(a >= b || same(a, b)),
         BinaryOperator::Greater => truth(a > b),
-        BinaryOperator::And => truth(a != 0.0 && b != 0.0),
-        BinaryOperator::Or => truth(a != 0.0 || b != 0.0),
+        BinaryOperator::And => truth(is_true(a) && is_true(b)),
+        BinaryOperator::Or => truth(is_true(a) || is_true(b)),
     })
-}
-
-/// Equal but for what a calculation in decimals leaves over (`0.1 + 0.2 = 0.3` is true).
-///
-/// POV-Ray allows 1e-10 in any unit; here it is 1e-10 of the larger number, so that small scenes
-/// can tell their numbers apart.
-pub fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-10 * a.abs().max(b.abs())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn binary(operator: BinaryOperator, a: &Value, b: &Value) -> Result<Value, OperationError> {
+        super::binary(operator, a, b, Comparison::Relative)
+    }
 
     fn vector(values: &[f64]) -> Value {
         Value::Vector(Components::new(values).expect("two to five numbers"))

@@ -1,6 +1,6 @@
 //! Vectors: made of their components, and asked for one of them.
 
-use crate::color::Color;
+use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
@@ -65,6 +65,9 @@ impl Evaluator<'_> {
                     let diagnostic = match (&other, here.unit.expression(id).kind) {
                         (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
                             .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
+                        (Value::Array(_), ExpressionKind::Name(_)) => {
+                            diagnostic.help(format!("an element of it has its place: `{text}[0]`"))
+                        }
                         _ => diagnostic,
                     };
                     let diagnostic = self.given_by_call(here, span, &other, diagnostic);
@@ -168,6 +171,13 @@ impl Evaluator<'_> {
             return Ok(value.clone());
         }
         let (index, span) = match component {
+            // A number is its own first component, and has no other (measured).
+            Component::Word(Word::Gray, _) if let Value::Number(red) = *value => {
+                return Ok(Value::Number(gray(Color::opaque(Rgb::new(red, 0.0, 0.0)))));
+            }
+            Component::Word(Word::X | Word::Red | Word::U, _) if let Value::Number(_) = value => {
+                return Ok(value.clone());
+            }
             Component::Word(Word::Gray, _) => {
                 let Some(color) = value.as_color() else {
                     return Err(self.wrong_type(here, base, "a colour before `.gray`", value));

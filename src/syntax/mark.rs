@@ -3,7 +3,7 @@
 use super::ast::{Argument, Callee, Component, ExpressionKind, ItemKind, UnaryOperator};
 use super::expression::{self, Operator, OperatorKind};
 use super::nest::{FrameKind, Nest, State};
-use super::token::{Head, Mark, Token, TokenKind};
+use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Role;
@@ -51,11 +51,9 @@ impl<'a> Nest<'a> {
                 self.close_vector(Span { end: span.start + 1, ..span });
                 self.mark(Mark::Equal, Token { start: token.start + 1, ..token });
             }
-            Mark::Greater if !full => self.report(
-                Diagnostic::new(Code::StrayCloser, "this `>` closes nothing")
-                    .at(span, "no `<` is open here")
-                    .help("comparisons stand in parentheses: `(a > b)`"),
-            ),
+            Mark::Greater if !full || self.top().of_color && !self.is_before_value() => {
+                self.stray_greater(span);
+            }
             Mark::Equal
                 if holding && !full && span.end - span.start == 1 && self.declares(span) => {}
             Mark::Question | Mark::Colon => self.conditional(mark, span),
@@ -71,6 +69,29 @@ impl<'a> Nest<'a> {
             | Mark::Greater
             | Mark::And
             | Mark::Or => self.comparison(mark, span),
+        }
+    }
+
+    fn stray_greater(&mut self, span: Span) {
+        let diagnostic = Diagnostic::new(Code::StrayCloser, "this `>` closes nothing")
+            .at(span, "no `<` is open here");
+        let diagnostic = match self.is_before_value() {
+            true => diagnostic.help("comparisons stand in parentheses: `(a > b)`"),
+            false => diagnostic.help("leave it out").fix(span, ""),
+        };
+        self.report(diagnostic);
+    }
+
+    /// Whether a value follows.
+    fn is_before_value(&self) -> bool {
+        match self.tokens.get(self.at + 1).map(|token| token.kind) {
+            Some(TokenKind::Number | TokenKind::Name | TokenKind::String) => true,
+            Some(TokenKind::Word(word)) => word.role() != Role::Statement,
+            Some(TokenKind::Mark(mark)) => matches!(
+                mark,
+                Mark::Minus | Mark::Plus | Mark::Not | Mark::Less | Mark::Open(Bracket::Round)
+            ),
+            _ => false,
         }
     }
 

@@ -72,6 +72,31 @@ impl<'a> Nest<'a> {
         Some(id)
     }
 
+    /// Whether a word of blocks stands where only a value can: `2 * scale;`, `radius*x`.
+    fn stands_for_value(&mut self) -> bool {
+        let Some(TokenKind::Mark(next)) = self.tokens.get(self.at + 1).map(|token| token.kind)
+        else {
+            return false;
+        };
+        let multiplied = matches!(next, Mark::Star | Mark::Slash);
+        let ended = matches!(next, Mark::Close(_) | Mark::Comma | Mark::Semicolon | Mark::Plus);
+        let top = self.top();
+        let wanted = top.state == State::Wanting || top.formula;
+        multiplied && !matches!(top.state, State::Holding { .. }) || ended && wanted
+    }
+
+    fn word_for_value(&mut self, span: Span) {
+        let text = self.slice(span);
+        let message = format!("`{text}` is a word of the language, and no value");
+        let mut own = text.to_owned();
+        own[..1].make_ascii_uppercase();
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(span, "expected a value")
+            .help(format!("a name of your own may be `{own}`, declared before it is used"));
+        self.report(diagnostic);
+        self.operand(ExpressionKind::Missing, span, false);
+    }
+
     pub(super) fn word(&mut self, word: Word, span: Span) {
         // One that was declared though it cannot be, where a value is wanted: that has been told.
         let is_name = match word.role() {
@@ -87,6 +112,9 @@ impl<'a> Nest<'a> {
             && let Some(name) = self.name_but_for_case(span)
         {
             return self.operand(ExpressionKind::Name(name), span, true);
+        }
+        if word.role() == Role::Statement && self.stands_for_value() {
+            return self.word_for_value(span);
         }
         match word.role() {
             Role::Value => self.operand(ExpressionKind::Word(word), span, false),

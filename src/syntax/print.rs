@@ -173,7 +173,17 @@ impl Print<'_> {
             }
             match *argument {
                 Argument::Expression(id) => tasks.push(Task::Expression(id)),
-                Argument::Items(items) => tasks.extend([Task::Items(items), Task::Line]),
+                Argument::Items(items) => {
+                    let items_of = self.ast.items(items);
+                    // A line that ends with a `;` would end the statement.
+                    match items_of.iter().any(|item| item.kind == ItemKind::Semicolon) {
+                        true => {
+                            let parted = |&item| [Task::Item(item), Task::Text(" ")];
+                            tasks.extend(items_of.iter().flat_map(parted));
+                        }
+                        false => tasks.extend([Task::Items(items), Task::Line]),
+                    }
+                }
             }
         }
         tasks.push(Task::Text(close));

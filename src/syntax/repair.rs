@@ -162,6 +162,9 @@ impl Repair<'_> {
     }
 
     fn close(&mut self, bracket: Bracket, at: usize) {
+        if self.ends_directive(bracket, at) {
+            return;
+        }
         loop {
             let Some(top) = self.open.last() else { return self.stray(bracket, at) };
             let surplus = |bracket: Bracket| self.surplus[bracket as usize];

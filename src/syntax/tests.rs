@@ -292,6 +292,13 @@ fn a_printed_tree_is_read_as_the_same_tree() {
 }
 
 #[test]
+fn a_semicolon_among_arguments_ends_no_statement_in_print() {
+    let (_, printed, _, errors) = shape("M(;, pigment { rgb 1 } ; 2)", Dialect::Scene);
+    assert!(!errors);
+    assert!(!shape(&printed, Dialect::Scene).3, "{printed}");
+}
+
+#[test]
 fn no_beginning_of_a_text_makes_it_panic() {
     for end in (0..=SAMPLE.len()).filter(|&end| SAMPLE.is_char_boundary(end)) {
         shape(&SAMPLE[..end], Dialect::Scene);

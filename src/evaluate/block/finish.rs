@@ -41,7 +41,7 @@ impl Evaluator<'_> {
         };
         let (finish, origin) = self.block(token, Word::Finish, |evaluator| {
             let mut written = Written { origin, ..Written::default() };
-            let mut failed = false;
+            let (mut failed, told) = (false, evaluator.diagnostics.len());
             while let Some(token) = evaluator.next() {
                 if evaluator.finish_item(&token, &mut finish, &mut written) == Err(Reported) {
                     failed = true;
@@ -60,7 +60,10 @@ impl Evaluator<'_> {
             if let Some(ambient) = &written.ambient {
                 evaluator.lint_ambient(ambient, &finish);
             }
-            evaluator.lint_unlit_highlight(&finish, &written.highlights);
+            // A word that is not known may be the one that is missing.
+            if evaluator.diagnostics.len() == told {
+                evaluator.lint_unlit_highlight(&finish, &written.highlights);
+            }
             if let Finish::Classic(classic) = &mut finish {
                 written.albedo.spend(classic);
             }
@@ -113,6 +116,7 @@ impl Evaluator<'_> {
                     return Ok(());
                 }
                 Some(Value::Poison(poison)) => {
+                    self.is_of_place(token, poison, Place::FINISH);
                     self.set_poison(poison);
                     return Ok(());
                 }

@@ -54,7 +54,8 @@ impl Evaluator<'_> {
             let longer = |other: &&str| {
                 let rest = other.strip_prefix(name);
                 let is_whole = name.contains('_') || place.word == Some(Word::GlobalSettings);
-                is_whole && rest.is_some_and(|rest| rest.starts_with('_'))
+                let begins = is_whole && rest.is_some_and(|rest| rest.starts_with('_'));
+                begins || other.strip_suffix(name).is_some_and(|rest| rest.ends_with('_'))
             };
             let mut words = place.words(dialect).filter(longer);
             words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)

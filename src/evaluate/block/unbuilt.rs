@@ -315,6 +315,7 @@ impl Evaluator<'_> {
         let is_wrong = match of {
             Word::Pigment => is_other || (is_layer && word != Word::Pigment),
             Word::Texture => is_other,
+            Word::Finish => (is_layer || is_other) && word != Word::Finish,
             Word::Material => (is_layer || is_other) && word != Word::Material,
             _ => of_object && (is_layer || is_other),
         };

@@ -125,11 +125,21 @@ impl Evaluator<'_> {
                 self.unexpected_value(token, &value, place);
             }
             TokenKind::Block(contents) => {
-                let diagnostic = Diagnostic::new(
-                    Code::ExtraPart,
-                    format!("a block without a word before it has no meaning {}", place.name()),
-                )
-                .at(opener(token.span), "expected a word before this");
+                let diagnostic = if self.is_braced_macro(token.span) {
+                    let message =
+                        "the body of `#macro` stands without braces, and ends with `#end`";
+                    let closer = Span { start: token.span.end - 1, ..token.span };
+                    Diagnostic::new(Code::ExtraPart, message)
+                        .at(opener(token.span), "the braces of another language")
+                        .help("leave them out")
+                        .fix(opener(token.span), "")
+                        .fix(closer, "")
+                } else {
+                    let message =
+                        format!("a block without a word before it has no meaning {}", place.name());
+                    Diagnostic::new(Code::ExtraPart, message)
+                        .at(opener(token.span), "expected a word before this")
+                };
                 self.report(&token.here, diagnostic);
                 self.inside_block(&token.here, *contents, token.span, Self::run_items);
             }
@@ -196,11 +206,14 @@ impl Evaluator<'_> {
             return self.skip_values();
         }
         let kind = value.kind();
-        let mut diagnostic = Diagnostic::new(
-            Code::ExtraPart,
-            format!("{kind} has no meaning here {}", place.name()),
-        )
-        .at(
+        let named = self.sources.text(token.span);
+        let message = match place.word {
+            Some(of) if self.scopes.symbol(named).is_some() => {
+                format!("`{named}` is {kind}, and stands in `{}`", of.name())
+            }
+            _ => format!("{kind} has no meaning here {}", place.name()),
+        };
+        let mut diagnostic = Diagnostic::new(Code::ExtraPart, message).at(
             token.span,
             match place.word {
                 Some(_) => "expected a word of this block, or its end",
@@ -245,7 +258,15 @@ impl Evaluator<'_> {
                 self.take_back(before);
                 return;
             }
-            diagnostic = diagnostic.help(format!("write `{text}`")).fix(token.span, text);
+            let (whole, text) = match (value, place.word) {
+                // `Part translate x`
+                (Value::Object(_), None) => {
+                    let whole = self.line_of_modifiers(token.span);
+                    (whole, format!("{wrapper} {{ {} }}", self.sources.text(whole)))
+                }
+                _ => (token.span, text),
+            };
+            diagnostic = diagnostic.help(format!("write `{text}`")).fix(whole, text);
         } else if let Some(told) = self.angle_behind_axis(token, value) {
             diagnostic = told;
         } else if let Some((span, number)) = self.comma_before(token.span) {
@@ -273,6 +294,44 @@ impl Evaluator<'_> {
         }
         self.report(&token.here, diagnostic);
         self.skip_values();
+    }
+
+    /// `#macro M(A) { … }`
+    fn is_braced_macro(&self, block: Span) -> bool {
+        let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
+        let before = before.trim_end();
+        let line = before.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
+        line.starts_with("#macro")
+            && before.ends_with(')')
+            && self.sources.text(block).ends_with('}')
+    }
+
+    /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where
+    /// it goes on its line.
+    fn line_of_modifiers(&mut self, name: Span) -> Span {
+        let changes = |kind: &TokenKind| match kind {
+            TokenKind::Word(word) => {
+                word.family() == Family::Transform
+                    || matches!(word, Word::Pigment | Word::Texture | Word::Finish | Word::Material)
+            }
+            _ => false,
+        };
+        let mut whole = name;
+        while let Some(word) = self.next_if(changes) {
+            let text = self.sources.get(name.file).text.get(name.start as usize..).unwrap_or("");
+            let line = text.lines().next().unwrap_or("");
+            let line = line.split("//").next().unwrap_or("").trim_end_matches([' ', '\t', ';']);
+            if word.span.file == name.file && word.span.start < name.start + line.len() as u32 {
+                whole.end = name.start + line.len() as u32;
+            }
+            self.skip_values();
+            if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
+            {
+                self.inside_block(&here, contents, span, Self::run_items);
+            }
+        }
+        whole
     }
 
     /// The braces that stand where a call has parentheses.

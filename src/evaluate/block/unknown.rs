@@ -140,12 +140,12 @@ impl Evaluator<'_> {
         {
             return Unknown::Directive(diagnostic);
         }
-        if near.is_none() && self.lacks_include && !has_block {
+        let custom = if near.is_none() { custom(&name, place) } else { None };
+        if near.is_none() && custom.is_none() && self.lacks_include && !has_block {
             return Unknown::Included;
         }
         let is_foreign = near.is_some_and(|near| suggest::foreign(&name).any(|word| word == near))
             && suggest::closest(&name, near).is_none();
-        let custom = if near.is_none() { custom(&name, place) } else { None };
         let code =
             if is_foreign || custom.is_some() { Code::ForeignWord } else { Code::UnknownWord };
         let mut diagnostic =
@@ -204,7 +204,8 @@ impl Evaluator<'_> {
         here: Option<&str>,
     ) -> bool {
         let close = suggest::closest(name, self.scopes.visible())
-            .or_else(|| suggest::abridged(name, self.scopes.visible()));
+            .or_else(|| suggest::abridged(name, self.scopes.visible()))
+            .or_else(|| self.one_alike(name).filter(|_| here.is_none()));
         if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
             return true;
         }

@@ -50,6 +50,10 @@ impl Evaluator<'_> {
             return;
         }
         let (span, text) = (expression.span, self.sources.text(expression.span));
+        // One that is never closed was told.
+        if !text.ends_with('>') {
+            return;
+        }
         let inside = text.trim_matches(['<', '>']).trim();
         let points: Vec<usize> = text.match_indices('.').map(|(at, _)| at).collect();
         let diagnostic =

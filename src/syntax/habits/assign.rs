@@ -336,9 +336,12 @@ impl Reader<'_> {
         }
         let span = self.span(0, 1);
         let (message, help, fix) = match mark {
+            Mark::Equal if self.declares() => {
+                ("a name gets its value by a single `=`", "replace it with `=`", Some("="))
+            }
             Mark::Equal => ("equality is written `=`", "replace it with `=`", Some("=")),
-            Mark::And => ("`and` is written `&`", "replace it with `&`", Some("&")),
-            Mark::Or => ("`or` is written `|`", "replace it with `|`", Some("|")),
+            Mark::And => ("`&&` is written `&`", "replace it with `&`", Some("&")),
+            Mark::Or => ("`||` is written `|`", "replace it with `|`", Some("|")),
             _ => {
                 ("`**` is not an operator of the language", "a power is written `pow(a, b)`", None)
             }

@@ -53,6 +53,38 @@ impl Reader<'_> {
         true
     }
 
+    /// `#macro Column Height, Rad)`: the parenthesis that opens is missing.
+    pub(super) fn parameters_unopened(&mut self, meant: &mut Vec<Token>) -> bool {
+        if self.kind(1) != Some(TokenKind::Name) || self.kind(2) != Some(TokenKind::Name) {
+            return false;
+        }
+        let end = self.line_end(1);
+        let is_parameter =
+            |at: usize| matches!(self.kind(at), Some(TokenKind::Name)) || self.is(at, Mark::Comma);
+        let Some(close) = (3..end).find(|at| !is_parameter(*at)) else { return false };
+        if !self.is(close, Mark::Close(Bracket::Round)) {
+            return false;
+        }
+        let (name, first) = (self.span(1, 1), self.span(2, 2));
+        let message = "`#macro` takes a name and its parameters in parentheses";
+        self.diagnostics.push(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(first, "expected `(` before this")
+                .help(format!("write `#macro {}(`", self.slice(1)))
+                .fix(Span { start: name.end, end: first.start, ..first }, "("),
+        );
+        let open =
+            Token { kind: TokenKind::Mark(Mark::Open(Bracket::Round)), ..self.tokens[self.at + 2] };
+        meant.extend([
+            self.tokens[self.at],
+            self.tokens[self.at + 1],
+            Token { end: open.start, ..open },
+        ]);
+        self.enter(Bracket::Round, None);
+        self.at += 2;
+        true
+    }
+
     /// `#macro Post{P, H)`: the parameters in other brackets.
     pub(super) fn braced_parameters(&mut self, meant: &mut Vec<Token>) -> bool {
         let opens =

@@ -1,4 +1,4 @@
-//! The heads of directives as other languages write them: `#if A > 3`, `#declare A 3`, a body in braces.
+//! The heads of directives as other languages write them: `#declare A 3`, a body in braces.
 
 use super::Reader;
 use super::case::innermost;
@@ -26,7 +26,7 @@ impl Reader<'_> {
             Head::Unknown => self.hash_comment(),
             Head::Declare | Head::Local => self.two_words(meant) || self.value(head, meant),
             Head::Default => self.default_case(meant),
-            Head::Macro => self.braced_parameters(meant),
+            Head::Macro => self.braced_parameters(meant) || self.parameters_unopened(meant),
             _ => false,
         }
     }
@@ -186,109 +186,7 @@ impl Reader<'_> {
         ahead
     }
 
-    /// `#if A > 3`: a condition without its parentheses.
-    fn condition(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
-        if self.is(1, Mark::Open(Bracket::Round)) {
-            return false;
-        }
-        let mut end = self.line_end(1);
-        while end > 1 && (self.is(end - 1, Mark::Colon) || self.slice(end - 1) == "then") {
-            end -= 1;
-        }
-        if end == 1 {
-            return false;
-        }
-        let word = head.word();
-        let what = match head {
-            Head::Ifdef | Head::Ifndef => "name",
-            Head::Switch | Head::Case => "value",
-            _ => "condition",
-        };
-        let span = self.span(1, end - 1);
-        let before = Span { end: span.start, ..span };
-        let message = format!("`#{word}` takes its {what} in parentheses");
-        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
-            .at(span, "expected `(` before this and `)` after it")
-            .help(format!("write `#{word} ({})`", self.text.get(span.range()).unwrap_or("…")))
-            .fix(before, "(");
-        let mut diagnostic = diagnostic.fix(span.after(), ")");
-        let after = self.line_end(end);
-        if after > end {
-            // `then`, `:`
-            let rest = self.span(end, after - 1);
-            diagnostic = diagnostic.fix(Span { start: span.end, ..rest }, "");
-            let (second, third) = (diagnostic.fixes.len() - 2, diagnostic.fixes.len() - 1);
-            diagnostic.fixes[third].text = ")".to_owned();
-            diagnostic.fixes.remove(second);
-        }
-        self.diagnostics.push(diagnostic);
-        let place = self.tokens[self.at];
-        let mark = |mark| Token { kind: TokenKind::Mark(mark), ..place };
-        meant.extend([place, mark(Mark::Open(Bracket::Round))]);
-        meant.extend(&self.tokens[self.at + 1..self.at + end]);
-        meant.push(mark(Mark::Close(Bracket::Round)));
-        self.at += after;
-        true
-    }
-
-    /// `if A > 3`: both the `#` and the parentheses are missing; one message.
-    pub(super) fn bare_condition(
-        &mut self,
-        head: Head,
-        diagnostic: Diagnostic,
-        meant: &mut Vec<Token>,
-    ) -> bool {
-        let end = self.line_end(1);
-        let place = self.tokens[self.at];
-        let mark = |mark| Token { kind: TokenKind::Mark(mark), ..place };
-        meant.push(Token { kind: TokenKind::Directive(head), ..place });
-        if end > 1 {
-            let span = self.span(1, end - 1);
-            let before = Span { end: span.start, ..span };
-            self.diagnostics.push(diagnostic.fix(before, "(").fix(span.after(), ")"));
-            meant.push(mark(Mark::Open(Bracket::Round)));
-            meant.extend(&self.tokens[self.at + 1..self.at + end]);
-            meant.push(mark(Mark::Close(Bracket::Round)));
-        } else {
-            self.diagnostics.push(diagnostic);
-        }
-        self.at += end;
-        true
-    }
-
-    /// `#if (A) then`, `#while (A):`.
-    fn then(&mut self, meant: &mut Vec<Token>) -> bool {
-        let Some(close) = self.closed(1, Bracket::Round) else { return false };
-        if close > 3 && self.slice_is(close - 1, "then") {
-            let span = self.span(close - 1, close - 1);
-            let before = self.span(close - 2, close - 2);
-            let diagnostic =
-                Diagnostic::new(Code::UnexpectedCharacter, "no `then` stands in a condition")
-                    .at(span, "a sign of another language")
-                    .help("the body begins right after the parenthesis")
-                    .fix(Span { start: before.end, ..span }, "");
-            self.diagnostics.push(diagnostic);
-            self.dropped.insert(self.at + close - 1, false);
-            self.take(meant);
-            return true;
-        }
-        if !(self.is(close + 1, Mark::Colon) || self.slice_is(close + 1, "then")) {
-            return false;
-        }
-        let (span, condition) = (self.span(close + 1, close + 1), self.span(close, close));
-        let text = self.slice(close + 1).to_owned();
-        let message = format!("no `{text}` stands after a condition");
-        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
-            .at(span, "a sign of another language")
-            .help("the body begins right after the parenthesis")
-            .fix(Span { start: condition.end, ..span }, "");
-        self.diagnostics.push(diagnostic);
-        self.dropped.insert(self.at + close + 1, false);
-        self.take(meant);
-        true
-    }
-
-    fn slice_is(&self, ahead: usize, text: &str) -> bool {
+    pub(super) fn slice_is(&self, ahead: usize, text: &str) -> bool {
         self.kind(ahead) == Some(TokenKind::Name) && self.slice(ahead) == text
     }
 

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::Reader;
+use super::template::STAND_IN;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
@@ -119,9 +120,38 @@ impl Reader<'_> {
                 })
     }
 
+    /// `0·5`, as a fraction is printed in Britain.
+    fn raised_point(&mut self, meant: &mut [Token]) -> bool {
+        let is_point = matches!(self.slice(0), "·" | "∙" | "⋅");
+        let Some(whole) = self.number_before(meant).filter(|_| is_point) else { return false };
+        if self.kind(1) != Some(TokenKind::Number) || !self.touches(1) {
+            return false;
+        }
+        let span = Span { start: whole.start, ..self.span(0, 1) };
+        let text = self.text.get(span.range()).unwrap_or("").to_owned();
+        let number = text.replace(self.slice(0), ".");
+        if number.parse::<f64>().is_err() {
+            return false;
+        }
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(span, "a fraction is written with a point")
+                .help(format!("write `{number}`"))
+                .fix(span, number),
+        );
+        if let Some(whole) = meant.last_mut() {
+            (whole.kind, whole.end) = (STAND_IN, span.end);
+        }
+        self.at += 2;
+        true
+    }
+
     /// A sign that looks like one of the language's.
     pub(super) fn sign(&mut self, meant: &mut Vec<Token>) -> bool {
         let text = self.slice(0).to_owned();
+        if self.raised_point(meant) {
+            return true;
+        }
         let Some((name, ours)) = sign(&text) else { return false };
         let span = self.span(0, 0);
         let word = if ours.is_empty() { self.word_around(meant) } else { None };

@@ -1,5 +1,5 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`), colours of the web (`web.rs`), the
+//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`, `condition.rs`), colours of the web (`web.rs`), the
 //! parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them, templates (`template.rs`).
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 mod assign;
 mod called;
 mod case;
+mod condition;
 mod counting;
 mod head;
 mod letter;
@@ -183,6 +184,8 @@ impl Reader<'_> {
             TokenKind::Name => {
                 self.suffix(meant)
                     || self.letter_in_number(meant)
+                    || self.parted_exponent(meant)
+                    || self.number_of_python(meant)
                     || self.times(meant)
                     || self.space_of_names()
                     || self.parted_word(meant)
@@ -222,6 +225,7 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)
                 if self.formula_behind_sign(meant)
+                    || self.values_behind_sign(meant)
                     || self.default_value(meant)
                     || self.named_argument(meant) =>
             {
@@ -230,6 +234,7 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Minus) => self.arrow(meant),
             TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
+            TokenKind::Mark(Mark::Star) if self.number_without_room(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
                 self.doubled(mark, meant)
             }

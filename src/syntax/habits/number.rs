@@ -42,6 +42,101 @@ impl Reader<'_> {
         true
     }
 
+    /// `1.2 e-1`: a blank within a number.
+    pub(super) fn parted_exponent(&mut self, meant: &mut [Token]) -> bool {
+        let Some(number) = meant.last().filter(|last| last.kind == TokenKind::Number) else {
+            return false;
+        };
+        let (start, end) = (number.start, number.end);
+        let is_exponent = matches!(self.slice(0), "e" | "E")
+            && (self.is(1, Mark::Minus) || self.is(1, Mark::Plus))
+            && self.kind(2) == Some(TokenKind::Number)
+            && self.touches(1)
+            && self.touches(2)
+            && self.slice(2).bytes().all(|byte| byte.is_ascii_digit());
+        if !is_exponent || self.has_declared(self.slice(0)) {
+            return false;
+        }
+        let span = Span { start, ..self.span(0, 2) };
+        let text = self.text.get(span.range()).unwrap_or("").to_owned();
+        let number: String = text.split_whitespace().collect();
+        if number.parse::<f64>().is_err() || text.contains(['\n', '\r', '/']) {
+            return false;
+        }
+        let gap = Span { start: end, end: self.tokens[self.at].start, ..span };
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(span, "no blank stands in a number")
+                .help(format!("write `{number}`"))
+                .fix(gap, ""),
+        );
+        if let Some(number) = meant.last_mut() {
+            (number.kind, number.end) = (STAND_IN, span.end);
+        }
+        self.at += 3;
+        true
+    }
+
+    /// `*****`, as Fortran writes a number that is longer than its place.
+    pub(super) fn number_without_room(&mut self, meant: &mut Vec<Token>) -> bool {
+        let mut last = 0;
+        while self.is(last + 1, Mark::Star) && self.touches(last + 1) {
+            last += 1;
+        }
+        let wanted = match meant.last().map(|token| token.kind) {
+            Some(TokenKind::Mark(mark)) => {
+                matches!(mark, Mark::Comma | Mark::Less | Mark::Minus | Mark::Open(_))
+            }
+            Some(TokenKind::Word(word)) => word.role() == Role::Statement,
+            _ => false,
+        };
+        if last < 2 || !wanted {
+            return false;
+        }
+        let span = self.span(0, last);
+        let message = format!("`{}` is not a number", self.text.get(span.range()).unwrap_or(""));
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, message)
+                .at(span, "it stands where the program that wrote this had no room for the number")
+                .help("give that program more columns, and let it write this file again"),
+        );
+        meant.push(Token { kind: STAND_IN, end: span.end, ..self.tokens[self.at] });
+        self.at += last + 1;
+        true
+    }
+
+    /// `np.float64(0.75)`, as a program in Python prints one of its numbers.
+    pub(super) fn number_of_python(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_call = matches!(self.slice(0), "np" | "numpy")
+            && self.is(1, Mark::Dot)
+            && self.kind(2) == Some(TokenKind::Name)
+            && ["float", "int", "uint"].iter().any(|kind| self.slice(2).starts_with(kind))
+            && self.is(3, Mark::Open(Bracket::Round));
+        let Some(close) = self.closed(3, Bracket::Round).filter(|_| is_call) else { return false };
+        let inside = Span {
+            start: self.span(3, 3).end,
+            end: self.span(close, close).start,
+            ..self.span(0, 0)
+        };
+        let (opening, closing) = (self.span(0, 3), self.span(close, close));
+        let number = self.text.get(inside.range()).unwrap_or("").trim().to_owned();
+        if number.parse::<f64>().is_err() {
+            return false;
+        }
+        let whole = self.span(0, close);
+        let text = self.text.get(whole.range()).unwrap_or("").to_owned();
+        self.diagnostics.push(
+            Diagnostic::new(Code::ForeignWord, format!("`{text}` is a number as Python prints it"))
+                .at(whole, "expected the number alone")
+                .help(format!("write `{number}`"))
+                .fix(opening, "")
+                .fix(closing, ""),
+        );
+        meant.push(Token { kind: STAND_IN, end: whole.end, ..self.tokens[self.at] });
+        self.at += close + 1;
+        true
+    }
+
     /// `2.445(7)`: the last digit's uncertainty, as crystallographers write it.
     pub(super) fn uncertain_number(&mut self, meant: &[Token]) -> bool {
         let Some(number) = self.number_before(meant) else { return false };

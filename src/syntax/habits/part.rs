@@ -23,6 +23,16 @@ impl Inside {
         self.bracket == Bracket::Brace && self.word == Some(word)
     }
 
+    /// The brace of a map, in which brackets are entries.
+    pub(super) fn is_map(&self) -> bool {
+        self.word.is_some_and(|word| word.name().ends_with("_map"))
+    }
+
+    /// The brace of any word but one of values side by side.
+    pub(super) fn has_word(&self) -> bool {
+        self.bracket == Bracket::Brace && self.word.is_some_and(|word| word != Word::Array)
+    }
+
     /// The brace of a word that holds objects, or of no word.
     pub(super) fn holds_objects(&self) -> bool {
         self.is(Bracket::Brace)

@@ -188,6 +188,12 @@ impl Reader<'_> {
         if !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round)) {
             return false;
         }
+        // `(#local B = 3; B*2)`
+        let open = TokenKind::Mark(Mark::Open(Bracket::Round));
+        let mut since = meant.iter().rev().map(|token| token.kind).take_while(|kind| *kind != open);
+        if since.any(|kind| matches!(kind, TokenKind::Directive(_))) {
+            return false;
+        }
         let span = self.span(0, 0);
         let rest = self.text.get(span.end as usize..).unwrap_or("");
         let list = rest.split(['#', '(', '{', '}', '\n', '\r']).next().unwrap_or("");

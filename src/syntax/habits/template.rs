@@ -2,6 +2,7 @@
 //! than digits: `50%`, `1.5f`, `10cm`.
 
 use super::Reader;
+use super::part::Inside;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
@@ -21,14 +22,33 @@ pub(super) const STAND_IN: TokenKind = TokenKind::Word(Word::Yes);
 impl Reader<'_> {
     /// `${radius}`, `$radius`, `{{ radius }}`, `%f`, `%.3f`.
     pub(super) fn template(&mut self, meant: &mut Vec<Token>) -> bool {
-        let before = meant.last().map(|token| token.kind);
         let used = match self.slice(0) {
             "$" if self.kind(1) == Some(TokenKind::Name) && self.touches(1) => Some(1),
             "$" if self.touches(1) => self.closed(1, Bracket::Brace),
-            "{" if self.is(1, Mark::Open(Bracket::Brace)) && wants_a_value(before) => self
+            "{" if self.is(1, Mark::Open(Bracket::Brace)) && self.is_in_value(meant) => self
                 .closed(1, Bracket::Brace)
                 .filter(|&close| self.is(close + 1, Mark::Close(Bracket::Brace)))
                 .map(|close| close + 1),
+            "{" if matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)))
+                && self.touches(1)
+                && self.touches(2)
+                && self.is_in_value(meant) =>
+            {
+                self.closed(0, Bracket::Brace).filter(|&close| {
+                    (2..close).all(|ahead| {
+                        let named = matches!(
+                            self.kind(ahead),
+                            Some(
+                                TokenKind::Name
+                                    | TokenKind::Word(_)
+                                    | TokenKind::Number
+                                    | TokenKind::Mark(Mark::Dot | Mark::Colon)
+                            )
+                        );
+                        named && self.touches(ahead)
+                    })
+                })
+            }
             "%" => self.conversion(),
             _ => None,
         };
@@ -48,6 +68,27 @@ impl Reader<'_> {
         meant.push(Token { kind: STAND_IN, end: span.end, ..self.tokens[self.at] });
         self.at += last + 1;
         true
+    }
+
+    /// Whether a value is wanted, and no row of an array can stand here: behind an operator, or in a vector or the
+    /// parts of an object.
+    fn is_in_value(&self, meant: &[Token]) -> bool {
+        let marks = meant.iter().rev().map_while(|token| match token.kind {
+            TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Close(Bracket::Brace)) => None,
+            kind => Some(kind),
+        });
+        match meant.last().map(|token| token.kind) {
+            Some(TokenKind::Mark(
+                Mark::Less | Mark::Plus | Mark::Minus | Mark::Star | Mark::Slash | Mark::Equal,
+            )) => true,
+            Some(TokenKind::Mark(Mark::Comma)) => {
+                let in_vector = marks
+                    .take_while(|kind| *kind != TokenKind::Mark(Mark::Greater))
+                    .any(|kind| kind == TokenKind::Mark(Mark::Less));
+                in_vector || self.inside.last().is_some_and(Inside::has_word)
+            }
+            kind => wants_a_value(kind),
+        }
     }
 
     /// Where `%f`, `%3d`, `%.3f` ends.

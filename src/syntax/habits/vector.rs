@@ -1,6 +1,7 @@
 //! Vectors as other languages write them: `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)`, `translate([2, 0, 0])`.
 
 use super::Reader;
+use super::part::Inside;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
@@ -30,6 +31,9 @@ impl Reader<'_> {
             Some(TokenKind::Mark(Mark::Open(bracket))) => bracket,
             _ => return false,
         };
+        if !made && self.bracket_in_angle(bracket, meant) {
+            return true;
+        }
         let before = |back: usize| {
             let token = meant.len().checked_sub(back).and_then(|at| meant.get(at));
             token.map(|token| token.kind)
@@ -80,7 +84,10 @@ impl Reader<'_> {
         // `translate [0, H, 0]`: no word of the language but one that takes a vector stands before it.
         let behind_word = matches!(before(1), Some(TokenKind::Word(_)));
         let plain = !(made || argument || group || behind_word) || formula;
-        let Some(close) = self.row(open, bracket, plain) else { return false };
+        let in_map = self.inside.last().is_some_and(Inside::is_map);
+        let parted = bracket == Bracket::Square && !made && !in_map;
+        let bare = || self.row_without_commas(open).filter(|_| parted);
+        let Some(close) = self.row(open, bracket, plain).or_else(bare) else { return false };
         let (first, last) = (self.span(0, open), self.span(close, close));
         let before = meant.len().checked_sub(2).map(|word| meant[word]);
         let moved = before.filter(|word| {
@@ -102,15 +109,21 @@ impl Reader<'_> {
         } else {
             let inside = Span { start: first.end, end: last.start, ..first };
             let numbers = self.text.get(inside.range()).unwrap_or("x, y, z").trim();
+            let is_bare = !numbers.contains(',');
             // `reflection [0.1, 0.3]`: the least and the most.
             if meant.last().map(|token| token.kind) == Some(TokenKind::Word(Word::Reflection)) {
                 return self.reflection(close, numbers.to_owned(), meant);
             }
-            Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
-                .at(self.span(0, close), "expected a vector")
-                .help(format!("write `<{numbers}>`"))
-                .fix(first, "<")
-                .fix(last, ">")
+            let told =
+                Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
+                    .at(self.span(0, close), "expected a vector");
+            if is_bare {
+                let row: Vec<&str> = numbers.split_whitespace().collect();
+                let vector = format!("<{}>", row.join(", "));
+                told.help(format!("write `{vector}`")).fix(self.span(0, close), vector)
+            } else {
+                told.help(format!("write `<{numbers}>`")).fix(first, "<").fix(last, ">")
+            }
         };
         if self.made != Some(self.at) || !made {
             self.diagnostics.push(diagnostic);
@@ -128,8 +141,41 @@ impl Reader<'_> {
         let sign =
             |at: usize, mark| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + at] };
         meant.push(sign(open, Mark::Less));
-        meant.extend(&self.tokens[self.at + open + 1..self.at + close]);
+        let commas = (open + 1..close).any(|at| self.is(at, Mark::Comma));
+        for at in open + 1..close {
+            let begins = !commas && at > open + 1 && !self.touches(at);
+            meant.extend(
+                begins.then(|| Token {
+                    end: self.tokens[self.at + at].start,
+                    ..sign(at, Mark::Comma)
+                }),
+            );
+            meant.push(self.tokens[self.at + at]);
+        }
         meant.push(sign(close, Mark::Greater));
+        self.at += close + 1;
+        true
+    }
+
+    /// `<[1, 2, 3]>`, `<(1, 2, 3)>`: a list of another language within a vector.
+    fn bracket_in_angle(&mut self, bracket: Bracket, meant: &mut Vec<Token>) -> bool {
+        let is_first = meant.last().is_some_and(|last| last.kind == TokenKind::Mark(Mark::Less));
+        let close = self.row(0, bracket, false).filter(|_| is_first && bracket != Bracket::Brace);
+        let Some(close) = close.filter(|close| self.is(close + 1, Mark::Greater)) else {
+            return false;
+        };
+        let (first, last) = (self.span(0, 0), self.span(close, close));
+        let inside = Span { start: first.end, end: last.start, ..first };
+        let numbers = self.text.get(inside.range()).unwrap_or("").trim();
+        let message = "the numbers of a vector stand right between `<` and `>`";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(self.span(0, close), "brackets of another language")
+                .help(format!("write `<{numbers}>`"))
+                .fix(first, "")
+                .fix(last, ""),
+        );
+        meant.extend(&self.tokens[self.at + 1..self.at + close]);
         self.at += close + 1;
         true
     }
@@ -190,6 +236,32 @@ impl Reader<'_> {
         true
     }
 
+    /// `array[3] = { 1, 2, 3 }`: a sign before the values of an array.
+    pub(super) fn values_behind_sign(&mut self, meant: &[Token]) -> bool {
+        let square = |bracket: fn(Bracket) -> Mark| TokenKind::Mark(bracket(Bracket::Square));
+        let sizes = meant.iter().rev().take_while(|token| {
+            matches!(token.kind, TokenKind::Number | TokenKind::Name)
+                || token.kind == square(Mark::Open)
+                || token.kind == square(Mark::Close)
+        });
+        let count = sizes.count();
+        let array = meant.len().checked_sub(count + 1).and_then(|at| meant.get(at));
+        let of_array = array.is_some_and(|array| array.kind == TokenKind::Word(Word::Array));
+        if !of_array || count < 3 || !self.is(1, Mark::Open(Bracket::Brace)) {
+            return false;
+        }
+        let span = self.span(0, 0);
+        let message = "an array takes its values right after its size";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "expected `{` here")
+                .help("leave this `=` out: `array[3] { 1, 2, 3 }`")
+                .fix(Span { end: self.span(1, 1).start, ..span }, ""),
+        );
+        self.at += 1;
+        true
+    }
+
     /// `cube([1, 2, 3]);` behind `translate([0, 0, 1])`: it belongs to that mistake.
     fn drop_moved(&mut self, name: usize) {
         let named = matches!(self.kind(name), Some(TokenKind::Name | TokenKind::Word(_)));
@@ -214,6 +286,22 @@ impl Reader<'_> {
         let made = self.kind(ahead) == Some(TokenKind::Name) && MAKERS.contains(&self.slice(ahead));
         let open = made && self.is(ahead + 1, Mark::Open(Bracket::Round));
         self.row(ahead + 1, Bracket::Round, false).filter(|_| open)
+    }
+
+    /// `[0.5 1.25 -0.75]`, as numpy prints a vector: where it closes, with two to five plain numbers in it.
+    fn row_without_commas(&self, open: usize) -> Option<usize> {
+        let (mut close, mut numbers) = (open + 1, 0);
+        loop {
+            let is_signed = self.is(close, Mark::Minus) && self.touches(close + 1);
+            let number = close + usize::from(is_signed);
+            if self.kind(number) != Some(TokenKind::Number) {
+                break;
+            }
+            numbers += 1;
+            close = number + 1;
+        }
+        let closes = self.is(close, Mark::Close(Bracket::Square));
+        (closes && (2..=5).contains(&numbers)).then_some(close)
     }
 
     /// Where the bracket that opens at `open` closes, with two to five values in it and nothing else: plain

@@ -3,7 +3,7 @@
 use super::{LONGEST_VECTOR, Open, Repair};
 use crate::syntax::balance::Opener;
 use crate::syntax::token::{Bracket, Mark, TokenKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Role, Word};
 
 /// How many tokens of a vector that holds formulas are looked at.
 const LONGEST_FORMULA: usize = 64;
@@ -24,25 +24,64 @@ impl Repair<'_> {
         (opens && open + 1 < at).then_some(open)
     }
 
-    /// `<0, sin(A>;`: a parenthesis within a vector ends before that does. `place` for every other closer.
+    /// `<0, sin(A>;`: a parenthesis within a vector ends before that does, and one of a single value before a
+    /// comma. `place` for every other closer.
     pub(super) fn before_angle(&self, open: &Open, place: usize) -> usize {
-        let is = |at: usize, mark| {
-            self.tokens.get(at).is_some_and(|token| token.kind == TokenKind::Mark(mark))
+        if open.opener != Opener::Bracket(Bracket::Round) || !self.is_within_angle(open.token) {
+            return place;
+        }
+        let single = match open.token.checked_sub(1).map(|before| self.tokens[before].kind) {
+            Some(TokenKind::Word(word)) => {
+                matches!(word.role(), Role::Function { one_argument: true })
+            }
+            Some(TokenKind::Name) => false,
+            _ => true,
         };
-        let closes = open.opener == Opener::Bracket(Bracket::Round)
-            && place.checked_sub(1).is_some_and(|before| is(before, Mark::Greater));
+        let (mut parentheses, mut vectors) = (0, 0);
+        let inner = self.tokens[open.token + 1..place].iter().take(LONGEST_FORMULA);
+        for (at, token) in (open.token + 1..).zip(inner) {
+            match token.kind {
+                TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
+                TokenKind::Mark(Mark::Close(Bracket::Round)) => parentheses -= 1,
+                TokenKind::Mark(Mark::Less) => vectors += 1,
+                TokenKind::Mark(Mark::Comma) if single && parentheses == 0 && vectors == 0 => {
+                    return at;
+                }
+                TokenKind::Mark(Mark::Greater) if parentheses == 0 && vectors > 0 => vectors -= 1,
+                TokenKind::Mark(Mark::Greater) if parentheses == 0 && !self.compares_at(at) => {
+                    return at;
+                }
+                _ => {}
+            }
+        }
+        place
+    }
+
+    /// Whether a value stands behind the `>` of a comparison, and no end of a vector.
+    fn compares_at(&self, angle: usize) -> bool {
+        match self.tokens.get(angle + 1).map(|token| token.kind) {
+            Some(TokenKind::Number | TokenKind::Name | TokenKind::String) => true,
+            Some(TokenKind::Word(word)) => word.role() != Role::Statement,
+            Some(TokenKind::Mark(mark)) => {
+                matches!(mark, Mark::Minus | Mark::Less | Mark::Not | Mark::Open(Bracket::Round))
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a `<` before this token is still open.
+    fn is_within_angle(&self, at: usize) -> bool {
         let mut vectors = 0;
-        let opens = self.tokens[..open.token].iter().rev().take(LONGEST_FORMULA);
-        let within = opens
-            .take_while(|token| !matches!(token.kind, TokenKind::Mark(Mark::Semicolon)))
-            .any(|token| {
+        let before = self.tokens[..at].iter().rev().take(LONGEST_FORMULA);
+        before.take_while(|token| !matches!(token.kind, TokenKind::Mark(Mark::Semicolon))).any(
+            |token| {
                 vectors += match token.kind {
                     TokenKind::Mark(Mark::Less) => 1,
                     TokenKind::Mark(Mark::Greater) => -1,
                     _ => 0,
                 };
                 vectors > 0
-            });
-        if closes && within { place - 1 } else { place }
+            },
+        )
     }
 }

@@ -9,6 +9,9 @@ use crate::syntax::layout::Layout;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
+/// How many tokens of objects behind a brace are looked at.
+const LONGEST: usize = 400;
+
 /// Leaves out what closes too early, and says so.
 pub(super) fn close_later(
     tokens: Vec<Token>,
@@ -36,7 +39,11 @@ pub(super) fn close_later(
         {
             // The brace of a block of several lines begins a line of its own.
             let looks_early = !layout.place(at + 1).first || (!first && begun < line);
-            let next = tokens.get(at + 1).copied();
+            let inside = block.map_or(0, |block| {
+                let opener = tokens[..at].partition_point(|token| token.start < block.start);
+                layout.place(opener).indent
+            });
+            let next = behind_objects(&tokens, &layout, at + 1, inside).map(|next| tokens[next]);
             let next = next.filter(|next| looks_early && only_in_object(next.kind));
             if let ([_], Some(opener), Some(next), 1..) = (&around[..], block, next, surplus) {
                 surplus -= 1;
@@ -56,6 +63,24 @@ pub(super) fn close_later(
         kept.push(*token);
     }
     kept
+}
+
+/// The token behind the objects that begin at `at`, as far as these stand on lines that are indented by more than
+/// `indent`: they are rather parts of the block before them.
+fn behind_objects(tokens: &[Token], layout: &Layout, at: usize, indent: u32) -> Option<usize> {
+    let mark = |bracket: fn(Bracket) -> Mark| TokenKind::Mark(bracket(Bracket::Brace));
+    let mut depth = 0_usize;
+    for (next, token) in (at..).zip(tokens.get(at..)?.iter().take(LONGEST)) {
+        let place = layout.place(next);
+        match token.kind {
+            kind if kind == mark(Mark::Open) && next > at => depth += 1,
+            kind if kind == mark(Mark::Close) => depth = depth.checked_sub(1)?,
+            _ if depth > 0 => {}
+            kind if is_object(kind) && place.first && place.indent > indent => {}
+            _ => return Some(next),
+        }
+    }
+    None
 }
 
 fn is_object(kind: TokenKind) -> bool {

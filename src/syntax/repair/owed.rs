@@ -1,8 +1,9 @@
-//! Closers that were added although their own may still come, and those of another statement.
+//! Closers that were added although their own may still come, and those of another statement, or of a directive.
 
 use super::{Open, Repair};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::balance::{Opener, ends_line};
-use crate::syntax::token::{Bracket, Mark, TokenKind};
+use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
 
 impl Repair<'_> {
     pub(super) fn owe(&mut self, bracket: Bracket, at: usize) {
@@ -16,6 +17,36 @@ impl Repair<'_> {
         let [from, to] = [self.owed_since[index], at].map(|at| self.tokens[at].start as usize);
         let between = self.text.get(from..to).unwrap_or("");
         self.owed[index] > 0 && (bracket == Bracket::Brace || !between.contains(';'))
+    }
+
+    /// `#macro M(A) … }`: a brace where the `#end` of a directive is missing, told here.
+    pub(super) fn ends_directive(&mut self, bracket: Bracket, at: usize) -> bool {
+        let Some(top) = self.open.last() else { return false };
+        let (directive, place) = (top.token, self.layout.place(at));
+        let is_meant = bracket == Bracket::Brace
+            && self.surplus[Bracket::Brace as usize] < 0
+            && top.opener == Opener::Directive
+            && !self.ended.contains(&directive)
+            && place.first
+            && place.indent == top.indent;
+        if !is_meant {
+            return false;
+        }
+        self.surplus[Bracket::Brace as usize] += 1;
+        self.dropped[at] = true;
+        self.inserted.push((at, TokenKind::Directive(Head::End)));
+        if let Some(top) = self.open.pop() {
+            self.forget_outsides_since(&top);
+        }
+        let shown = self.shown(directive);
+        let message = format!("the body of {shown} ends with `#end`, not with `}}`");
+        let diagnostic = Diagnostic::new(Code::MissingEnd, message)
+            .at(self.span(at), "expected `#end`")
+            .also(self.span(directive), "it begins here")
+            .help("replace it with `#end`")
+            .fix(self.span(at), "#end");
+        self.tell(diagnostic);
+        true
     }
 
     /// Whether the `(` or `[` on top ended with its statement: what closes it now is another's.

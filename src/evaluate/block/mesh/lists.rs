@@ -9,6 +9,7 @@ use crate::scene::{Solid, TextureId};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
+use super::super::super::lint::is_literal;
 use super::super::super::stream::Token;
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Here, Outcome, Reported};
@@ -257,10 +258,28 @@ impl Evaluator<'_> {
         (here, extra): (&Here, Span),
         count: Span,
     ) -> Reported {
-        let message = format!("`{}` has more than {wanted} entries", list.name());
+        let message = format!(
+            "`{}` has more than {wanted} {}",
+            list.name(),
+            if wanted == 1 { "entry" } else { "entries" }
+        );
         let diagnostic = Diagnostic::new(Code::ExtraPart, message)
             .at(extra, "one too many")
             .also(count, "so many were announced");
+        // Each entry has its vector, and a number may stand beside it.
+        let rest = self.within_block().and_then(|block| {
+            let rest = Span { start: extra.start, ..block.span };
+            let inside = rest.file == extra.file && rest.start < rest.end;
+            inside.then(|| self.sources.text(rest).matches('<').count())
+        });
+        let diagnostic = match rest {
+            Some(more) if more > 0 && is_literal(self.sources.text(count)) => {
+                let (found, text) = (wanted + more, self.sources.text(count));
+                let help = format!("if these are all right, write `{found}` instead of `{text}`");
+                diagnostic.help(help).fix(count, found.to_string())
+            }
+            _ => diagnostic,
+        };
         self.report(here, diagnostic)
     }
 
