@@ -164,6 +164,7 @@ codes! {
     AuthorDebug "author-debug" note "the scene's own `#debug`";
     SilentMacro "silent-macro" warning "a macro called for a value leaves none, and what comes next is taken";
     Comma "comma" warning "a comma stands where it parts no values";
+    ExtraComponent "extra-component" warning "a colour is given more components than its word takes";
     Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
     OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`, or of a version to come";
 }
@@ -200,6 +201,7 @@ impl Code {
                 | Self::ExpectedExpression
                 | Self::UnknownWord
                 | Self::WrongArity
+                | Self::ExtraComponent
                 | Self::UnusedDeclaration
                 | Self::NeverPlaced
         )

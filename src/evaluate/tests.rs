@@ -135,6 +135,10 @@ facts! {
     a_number_fills_what_the_colour_word_names:
         "#declare A = rgb 1; #declare B = color 1; #declare D = rgbf 1; Components(A) Components(B) Components(D)"
         => "(1.00,1.00,1.00,0.00,0.00) (1.00,1.00,1.00,1.00,1.00) (1.00,1.00,1.00,1.00,0.00)";
+    a_colour_keeps_what_its_word_does_not_take_but_rgbt_ends_with_the_fourth:
+        "#declare C = rgbft <1,.5,0,.25,.5>; #declare A = rgb <1,0,0,.5>; #declare B = rgbt <1,0,0,.5,.3>;
+         #declare D = rgbt C; #declare E = rgbf C; Components(A) Components(B) Components(D) Components(E)"
+        => "(1.00,0.00,0.00,0.50,0.00) (1.00,0.00,0.00,0.00,0.50) (1.00,0.50,0.00,0.00,0.25) (1.00,0.50,0.00,0.25,0.50)";
     a_colours_components_are_set_by_name:
         "#declare R = rgb <1,0,0>; #declare A = color R filter .5; #declare B = color red 1 green .5; Components(A) Components(B)"
         => "(1.00,0.00,0.00,0.50,0.00) (1.00,0.50,0.00,0.00,0.00)";

@@ -306,7 +306,7 @@ fn of_a_declared_colour_its_use_is_quoted_and_of_other_names_what_they_hold() {
     let of_glass = |pigment: &str| clear(&format!("{glass}{}", ball(pigment)));
     assert_eq!(of_glass("pigment { Glass }"), ["Glass"]);
     assert_eq!(of_glass("pigment { color Glass red 0 }"), ["Glass"]);
-    assert_eq!(of_glass("pigment { rgbt Glass*0.5 }"), ["rgbt Glass*0.5"]);
+    assert_eq!(of_glass("pigment { rgb Glass*0.5 }"), ["rgb Glass*0.5"]);
     assert_eq!(of_glass("pigment { checker Glass, rgb 1 }"), ["Glass"]);
     let red = "#declare Red = rgb <1, 0, 0>; ";
     let filtered = clear(&format!("{red}{}", ball("pigment { Red filter 0.3 }")));

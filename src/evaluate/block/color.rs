@@ -74,57 +74,27 @@ impl Evaluator<'_> {
         }
         let gamma = self.scene.settings.assumed_gamma;
         let meant = |rgb: Rgb| if is_display { rgb.map(|c| gamma.of_srgb(c)) } else { rgb };
-        // A colour passes through whole: `rgb Red`.
-        if let Value::Color(color) = given.value {
-            return Ok(Color { rgb: meant(color.rgb), ..color });
+        if !matches!(given.value, Value::Color(_)) {
+            self.bare_components(token, &given)?;
         }
-        self.bare_components(token, &given)?;
         let Some(numbers) = given.value.numbers() else {
             return Err(self.wrong_type(&given.here, given.span, what, &given.value));
         };
-        let wanted = match word {
-            Word::Rgbf | Word::Rgbt | Word::Srgbf | Word::Srgbt => 4,
-            Word::Rgbft | Word::Srgbft => 5,
-            _ => 3,
-        };
-        let given_numbers = numbers.as_slice();
-        if given_numbers.len() > wanted {
-            let diagnostic = Diagnostic::new(
-                Code::WrongArity,
-                format!(
-                    "`{}` takes {wanted} components, and is given {}",
-                    word.name(),
-                    given_numbers.len()
-                ),
-            )
-            .at(given.span, format!("expected {wanted} components"));
-            let diagnostic = match (given_numbers.len(), self.commas_within(given.span)) {
-                (_, Some(vector)) => diagnostic
-                    .help(format!("a fraction is written with a point: `{vector}`"))
-                    .fix(given.span, vector),
-                (4, None) => diagnostic.help("`rgbf` takes red, green, blue and filter; `rgbt` red, green, blue and transmit"),
-                _ => diagnostic.help("`rgbft` takes red, green, blue, filter and transmit"),
-            };
-            return Err(self.report(&given.here, diagnostic));
-        }
-        if given_numbers.len() == 3 && wanted > 3 {
-            let lacking = match word {
-                Word::Rgbt | Word::Srgbt => "transmit",
-                _ => "filter",
-            };
+        let wanted = components_of(word);
+        self.lint_extra_components(token, word, wanted, &given);
+        if numbers.len() == 3 && wanted > 3 {
+            let lacking = if takes_transmit(word) { "transmit" } else { "filter" };
             self.lint_short_color(&given, word, lacking);
         }
-        let mut all = match *given_numbers {
-            [gray] => [gray; 5],
-            _ => {
-                let mut all = [0.0; 5];
-                all[..given_numbers.len()].copy_from_slice(given_numbers);
-                all
-            }
-        };
-        all[wanted..].fill(0.0);
-        if matches!(word, Word::Rgbt | Word::Srgbt) {
-            all.swap(3, 4);
+        let mut all = [0.0; 5];
+        match *numbers.as_slice() {
+            [gray] => all[..wanted].fill(gray),
+            // Also what is more than the word takes: `rgb Red` passes whole.
+            ref written => all[..written.len()].copy_from_slice(written),
+        }
+        // The fourth is the transmit, and a fifth is dropped, of a colour too: as POV-Ray does it.
+        if takes_transmit(word) {
+            (all[3], all[4]) = (0.0, all[3]);
         }
         let [red, green, blue, filter, transmit] = all;
         let rgb = Rgb::new(red, green, blue);
@@ -273,6 +243,20 @@ fn is_whole(word: Word) -> bool {
             | Word::Srgbt
             | Word::Srgbft
     )
+}
+
+/// How many components a word promises that takes all at once.
+fn components_of(word: Word) -> usize {
+    match word {
+        Word::Rgbf | Word::Rgbt | Word::Srgbf | Word::Srgbt => 4,
+        Word::Rgbft | Word::Srgbft => 5,
+        _ => 3,
+    }
+}
+
+/// Whether the fourth component is the transmit.
+pub(in crate::evaluate) fn takes_transmit(word: Word) -> bool {
+    matches!(word, Word::Rgbt | Word::Srgbt)
 }
 
 /// Three to five plain numbers side by side, the first of them at `first`; and where they end.

@@ -41,6 +41,7 @@ mod unbuilt;
 mod unexpected;
 mod unknown;
 
+pub(super) use color::takes_transmit;
 pub(super) use habit::color_of_string;
 pub(super) use mesh::MeshFiles;
 

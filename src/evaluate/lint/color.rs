@@ -1,12 +1,15 @@
-//! Colours that were hardly meant so: 0 to 255, negative, two components, a clear background.
+//! Colours that were hardly meant so: 0 to 255, negative, of two components or of too many, a clear
+//! background.
 
 use super::is_literal;
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::block::Given;
+use crate::evaluate::block::{Given, takes_transmit};
+use crate::evaluate::stream::Token;
 use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Here};
 use crate::source::Span;
+use crate::vocabulary::Word;
 
 /// Below it, whole numbers may be meant as they are: of anything, and of what gives light.
 const ANY: f64 = 16.0;
@@ -30,6 +33,68 @@ impl Evaluator<'_> {
             }
             _ => self.lint_color_range(&given.here, given.span, rgb),
         }
+    }
+
+    /// `rgb <1, 0, 0, 0.5>`: more components than the word takes. A colour has five, and passes whole but
+    /// behind `rgbt`.
+    pub(in crate::evaluate) fn lint_extra_components(
+        &mut self,
+        token: &Token,
+        word: Word,
+        wanted: usize,
+        given: &Given<Value>,
+    ) {
+        let name = word.name();
+        let count = match &given.value {
+            Value::Color(color) if takes_transmit(word) => {
+                return self.lint_swapped_color(name, color, given);
+            }
+            Value::Vector(components) if components.len() > wanted => components.len(),
+            _ => return,
+        };
+        let meant = match (count, wanted) {
+            _ if takes_transmit(word) => "the fourth is its transmit, the fifth is dropped",
+            (4, _) => "the fourth is its filter",
+            (_, 3) => "the fourth is its filter, the fifth its transmit",
+            _ => "the fifth is its transmit",
+        };
+        let message = format!("`{name}` takes {wanted} components, and is given {count}");
+        let diagnostic = Diagnostic::new(Code::ExtraComponent, message).at(given.span, meant);
+        let base = name.trim_end_matches(['f', 't']);
+        let diagnostic = match self.commas_within(given.span) {
+            Some(vector) => diagnostic
+                .help(format!("a fraction is written with a point: `{vector}`"))
+                .fix(given.span, vector),
+            None if count == 4 => diagnostic.help(format!(
+                "`{base}f` takes red, green, blue and filter; `{base}t` red, green, blue and transmit"
+            )),
+            None => {
+                let told = diagnostic.help(format!(
+                    "`{base}ft` takes red, green, blue, filter and transmit"
+                ));
+                // A name may stand for fewer in another call.
+                match self.sources.text(given.span).starts_with('<') {
+                    true => told.fix(token.span, format!("{base}ft")),
+                    false => told,
+                }
+            }
+        };
+        self.report(&given.here, diagnostic);
+    }
+
+    /// `rgbt Glass`, of a colour: its fourth component is its filter.
+    fn lint_swapped_color(&mut self, name: &str, color: &Color, given: &Given<Value>) {
+        // As they were written: what a name gives back has single precision.
+        let [filter, transmit] = [color.filter as f32, color.transmit as f32];
+        if filter == 0.0 && transmit == 0.0 {
+            return;
+        }
+        let all = format!("{}ft", name.trim_end_matches('t'));
+        let message = format!("`{name}` takes the filter of this colour for its transmit");
+        let diagnostic = Diagnostic::new(Code::ExtraComponent, message)
+            .at(given.span, format!("its filter is {filter}, its transmit {transmit}"))
+            .help(format!("`{all} {}` takes it as it is", self.sources.text(given.span)));
+        self.report(&given.here, diagnostic);
     }
 
     /// A colour is 0 to 1; this one looks like 0 to 255, or is negative.
