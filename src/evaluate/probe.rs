@@ -6,14 +6,14 @@
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::geometry::{self, Geometry};
+use crate::geometry::{self, Extent, Geometry};
 use crate::lower::{self, LowerOptions};
 use crate::math::transform::Step;
 use crate::math::{UnitVector, Vector};
 use crate::scene::{
     ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId,
 };
-use crate::shape::Ray;
+use crate::shape::{Bounds, Ray, Rounding};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionKind};
 use crate::vocabulary::Word;
@@ -151,15 +151,12 @@ impl Evaluator<'_> {
 
 impl Probe {
     fn extent(&self) -> (Vector, Vector) {
-        let (mut low, mut high) = (Vector::INFINITY, Vector::NEG_INFINITY);
-        for object in self.world.solids() {
-            let (from, to) = geometry::bounds(&self.world, object)
-                .map_or((Vector::splat(-UNBOUNDED), Vector::splat(UNBOUNDED)), |b| (b.low, b.high));
-            (low, high) = (low.min(from), high.max(to));
-        }
-        if self.world.objects.is_empty() {
+        let extent = Extent::of_all(&self.world, Rounding::Nearest);
+        if extent.is_empty() {
             return (Vector::ZERO, Vector::ZERO);
         }
+        let far = Vector::splat(UNBOUNDED);
+        let Bounds { low, high } = extent.bounds().unwrap_or(Bounds { low: -far, high: far });
         // Zero has no sign where people read it.
         (low + Vector::ZERO, high + Vector::ZERO)
     }

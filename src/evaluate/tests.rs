@@ -53,6 +53,7 @@ macro_rules! facts {
 
 mod call;
 mod deep;
+mod extent;
 mod file;
 mod internal;
 mod made;

@@ -2,10 +2,9 @@
 
 use smallvec::SmallVec;
 
-use crate::math::Vector;
 use crate::shape::body::Local;
 use crate::shape::csg::Node;
-use crate::shape::{Bounds, Plane, Shape};
+use crate::shape::{Bounds, Plane, Rounding, Shape};
 use crate::world::World;
 
 /// A shape that is a part of a whole by itself.
@@ -15,19 +14,42 @@ struct Leaf {
     inverse: bool,
 }
 
+impl Leaf {
+    /// The half space that it is.
+    fn half_space(self, world: &World) -> Option<Plane> {
+        let Shape::Plane(i) = world.objects[self.object as usize].shape else { return None };
+        let plane = world.planes[i as usize];
+        Some(if self.inverse { plane.complement() } else { plane })
+    }
+
+    fn extent(self, world: &World, rounding: Rounding) -> Extent {
+        match self.half_space(world) {
+            Some(plane) => Extent(plane.bounds(rounding)),
+            None if self.inverse => Extent::EVERYWHERE,
+            None => Extent::of_part(world, self.object, rounding),
+        }
+    }
+}
+
 /// A box that holds a solid: one of its sides is negative where the solid is empty, and ∞ where it has no
 /// end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extent(Bounds);
+pub struct Extent(pub(super) Bounds);
 
 impl Extent {
-    const NOWHERE: Self = Self(Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY });
-    const EVERYWHERE: Self = Self(Bounds { low: Vector::NEG_INFINITY, high: Vector::INFINITY });
+    const NOWHERE: Self = Self(Bounds::NOWHERE);
+    const EVERYWHERE: Self = Self(Bounds::EVERYWHERE);
+
+    /// Of all that there is.
+    pub fn of_all(world: &World, rounding: Rounding) -> Self {
+        let solids = world.solids().map(|object| Self::of(world, object, rounding));
+        solids.filter(|extent| !extent.is_empty()).fold(Self::NOWHERE, Self::or)
+    }
 
     /// Of an object, or the whole that it is a part of.
-    pub fn of(world: &World, object: u32) -> Self {
+    pub(super) fn of(world: &World, object: u32, rounding: Rounding) -> Self {
         let Some(whole) = world.objects[object as usize].whole else {
-            return Self::of_shape(world, object);
+            return Self::of_shape(world, object, rounding);
         };
         let whole = &world.wholes[whole as usize];
         let mut leaves = whole.leaves();
@@ -46,12 +68,10 @@ impl Extent {
             match *node {
                 Node::Leaf { inverse } => {
                     let object = leaves.next().unwrap_or_default() as u32;
+                    let leaf = Leaf { object, inverse };
                     lone.pop();
-                    lone.push(Some(Leaf { object, inverse }));
-                    stack.push(match inverse {
-                        true => Self::EVERYWHERE,
-                        false => Self::of_part(world, object),
-                    });
+                    lone.push(Some(leaf));
+                    stack.push(leaf.extent(world, rounding));
                 }
                 Node::Union(count) | Node::Merge(count) => {
                     combine(&mut stack, count, Self::NOWHERE, Self::or)
@@ -71,30 +91,19 @@ impl Extent {
                 (node, stack.last_mut())
                 && all.bounds().is_none()
             {
-                *all = all.and(Self::clipped(world, &parts));
+                *all = all.and(Self::clipped(world, &parts, rounding));
             }
         }
         stack.pop().unwrap_or(Self::NOWHERE)
     }
 
     /// Of what is in all of some leaves, by the quadrics among them that planes cut.
-    fn clipped(world: &World, parts: &[Leaf]) -> Self {
-        let planes =
-            parts.iter().filter_map(|leaf| match world.objects[leaf.object as usize].shape {
-                Shape::Plane(i) => {
-                    let Plane { normal, distance } = world.planes[i as usize];
-                    Some(match leaf.inverse {
-                        true => Plane { normal: -normal, distance: -distance },
-                        false => Plane { normal, distance },
-                    })
-                }
-                _ => None,
-            });
-        let planes: Vec<Plane> = planes.collect();
+    fn clipped(world: &World, parts: &[Leaf], rounding: Rounding) -> Self {
+        let planes: Vec<Plane> = parts.iter().filter_map(|leaf| leaf.half_space(world)).collect();
         let quadrics =
             parts.iter().filter_map(|leaf| match world.objects[leaf.object as usize].shape {
                 Shape::Placed(i) if !leaf.inverse && !planes.is_empty() => {
-                    world.placed[i as usize].clipped_bounds(&planes)
+                    world.placed[i as usize].clipped_bounds(&planes, rounding)
                 }
                 _ => None,
             });
@@ -103,45 +112,43 @@ impl Extent {
 
     /// Of all that a part of a whole counts for: what is seen of a disc has an end, what is below it has
     /// none.
-    pub fn of_part(world: &World, object: u32) -> Self {
+    pub(super) fn of_part(world: &World, object: u32, rounding: Rounding) -> Self {
         let shape = world.objects[object as usize].shape;
         match shape {
             Shape::Placed(i) if world.placed[i as usize].body.reach().is_infinite() => {
                 Self::EVERYWHERE
             }
-            _ => Self::of_shape(world, object),
+            _ => Self::of_shape(world, object, rounding),
         }
     }
 
     /// Of an object by itself.
-    pub fn of_shape(world: &World, object: u32) -> Self {
+    fn of_shape(world: &World, object: u32, rounding: Rounding) -> Self {
         let bounds = match world.objects[object as usize].shape {
-            Shape::Sphere(i) => Some(world.spheres[i as usize].bounds()),
-            Shape::Plane(_) => None,
-            Shape::Box(i) => Some(world.boxes[i as usize].bounds()),
-            Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds()),
-            Shape::Placed(i) => world.placed[i as usize].bounds(),
+            Shape::Sphere(i) => Some(world.spheres[i as usize].bounds(rounding)),
+            Shape::Plane(i) => Some(world.planes[i as usize].bounds(rounding)),
+            Shape::Box(i) => Some(world.boxes[i as usize].bounds(rounding)),
+            Shape::Ellipsoid(i) => Some(world.ellipsoids[i as usize].bounds(rounding)),
+            Shape::Placed(i) => world.placed[i as usize].bounds(rounding),
         };
         bounds.map_or(Self::EVERYWHERE, Self)
     }
 
-    fn or(self, other: Self) -> Self {
-        Self(self.0.union(&other.0))
+    fn or(self, Self(other): Self) -> Self {
+        Self(self.0.union(&other))
     }
 
     fn and(self, Self(other): Self) -> Self {
-        let Self(Bounds { low, high }) = self;
-        Self(Bounds { low: low.max(other.low), high: high.min(other.high) })
+        Self(self.0.intersection(&other))
     }
 
     /// The box; `None` where the solid has no end.
     pub fn bounds(self) -> Option<Bounds> {
-        let Self(Bounds { low, high }) = self;
-        (low.is_finite() && high.is_finite()).then_some(self.0)
+        self.0.is_finite().then_some(self.0)
     }
 
     pub fn is_empty(self) -> bool {
-        self.0.low.cmpgt(self.0.high).any()
+        self.0.is_empty()
     }
 }
 

@@ -26,11 +26,11 @@ pub use work::Work;
 
 use crate::shape::body::{Local, Met};
 use crate::shape::{
-    Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Shape, Sphere, sphere,
+    Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
 };
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
-use extent::Extent;
+pub use extent::Extent;
 use tree::Tree;
 use whole::Whole;
 
@@ -134,7 +134,7 @@ impl Geometry {
         let (bounded, unbounded): (Vec<u32>, Vec<u32>) = world
             .solids()
             .filter(|&object| holds(&world.objects[object as usize]))
-            .filter(|&object| !Extent::of(world, object).is_empty())
+            .filter(|&object| !Extent::of(world, object, Rounding::Outward).is_empty())
             .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
             (None, bounded)
@@ -215,7 +215,7 @@ impl Geometry {
         };
         let whole = &world.wholes[whole as usize];
         let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
-        let bounds = whole.leaves().map(|leaf| Extent::of_part(world, leaf as u32).bounds());
+        let bounds = whole.leaves().map(|leaf| bounds_of_part(world, leaf as u32));
         let whole = Whole::new(whole, leaves, bounds.collect());
         let entry = Entry {
             solid: Solid::Whole(self.wholes.len() as u32),
@@ -390,12 +390,12 @@ const TIGHT: bool = true;
 
 /// A box around an object, or the whole that it is a part of; `None` when it is unbounded.
 pub fn bounds(world: &World, object: u32) -> Option<Bounds> {
-    Extent::of(world, object).bounds()
+    Extent::of(world, object, Rounding::Outward).bounds()
 }
 
 /// A box that holds all that an object counts for as a part of a whole; `None` where that has no end.
 pub fn bounds_of_part(world: &World, object: u32) -> Option<Bounds> {
-    Extent::of_part(world, object).bounds()
+    Extent::of_part(world, object, Rounding::Outward).bounds()
 }
 
 #[cfg(test)]

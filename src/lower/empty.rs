@@ -13,12 +13,9 @@ use crate::geometry::bounds_of_part;
 use crate::math::Vector;
 use crate::math::elementary::{cos, sin};
 use crate::scene::Operation;
-use crate::shape::{Body, Bounds, Box_, Plane, Shape};
+use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
 use crate::source::Site;
 use crate::world::Object;
-
-const NOWHERE: Bounds = Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY };
-const EVERYWHERE: Bounds = Bounds { low: Vector::NEG_INFINITY, high: Vector::INFINITY };
 
 /// What is thinner than this, relative, is not there: it may all be rounding.
 const THIN: f64 = 64.0 * f64::EPSILON;
@@ -39,7 +36,7 @@ pub(super) struct Known {
 
 impl Known {
     fn nothing(site: Site) -> Self {
-        Self { site, inside: NOWHERE, outside: EVERYWHERE, object: None }
+        Self { site, inside: Bounds::NOWHERE, outside: Bounds::EVERYWHERE, object: None }
     }
 
     /// All that is not in it, where `turns`.
@@ -57,7 +54,7 @@ impl Known {
     }
 
     fn is_nothing(&self) -> bool {
-        self.inside.low.cmpgt(self.inside.high).any()
+        self.inside.is_empty()
     }
 
     /// How far from 0 it ends along an axis.
@@ -77,9 +74,13 @@ impl Lowering<'_, '_> {
     /// Notes a part of the whole under way: the object placed last.
     pub(super) fn know_leaf(&mut self, inverse: bool, site: Site) {
         let object = self.world.objects.len() as u32 - 1;
-        let around = |bounds: Option<Bounds>| [bounds.unwrap_or(EVERYWHERE), EVERYWHERE];
+        let around =
+            |bounds: Option<Bounds>| [bounds.unwrap_or(Bounds::EVERYWHERE), Bounds::EVERYWHERE];
         let [inside, outside] = match self.world.objects[object as usize].shape {
-            Shape::Plane(i) => half_spaces(&self.world.planes[i as usize]),
+            Shape::Plane(i) => {
+                let plane = self.world.planes[i as usize];
+                [plane, plane.complement()].map(|half| half.bounds(Rounding::Nearest))
+            }
             Shape::Sphere(_) | Shape::Box(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => {
                 around(bounds_of_part(&self.world, object))
             }
@@ -262,9 +263,11 @@ fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
     if let ([only], false) = (parts, making == Making::Clip) {
         return *only;
     }
-    let shared = |box_: fn(&Known) -> Bounds| parts.iter().map(box_).fold(EVERYWHERE, both);
+    let shared = |box_: fn(&Known) -> Bounds| {
+        parts.iter().map(box_).fold(Bounds::EVERYWHERE, |all, one| all.intersection(&one))
+    };
     let united = |box_: fn(&Known) -> Bounds| {
-        parts.iter().map(box_).fold(NOWHERE, |all, one| all.union(&one))
+        parts.iter().map(box_).fold(Bounds::NOWHERE, |all, one| all.union(&one))
     };
     let (inside, outside) = match making {
         Making::Union | Making::Operation(Operation::Merge) => {
@@ -274,8 +277,8 @@ fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
         Making::Operation(Operation::Intersection | Operation::Difference) => {
             (shared(|part| part.inside), united(|part| part.outside))
         }
-        Making::Clip if inverse => (EVERYWHERE, EVERYWHERE),
-        Making::Clip => (shared(|part| part.inside), EVERYWHERE),
+        Making::Clip if inverse => (Bounds::EVERYWHERE, Bounds::EVERYWHERE),
+        Making::Clip => (shared(|part| part.inside), Bounds::EVERYWHERE),
     };
     Known { site, inside, outside, object: None }
 }
@@ -298,20 +301,6 @@ fn gap_along(parts: &[Known], axis: usize) -> Option<Gap> {
     let is_thick = |part: usize| high(part) - low(part) > thin;
     let is_gap = overlap < 0.0 || overlap <= thin && (0..parts.len()).all(is_thick);
     is_gap.then_some(Gap { touching: overlap >= -thin, parts: [first, last] })
-}
-
-fn both(a: Bounds, b: Bounds) -> Bounds {
-    Bounds { low: a.low.max(b.low), high: a.high.min(b.high) }
-}
-
-/// Boxes around what is inside of a plane, and around what is not.
-fn half_spaces(plane: &Plane) -> [Bounds; 2] {
-    let normal = plane.normal.get();
-    let (mut below, mut above) = (EVERYWHERE, EVERYWHERE);
-    let Some(axis) = (0..3).find(|&axis| normal[axis].abs() == 1.0) else { return [below, above] };
-    let place = plane.distance * normal[axis];
-    (below.high[axis], above.low[axis]) = (place, place);
-    if normal[axis] > 0.0 { [below, above] } else { [above, below] }
 }
 
 fn corners_of(&Bounds { low, high }: &Bounds) -> Vec<Vector> {

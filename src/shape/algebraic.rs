@@ -19,6 +19,8 @@ use crate::math::Vector;
 use crate::math::roots::polynomial::{MOST, Polynomial};
 use crate::math::terms::{count_of_terms, exponents};
 
+const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
 /// A polynomial in x, y and z.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Algebraic {
@@ -124,8 +126,11 @@ impl Local for Algebraic {
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let endless = (f64::NEG_INFINITY, f64::INFINITY);
-        self.closed.map_or(endless, |closed| closed.extent(along))
+        self.closed.map_or(ENDLESS, |closed| closed.extent(along))
+    }
+
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        self.closed.map_or(ENDLESS, |closed| closed.nearest_extent(along))
     }
 
     fn is_iterated(&self) -> bool {

@@ -51,6 +51,11 @@ pub trait Local {
     /// The least and the greatest `along`·P over what is seen of the body; infinite where that has no end.
     fn extent(&self, along: Vector) -> (f64, f64);
 
+    /// The same without the room for rounding that it may have.
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        self.extent(along)
+    }
+
     /// The radius of a ball around the local origin that holds the body; ∞ where none does.
     fn reach(&self) -> f64;
 
@@ -263,6 +268,12 @@ macro_rules! bodies {
             fn extent(&self, along: Vector) -> (f64, f64) {
                 match self {
                     $(Self::$kind(body) => body.extent(along),)*
+                }
+            }
+
+            fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+                match self {
+                    $(Self::$kind(body) => body.nearest_extent(along),)*
                 }
             }
 

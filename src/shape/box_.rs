@@ -1,7 +1,7 @@
 //! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. The normals need not be at right
 //! angles: then it is a parallelepiped.
 
-use super::{Bounds, Chord, Crossing, Ray, SurfacePoint, U};
+use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::{Real, UnitVector, Vector, Vector3};
 
 /// **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are independent.
@@ -141,7 +141,7 @@ impl Box_ {
         behind || near.offset.length_squared() > reach_squared + blur * blur
     }
 
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self, rounding: Rounding) -> Bounds {
         let mut extent = Vector::ZERO;
         let mut slack = Vector::ZERO;
         let [a, b, c] = self.normals.map(UnitVector::get);
@@ -153,7 +153,7 @@ impl Box_ {
             let far = self.normals[axis].get().abs_dot(self.centre);
             slack += (edge + Vector::splat(self.half_widths[axis] + far)) * (16.0 * U * flatness);
         }
-        Bounds::around(self.centre, extent, slack)
+        Bounds::around(self.centre, [-extent, extent], slack, rounding)
     }
 
     /// Positive inside: the least of the distances to the six faces' planes.

@@ -39,7 +39,13 @@ impl Local for Disc {
 
     /// Of what is seen, with room for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let half = Vector::new(along.x, along.y, 0.0).length() + 64.0 * U * along.z.abs();
+        let (low, high) = self.nearest_extent(along);
+        let slack = 64.0 * U * along.z.abs();
+        (low - slack, high + slack)
+    }
+
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        let half = Vector::new(along.x, along.y, 0.0).length();
         (-half, half)
     }
 

@@ -2,7 +2,7 @@
 //! placement's `local_from_world`.
 
 use super::sphere::{Blur, Roots};
-use super::{Bounds, Chord, Ray, SurfacePoint, U};
+use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::Placement;
 use crate::math::{Vector, Vector3};
 
@@ -68,11 +68,12 @@ impl Ellipsoid {
     }
 
     /// Along each axis the length of that row of `world_from_local`.
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self, rounding: Rounding) -> Bounds {
         let Placement { centre, world_from_local, .. } = self.placement;
         let rows = world_from_local.transpose();
         let extent = Vector::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
-        Bounds::around(centre, extent, extent * (32.0 * U * self.placement.condition()))
+        let slack = extent * (32.0 * U * self.placement.condition());
+        Bounds::around(centre, [-extent, extent], slack, rounding)
     }
 
     /// Positive inside, zero on the surface, in units of the local sphere: 1 − |L·(P − C)|.

@@ -7,6 +7,7 @@ pub mod algebraic;
 pub mod bicubic_patch;
 pub mod blob;
 pub mod body;
+mod bounds;
 pub mod box_;
 pub mod cone;
 pub mod csg;
@@ -38,6 +39,7 @@ pub use algebraic::Algebraic;
 pub use bicubic_patch::BicubicPatch;
 pub use blob::Blob;
 pub use body::Body;
+pub use bounds::{Bounds, Rounding};
 pub use box_::Box_;
 pub use cone::Cone;
 pub use cylinder::Cylinder;
@@ -198,29 +200,6 @@ impl SurfacePoint {
     pub fn spawn(&self, direction: Vector) -> Vector {
         let side = if direction.dot(self.normal) < 0.0 { -self.error } else { self.error };
         self.point + self.normal * side
-    }
-}
-
-/// A box along the axes that holds a shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
-    pub low: Vector,
-    pub high: Vector,
-}
-
-impl Bounds {
-    /// `centre ± extent`, and `slack` more for what was rounded on the way.
-    fn around(centre: Vector, extent: Vector, slack: Vector) -> Self {
-        let grow = extent + slack + (centre.abs() + extent) * (8.0 * U);
-        Self { low: centre - grow, high: centre + grow }
-    }
-
-    pub fn union(&self, other: &Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    pub fn contains(&self, point: Vector) -> bool {
-        self.low.cmple(point).all() && point.cmple(self.high).all()
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::algebraic::HalfSpace;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
-use super::{Bounds, Plane, Ray, SurfacePoint, U};
+use super::{Bounds, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
 
@@ -126,19 +126,17 @@ impl Placed {
 
     /// `None` where it has no end. Along each axis the body's extent along that row of
     /// `world_from_local`.
-    pub fn bounds(&self) -> Option<Bounds> {
+    pub fn bounds(&self, rounding: Rounding) -> Option<Bounds> {
         let rows = self.placement.world_from_local.transpose();
-        let extents = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| self.body.extent(row));
-        let low = Vector::from_array(extents.map(|(low, _)| low));
-        let high = Vector::from_array(extents.map(|(_, high)| high));
-        if !(low.is_finite() && high.is_finite()) {
-            return None;
-        }
-        Some(self.around((low, high)))
+        let extent = |row: Vector| match rounding {
+            Rounding::Nearest => self.body.nearest_extent(row),
+            Rounding::Outward => self.body.extent(row),
+        };
+        self.around([rows.x_axis, rows.y_axis, rows.z_axis].map(extent), rounding)
     }
 
     /// As [`Self::bounds`], of what of a quadric lies on the inner sides of planes.
-    pub fn clipped_bounds(&self, planes: &[Plane]) -> Option<Bounds> {
+    pub fn clipped_bounds(&self, planes: &[Plane], rounding: Rounding) -> Option<Bounds> {
         let Body::Algebraic(quadric) = &*self.body else { return None };
         let Placement { centre, world_from_local, .. } = self.placement;
         let rows = world_from_local.transpose();
@@ -150,16 +148,16 @@ impl Placed {
         };
         let spaces: Vec<HalfSpace> = planes.iter().map(local).collect();
         let extents = quadric.clipped(&spaces, [rows.x_axis, rows.y_axis, rows.z_axis]);
-        let low = Vector::from_array(extents.map(|(low, _)| low));
-        let high = Vector::from_array(extents.map(|(_, high)| high));
-        (low.is_finite() && high.is_finite()).then(|| self.around((low, high)))
+        self.around(extents, rounding)
     }
 
-    /// The box whose corners lie so far from the centre.
-    fn around(&self, (low, high): (Vector, Vector)) -> Bounds {
-        let slack = (high.abs().max(low.abs())) * (32.0 * U * self.placement.condition());
-        let middle = self.placement.centre + (low + high) * 0.5;
-        Bounds::around(middle, (high - low) * 0.5, slack)
+    /// The box that goes so far from the centre along each axis; `None` where that has no end.
+    fn around(&self, extents: [(f64, f64); 3], rounding: Rounding) -> Option<Bounds> {
+        let low = Vector::from_array(extents.map(|(low, _)| low));
+        let high = Vector::from_array(extents.map(|(_, high)| high));
+        let slack = high.abs().max(low.abs()) * (32.0 * U * self.placement.condition());
+        let all = Bounds::around(self.placement.centre, [low, high], slack, rounding);
+        (low.is_finite() && high.is_finite()).then_some(all)
     }
 
     pub fn contains(&self, point: Vector) -> bool {

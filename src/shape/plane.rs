@@ -1,7 +1,7 @@
 //! Plane: N·P = d; its inside is the half space N·P < d, and N points out of it.
 
 use super::slab::falls_inside;
-use super::{Chord, Crossing, Ray, SurfacePoint, U};
+use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::{Real, UnitVector, Vector, Vector3};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +53,27 @@ impl Plane {
         let point = rough - normal * (normal.dot(rough) - self.distance);
         let error = U * (12.0 * normal.abs_dot(point) + 4.0 * self.distance.abs());
         SurfacePoint { point, normal, error, face: 0 }
+    }
+
+    /// What is outside of it.
+    pub fn complement(&self) -> Self {
+        Self { normal: -self.normal, distance: -self.distance }
+    }
+
+    /// Where the normal lies along an axis, the half space ends along that axis, on one side, at the plane:
+    /// no coordinate of a place in the plane is rounded by more than a step or two.
+    pub fn bounds(&self, rounding: Rounding) -> Bounds {
+        let (normal, mut bounds) = (self.normal.get(), Bounds::EVERYWHERE);
+        let axes = [Vector::X, Vector::Y, Vector::Z];
+        if let Some(axis) = axes.iter().position(|axis| normal.abs() == *axis) {
+            let place = Vector::splat(self.distance * normal[axis]);
+            let ends = Bounds::around(place, [Vector::ZERO; 2], Vector::ZERO, rounding);
+            match normal[axis] > 0.0 {
+                true => bounds.high[axis] = ends.high[axis],
+                false => bounds.low[axis] = ends.low[axis],
+            }
+        }
+        bounds
     }
 
     /// Positive inside: d − N·P.

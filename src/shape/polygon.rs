@@ -98,12 +98,15 @@ impl Local for Polygon {
     /// With room for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * self.reach * along.length();
-        let corners = self.edges.iter().map(|[from, _]| from.dot(along));
-        let (low, high) = corners
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-                (low.min(height), high.max(height))
-            });
+        let (low, high) = self.nearest_extent(along);
         (low - slack, high + slack)
+    }
+
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        let corners = self.edges.iter().map(|[from, _]| from.dot(along));
+        corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+            (low.min(height), high.max(height))
+        })
     }
 
     /// Not measured: as of shapes like it.

@@ -1,6 +1,6 @@
 //! Sphere: |P − C| = r. Outward is away from the centre.
 
-use super::{Approach, Bounds, Chord, Crossing, Ray, SurfacePoint, U};
+use super::{Approach, Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::{Real, Vector, Vector3, reciprocal_power_of_two};
 
 /// **Invariant:** `radius` > 0.
@@ -52,9 +52,9 @@ impl Sphere {
         SurfacePoint { point, normal, error, face: 0 }
     }
 
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self, rounding: Rounding) -> Bounds {
         let extent = Vector::splat(self.radius);
-        Bounds::around(self.centre, extent, extent * (8.0 * U))
+        Bounds::around(self.centre, [-extent, extent], extent * (8.0 * U), rounding)
     }
 
     /// Positive inside: r − |P − C|.

@@ -37,8 +37,6 @@ struct Node {
     count: u32,
 }
 
-const NOWHERE: Bounds = Bounds { low: Vector::INFINITY, high: Vector::NEG_INFINITY };
-
 impl Tree {
     /// Of finite bounds, at least one.
     pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
@@ -53,7 +51,7 @@ impl Tree {
     fn with_leaves(bounds: &[Bounds], most: usize) -> (Self, Vec<u32>) {
         let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
         let all = |pieces: &[u32]| {
-            pieces.iter().fold(NOWHERE, |all, &piece| all.union(&bounds[piece as usize]))
+            pieces.iter().fold(Bounds::NOWHERE, |all, &piece| all.union(&bounds[piece as usize]))
         };
         let mut nodes = vec![Node { bounds: all(&order), first: 0, count: order.len() as u32 }];
         let mut tasks = vec![(0, 0)];
@@ -165,15 +163,16 @@ fn split(bounds: &[Bounds], pieces: &mut [u32], most: usize, depth: usize) -> Op
         return Some(pieces.len() / 2);
     }
     let bin = |piece: u32| (((place(piece) - low)[axis] * density) as usize).min(BINS - 1);
-    let mut bins = [(NOWHERE, 0usize); BINS];
+    let mut bins = [(Bounds::NOWHERE, 0usize); BINS];
     for &piece in pieces.iter() {
         let (all, count) = &mut bins[bin(piece)];
         (*all, *count) = (all.union(&bounds[piece as usize]), *count + 1);
     }
     let cost = |bins: &[(Bounds, usize)]| {
-        let (all, count) = bins
-            .iter()
-            .fold((NOWHERE, 0), |(all, count), (bounds, more)| (all.union(bounds), count + more));
+        let (all, count) =
+            bins.iter().fold((Bounds::NOWHERE, 0), |(all, count), (bounds, more)| {
+                (all.union(bounds), count + more)
+            });
         (area(&all) * count as f64, count)
     };
     let best = (1..BINS)

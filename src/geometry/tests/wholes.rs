@@ -143,6 +143,66 @@ fn a_whole_is_entered_and_left_where_membership_changes() {
     assert!(ends > tries() / 200, "{ends}");
 }
 
+/// Stands most planes across an axis: of such bounds are made.
+fn straighten(world: &mut World, random: &mut Random) {
+    for plane in &mut world.planes {
+        let axis = [UnitVector::X, UnitVector::Y, UnitVector::Z][random.below(3)];
+        let normal = if random.below(2) == 0 { axis } else { -axis };
+        if random.below(4) > 0 {
+            let distance = normal.get().dot(plane.normal.get() * plane.distance);
+            *plane = Plane { normal, distance };
+        }
+    }
+}
+
+/// Beside its sides, too.
+#[test]
+fn what_is_inside_of_a_whole_lies_within_its_bounds() {
+    let mut random = Random(25);
+    let (mut inside, mut cut) = (0, 0);
+    for scene in 0..400 {
+        let size = random.size(-6.0, 6.0);
+        let mut world = empty();
+        let centre = random.point(size);
+        add_whole(&mut world, &mut random, (centre, size), 1 + scene % 4, true);
+        straighten(&mut world, &mut random);
+        let Extent(bounds) = Extent::of(&world, 0, Rounding::Outward);
+        let Extent(nearest) = Extent::of(&world, 0, Rounding::Nearest);
+        let is_within = bounds.low.cmple(nearest.low) & nearest.high.cmple(bounds.high);
+        assert!(is_within.all(), "{nearest:?} {bounds:?} {world:?}");
+        for _ in 0..tries_in(400) {
+            let mut point = centre + random.point(size * 2.0);
+            let axis = random.below(3);
+            let beside = [bounds.low[axis].next_down(), bounds.high[axis].next_up(), point[axis]];
+            let place = beside[random.below(3)];
+            if place.is_finite() {
+                cut += usize::from(place != point[axis]);
+                point[axis] = place;
+            }
+            if world.whole_contains(&world.objects[0], point) {
+                assert!(bounds.contains(point), "{point} {bounds:?} {world:?}");
+                inside += 1;
+            }
+        }
+    }
+    assert!(inside > tries() / 50 && cut > tries() / 50, "{inside} inside, {cut} beside");
+}
+
+#[test]
+fn trees_find_of_wholes_that_planes_across_axes_cut_what_trying_every_part_finds() {
+    let mut random = Random(26);
+    for scene in 0..100 {
+        let reach = random.size(-8.0, 8.0);
+        let mut world = random_world(&mut random, [3, 10, 50][scene % 3], reach);
+        for _ in 0..random.below(5) + 1 {
+            let place = (random.point(reach), reach * random.size(-1.5, -0.3));
+            add_whole(&mut world, &mut random, place, 1 + scene % 4, true);
+        }
+        straighten(&mut world, &mut random);
+        assert_tree_agrees(&world, &mut random, reach, tries_in(1000));
+    }
+}
+
 /// A block with many balls taken out: a ray asks for those only that it may meet.
 #[test]
 fn a_block_with_ten_thousand_balls_taken_out_asks_few_of_them() {

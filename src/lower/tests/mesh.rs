@@ -8,7 +8,7 @@ use crate::math::{UnitVector, Vector};
 use crate::road::{Options, Road};
 use crate::scene::Dialect;
 use crate::shape::body::Local;
-use crate::shape::{Body, Ray};
+use crate::shape::{Body, Ray, Rounding};
 use crate::source::{FileError, Files, Found};
 use crate::world::{Material, Pigment, World};
 
@@ -130,7 +130,8 @@ fn a_mesh_is_as_large_as_it_was_written_and_where() {
             let vertices = vertices.replace('<', &format!("{size}*({place} + <"));
             let written = format!("{vertices}face_indices{rest}");
             let [moved, written] = [moved, written].map(|scene| world(&scene).0);
-            let [a, b] = [&moved, &written].map(|world| world.placed[0].bounds().expect("bounded"));
+            let [a, b] = [&moved, &written]
+                .map(|world| world.placed[0].bounds(Rounding::Outward).expect("bounded"));
             let size = size.parse::<f64>().expect("a number");
             let off = (a.low - b.low).abs().max((a.high - b.high).abs()).max_element();
             assert!(off <= 1e-12 * 1e3 * size, "{a:?} {b:?}");

@@ -12,11 +12,13 @@ const MOST_STRETCHED: f64 = 1_048_576.0;
 /// How often a number is rounded on the way, at most.
 const ROUNDINGS: f64 = 64.0;
 
-/// (P − centre)ᵀ · shape⁻¹ · (P − centre) ≤ 1.
+/// (P − centre)ᵀ · inverse⁻¹ · (P − centre) ≤ depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closed {
     centre: Vector,
-    shape: Matrix,
+    inverse: Matrix,
+    /// As near as it is known, and at most.
+    depths: [f64; 2],
     /// The longest half axis, and what all that was computed may be off by.
     longest: f64,
     slack: f64,
@@ -43,16 +45,28 @@ impl Closed {
         let depth = -0.5 * centre.dot(linear) - constant;
         // As if all that it is made of added up.
         let most = 0.25 * linear.length_squared() / least + constant.abs();
-        let depth = (depth + room * most).max(0.0);
-        let longest = (depth / least).sqrt();
+        let depths = [depth, depth + room * most].map(|depth| depth.max(0.0));
+        let longest = (depths[1] / least).sqrt();
         let slack = room * (longest + linear.length() / least);
-        let closed = Self { centre, shape: inverse * depth, longest, slack };
+        let closed = Self { centre, inverse, depths, longest, slack };
         (closed.centre.is_finite() && longest.is_finite() && slack.is_finite()).then_some(closed)
     }
 
-    /// The least and the greatest `along`·P.
+    /// The least and the greatest `along`·P, at most.
     pub fn extent(&self, along: Vector) -> (f64, f64) {
-        let half = along.dot(self.shape * along).max(0.0).sqrt() + self.slack * along.length();
+        self.around(along, self.half(along, self.depths[1]) + self.slack * along.length())
+    }
+
+    /// The same, as near as it is known.
+    pub fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        self.around(along, self.half(along, self.depths[0]))
+    }
+
+    fn half(&self, along: Vector, depth: f64) -> f64 {
+        (along.dot(self.inverse * along) * depth).max(0.0).sqrt()
+    }
+
+    fn around(&self, along: Vector, half: f64) -> (f64, f64) {
         let middle = along.dot(self.centre);
         (middle - half, middle + half)
     }

@@ -346,7 +346,12 @@ impl Local for BicubicPatch {
     /// With room for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * self.reach * along.length();
-        (-self.net.greatest(-along) - slack, self.net.greatest(along) + slack)
+        let (low, high) = self.nearest_extent(along);
+        (low - slack, high + slack)
+    }
+
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        (-self.net.greatest(-along), self.net.greatest(along))
     }
 
     /// Not measured: as of shapes like it.

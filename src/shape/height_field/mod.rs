@@ -288,8 +288,13 @@ impl Local for HeightField {
 
     /// Of what is seen, with room for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let across = self.cells[0].div_ceil(BLOCK);
         let slack = 64.0 * U * along.length();
+        let (low, high) = self.nearest_extent(along);
+        (low - slack, high + slack)
+    }
+
+    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        let across = self.cells[0].div_ceil(BLOCK);
         let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
         for (number, [low, high]) in self.blocks.iter().enumerate() {
             let high = f64::from(*high);
@@ -310,7 +315,7 @@ impl Local for HeightField {
                 least += a.min(b);
                 most += a.max(b);
             }
-            extent = (extent.0.min(least - slack), extent.1.max(most + slack));
+            extent = (extent.0.min(least), extent.1.max(most));
         }
         extent
     }

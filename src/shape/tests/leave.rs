@@ -53,7 +53,7 @@ fn a_spawned_ray_does_not_meet_the_sphere_it_leaves() {
         let surface = sphere.surface(&ray, crossing.t);
         let above = exact::above_sphere(centre, radius, surface.point);
         assert!(above.abs() <= surface.error, "{above:e}: {sphere:?} {ray:?}");
-        assert!(sphere.bounds().contains(surface.point), "{sphere:?} {ray:?}");
+        assert!(sphere.bounds(Rounding::Outward).contains(surface.point), "{sphere:?} {ray:?}");
         assert_leaves_for_good(&mut random, &surface, false, |ray| sphere.chord(ray), sphere);
     }
 }
@@ -90,7 +90,7 @@ fn a_spawned_ray_does_not_meet_the_box_it_leaves() {
         let surface = box_.surface(&ray, crossing.t, leaving);
         let above = exact::above_face(&box_, surface.face, surface.point);
         assert!(above.abs() <= surface.error, "{above:e}: {box_:?} {ray:?}");
-        let Bounds { low, high } = box_.bounds();
+        let Bounds { low, high } = box_.bounds(Rounding::Outward);
         // An edge is met within the error of the ray, and of the box's place.
         let outside = (low - surface.point).max(surface.point - high).max_element();
         let blur = 1e5 * EPS * ((origin - box_.centre).length() + box_.centre.length());
@@ -117,7 +117,10 @@ fn a_spawned_ray_does_not_meet_the_ellipsoid_it_leaves() {
         let steepness = 1.0 / (world_from_local.transpose() * surface.normal).length();
         let above = exact::above_ellipsoid(&ellipsoid.placement, surface.point) / steepness;
         assert!(above.abs() <= surface.error, "{above:e}: {ellipsoid:?} {ray:?}");
-        assert!(ellipsoid.bounds().contains(surface.point), "{ellipsoid:?} {ray:?}");
+        assert!(
+            ellipsoid.bounds(Rounding::Outward).contains(surface.point),
+            "{ellipsoid:?} {ray:?}"
+        );
         assert!(local_from_world.determinant() != 0.0);
         assert_leaves_for_good(&mut random, &surface, false, |ray| ellipsoid.chord(ray), ellipsoid);
     }

@@ -165,7 +165,7 @@ fn onward(
     let (inner, outer) = (height(-surface.error), height(surface.error));
     // At an edge, what is inside of one part is outside of another.
     assert!(outer >= 0.0, "{outer:e}: {surface:?} {placed:?} {ray:?}");
-    if let Some(bounds) = placed.bounds() {
+    if let Some(bounds) = placed.bounds(Rounding::Outward) {
         assert!(bounds.contains(surface.point), "{bounds:?} {surface:?} {placed:?} {ray:?}");
     }
     if inner > 0.0 {
