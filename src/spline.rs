@@ -8,6 +8,11 @@
 //! cubic one has at each end the mean of the slopes to either side, and of two values for one time
 //! the first counts.
 
+use crate::math::interval::Interval;
+
+/// Spans of time so small, relative to the time itself, that their thirds are rounded to be uneven.
+const UNEVEN: f64 = 1.0 / (1_u32 << 20) as f64;
+
 /// Numbers of one value: two to five, the others zero.
 type Values = [f64; 5];
 
@@ -57,6 +62,37 @@ impl Spline {
 
     pub fn knots(&self) -> &[Knot] {
         &self.knots
+    }
+
+    /// All values of a component over a span of time.
+    ///
+    /// Between two knots a component is a cubic at most, and lies within its Bernstein coefficients over any part of
+    /// that; four of its values give them. Times so near each other that they are rounded to be uneven have as much
+    /// room again.
+    pub fn bounds(&self, component: usize, over: Interval) -> Interval {
+        let value = |time: f64| self.at(time).get(component).copied().unwrap_or(f64::NAN);
+        let within = |time: &f64| over.low < *time && *time < over.high;
+        let knots = self.knots.iter().map(|knot| knot.time).filter(within);
+        let (mut from, mut all) = (over.low, None::<Interval>);
+        for to in knots.chain([over.high]) {
+            let third = (to - from) / 3.0;
+            let [a, b, c, d] = [from, from + third, to - third, to].map(value);
+            let second = (-5.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) / 6.0;
+            let last_but_one = (2.0 * a - 9.0 * b + 18.0 * c - 5.0 * d) / 6.0;
+            let coefficients = [a, second, last_but_one, d];
+            if coefficients.iter().any(|c| !c.is_finite()) {
+                return Interval::EVERYTHING;
+            }
+            let low = coefficients.into_iter().fold(f64::INFINITY, f64::min);
+            let high = coefficients.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            let is_uneven = to - from <= UNEVEN * from.abs().max(to.abs());
+            let room = 64.0 * f64::EPSILON * low.abs().max(high.abs())
+                + if is_uneven { high - low } else { 0.0 };
+            let piece = Interval { low: low - room, high: high + room };
+            all = Some(all.map_or(piece, |all| all.hull(piece)));
+            from = to;
+        }
+        all.unwrap_or(Interval::EVERYTHING)
     }
 
     /// The value at a time.

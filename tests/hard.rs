@@ -50,6 +50,8 @@ mod seams;
 mod sizes;
 #[path = "hard/solids.rs"]
 mod solids;
+#[path = "hard/steps.rs"]
+mod steps;
 #[path = "benches/numerics/sturm.rs"]
 mod sturm;
 #[path = "hard/things.rs"]

@@ -23,7 +23,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     // things
     ("noise", &["math"]),
     ("pattern", &["math"]),
-    ("spline", &[]),
+    ("spline", &["math"]),
     ("function", &["math", "noise", "pattern", "spline"]),
     ("shape", &["function", "math"]),
     // nouns

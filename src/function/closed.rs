@@ -94,11 +94,22 @@ impl Asked {
     fn bounds(&self, arguments: &[Interval]) -> Interval {
         match self {
             Self::Noise { function, generator } => function.bounds(*generator, arguments),
-            // Between its knots a spline may swing out, by no bound that is known here.
-            Self::Spline { .. } => Interval::EVERYTHING,
-            Self::Pattern { map, .. } => {
-                let values = map.iter().map(|entry| Interval::point(entry.1));
-                values.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING)
+            Self::Spline { spline, component } => {
+                let over = arguments.first().copied().unwrap_or(Interval::EVERYTHING);
+                spline.bounds(*component, over)
+            }
+            Self::Pattern { pattern, pattern_from_point, map } => {
+                let side = |at: usize| arguments.get(at).copied().unwrap_or(Interval::point(0.0));
+                let half = |side: Interval| (0.5 * (side.high - side.low)).next_up();
+                let sides = [side(0), side(1), side(2)];
+                let middle = Vector::from_array(sides.map(|s| s.low + 0.5 * (s.high - s.low)));
+                let reach =
+                    pattern_from_point.point_error(middle, Vector::from_array(sides.map(half)));
+                let values = match middle.is_finite() && reach.is_finite() {
+                    true => pattern.bounds(pattern_from_point.point(middle), reach),
+                    false => Interval { low: 0.0, high: 1.0 },
+                };
+                look_up_all(map, values)
             }
             Self::Constant(value) => Interval::point(*value),
         }
@@ -116,6 +127,17 @@ fn look_up(map: &[(f64, f64)], value: f64) -> f64 {
         Some([low, high]) => low.1 + (high.1 - low.1) * ((value - low.0) / (high.0 - low.0)),
         _ => first.1,
     }
+}
+
+/// What a map makes of all of these values.
+fn look_up_all(map: &[(f64, f64)], values: Interval) -> Interval {
+    let entries = map.iter().filter(|entry| values.contains(entry.0)).map(|entry| entry.1);
+    let ends = [look_up(map, values.low), look_up(map, values.high)];
+    let all = entries.chain(ends).map(Interval::point);
+    let Interval { low, high } = all.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING);
+    // Between two entries the value is rounded.
+    let off = 4.0 * f64::EPSILON * map.iter().fold(0.0_f64, |most, entry| most.max(entry.1.abs()));
+    Interval { low: low - off, high: high + off }
 }
 
 impl Outside for Closed {

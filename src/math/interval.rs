@@ -300,6 +300,21 @@ impl Interval {
         if wide.low <= wide.high { wide } else { Self::stepped_by_bits(low, high, steps) }
     }
 
+    /// Of two points whose sum is a number: what counts, or goes by steps, stays whole.
+    ///
+    /// **Source:** D. Knuth, "The Art of Computer Programming" 2, section 4.2.2, theorem B: the error of a sum.
+    #[inline]
+    fn exact_sum(self, other: Self) -> Option<Self> {
+        if self.low != self.high || other.low != other.high {
+            return None;
+        }
+        let (a, b) = (self.low, other.low);
+        let sum = a + b;
+        let part = sum - a;
+        let error = (a - (sum - part)) + (b - part);
+        (error == 0.0).then_some(Self::point(sum))
+    }
+
     /// For what is infinite, or no number.
     #[cold]
     fn stepped_by_bits(low: f64, high: f64, steps: usize) -> Self {
@@ -326,7 +341,10 @@ impl Add for Interval {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self::sum(self.low + other.low, self.high + other.high)
+        match self.exact_sum(other) {
+            Some(sum) => sum,
+            None => Self::sum(self.low + other.low, self.high + other.high),
+        }
     }
 }
 
@@ -334,7 +352,7 @@ impl Sub for Interval {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self::sum(self.low - other.high, self.high - other.low)
+        self + -other
     }
 }
 

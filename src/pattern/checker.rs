@@ -4,6 +4,7 @@
 
 use super::{NEAR, settled};
 use crate::math::Vector;
+use crate::math::interval::Interval;
 
 /// 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
 ///
@@ -21,6 +22,14 @@ pub fn value(point: Vector, error: Vector) -> f64 {
 
 /// The value where each coordinate is either a whole number or not [`NEAR`] one: then no error less
 /// than that changes it.
+pub fn bounds(point: Vector, reach: Vector) -> Interval {
+    let (low, high) = ((point - reach).floor(), (point + reach).floor());
+    match low == high {
+        true => Interval::point(value(point, Vector::ZERO)),
+        false => Interval { low: 0.0, high: 1.0 },
+    }
+}
+
 #[inline]
 pub fn value_off_seams(point: Vector) -> Option<f64> {
     // The sum is rounded to a whole number; its last bit says whether that is odd.

@@ -2,6 +2,7 @@
 
 use super::{Measured, NEAR, settled};
 use crate::math::Vector;
+use crate::math::interval::Interval;
 
 /// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded); `direction` has
 /// length 1.
@@ -18,6 +19,16 @@ pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
 }
 
 /// The value where it is not [`NEAR`] its jump.
+pub fn bounds(direction: Vector, point: Vector, reach: Vector) -> Interval {
+    let along = direction.dot(point);
+    let far = direction.abs().dot(reach + point.abs() * (4.0 * f64::EPSILON));
+    let (low, high) = ((along - far).next_down(), (along + far).next_up());
+    match low.floor() == high.floor() {
+        true => Interval { low: low - low.floor(), high: high - high.floor() },
+        false => Interval { low: 0.0, high: 1.0 },
+    }
+}
+
 #[inline]
 pub fn value_off_seams(direction: Vector, point: Vector) -> Option<f64> {
     let along = direction.dot(point);

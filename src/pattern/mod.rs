@@ -8,6 +8,7 @@ pub mod checker;
 pub mod gradient;
 
 use crate::math::Vector;
+use crate::math::interval::Interval;
 
 /// A number for every point of space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +39,14 @@ impl Pattern {
         match self {
             Self::Checker => Measured { value: checker::value(point, error), error: 0.0 },
             Self::Gradient { direction } => gradient::value(*direction, point, error),
+        }
+    }
+
+    /// The values of the points that are no farther than `reach` from `point` along each axis.
+    pub fn bounds(&self, point: Vector, reach: Vector) -> Interval {
+        match self {
+            Self::Checker => checker::bounds(point, reach),
+            Self::Gradient { direction } => gradient::bounds(*direction, point, reach),
         }
     }
 
