@@ -63,6 +63,9 @@ impl Cone {
         let q = -(half + (half * half - steep * rest).max(0.0).sqrt().copysign(half));
         let guesses = (q / steep, rest / q);
         let end = |far: f64, leaving| {
+            // Where it is met just there, twice as far tells so.
+            let is_told = |far: f64| height(far).is_inside() || height(far).is_outside();
+            let far = if is_told(far) { far } else { 2.0 * far };
             let last = height(far);
             if last.is_inside() {
                 return Met { t: far * f64::INFINITY, error: 0.0, leaving, part: SIDE };

@@ -45,3 +45,19 @@ fn a_camera_where_two_planes_cross_sees_what_is_between_them() {
 fn a_camera_at_the_tip_of_a_quartic_sees_what_is_in_it() {
     holds_the_ball("polynomial { 4, xyz(4, 0, 0): 1, xyz(0, 0, 4): 1, xyz(0, 4, 0): -1 }");
 }
+
+#[test]
+fn a_cone_seen_along_its_axis_is_whole_also_where_its_side_would_be_met_twice_as_far_off() {
+    for (cap, reach) in [("0.5", 14), ("0.75", 22)] {
+        let film = rendered(
+            &format!(
+                "camera {{ orthographic location 5*y direction -y right 2.03125*x up 1.53125*z }}
+                 background {{ rgb <0, 0, 1> }}
+                 cone {{ 0, 1, y, {cap} pigment {{ rgb <1, 0, 0> }} finish {{ emission 1 }} }}"
+            ),
+            (65, 49),
+        );
+        let across = (32 - reach..=32 + reach).map(|x| film.radiance[film.index(x, 24)].red);
+        assert!(across.into_iter().all(|red| red > 0.5), "{cap}");
+    }
+}
