@@ -119,7 +119,7 @@ codes! {
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
     SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant, or the reverse";
-    DeepTrace "deep-trace" lint "rays are to be followed deeper than POV-Ray follows them";
+    DeepTrace "deep-trace" warning "rays are to be followed deeper than POV-Ray follows them";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
     ColorRange "color-range" lint "a colour looks as if written as 0 to 255, or is negative";
     UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";

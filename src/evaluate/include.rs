@@ -93,9 +93,10 @@ impl Evaluator<'_> {
                         self.remembered.missing.insert(span, (name.clone(), told.clone()));
                         let reported = self.report_again(here, &told);
                         // With the file that was meant nothing behind it is lacking.
-                        match self.files.read(&meant, &from).or_else(embedded(&meant)) {
-                            Ok(found) => found,
-                            Err(_) => {
+                        let found = (!meant.is_empty()).then(|| self.found(&meant, &from));
+                        match found {
+                            Some(Ok(found)) => found,
+                            _ => {
                                 self.lacks_include = true;
                                 self.unread.insert(name);
                                 return Err(reported);

@@ -68,7 +68,8 @@ impl Evaluator<'_> {
         let span = here.unit.expression(version).span;
         let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
         let ends = behind.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']);
-        if !ends || !self.in_main() || self.options.dialect != Dialect::Pov {
+        if !ends || self.version < SINCE || !self.in_main() || self.options.dialect != Dialect::Pov
+        {
             return;
         }
         let place = span.after();

@@ -100,7 +100,11 @@ impl Surface {
         let pigment = &scene.pigments[id.index()];
         let own = transforms.product(&pigment.transforms).map_err(|f| (f, pigment.site))?;
         self.pigment = id;
-        let place = own.after(&self.places.place);
+        let Places { place, set_place, set_from_solid: before } = &*self.places;
+        if own.moves_nothing() && place == set_place && *before == set_from_solid {
+            return Ok(());
+        }
+        let place = own.after(place);
         self.places = Rc::new(Places { place, set_place: place, set_from_solid });
         Ok(())
     }
@@ -118,6 +122,9 @@ impl Surface {
 
     /// The same surface seen from outside of `outer`.
     pub fn within(&self, outer: &Affine) -> Self {
+        if outer.moves_nothing() {
+            return self.clone();
+        }
         let place = outer.after(&self.places.place);
         Self { places: Rc::new(Places { place, ..*self.places }), ..self.clone() }
     }

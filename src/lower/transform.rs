@@ -128,6 +128,12 @@ impl Affine {
 
     /// The map that first does `inner`, then this one.
     pub fn after(&self, inner: &Self) -> Self {
+        if inner.moves_nothing() {
+            return *self;
+        }
+        if self.moves_nothing() {
+            return *inner;
+        }
         let rounding = self.rounding + inner.rounding;
         let offset = self.point(inner.offset);
         // Most maps only translate: nothing is rounded then, and little is computed.
@@ -142,6 +148,11 @@ impl Affine {
             DoubleVector::new(row.dot(columns[0]), row.dot(columns[1]), row.dot(columns[2]))
         };
         Self { rows: self.rows.map(row), offset, rounding: rounding + Self::STEP_ROUNDING }
+    }
+
+    /// As most things are moved.
+    pub fn moves_nothing(&self) -> bool {
+        self.rounding == 0.0 && self.is_identity()
     }
 
     pub fn is_identity(&self) -> bool {

@@ -242,8 +242,6 @@ impl<'a> Nest<'a> {
             return false;
         }
         let (mut directives, mut parentheses, mut declares) = (0_usize, 0_usize, false);
-        // `<#local B = 3; B, 2, 1>`, and no `<1, 2` before `#declare V = <3, 4>;`.
-        let mut is_plain = false;
         for token in self.tokens[self.at..].iter().take(LONGEST_VECTOR) {
             match token.kind {
                 TokenKind::Directive(Head::End) if directives == 0 => return false,
@@ -254,10 +252,6 @@ impl<'a> Nest<'a> {
                 TokenKind::Directive(Head::Declare | Head::Local) if directives > 0 => {
                     declares = true;
                 }
-                TokenKind::Directive(Head::Declare | Head::Local) => {
-                    (declares, is_plain) = (true, true)
-                }
-                TokenKind::Mark(Mark::Less) if is_plain => return false,
                 TokenKind::Mark(Mark::Semicolon) if std::mem::take(&mut declares) => {}
                 TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
                 TokenKind::Mark(Mark::Close(Bracket::Round)) => {

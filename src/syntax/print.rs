@@ -155,8 +155,21 @@ impl Print<'_> {
             ExpressionKind::Group(of) => {
                 self.push([Task::Text("("), Task::Expression(of), Task::Text(")")]);
             }
-            ExpressionKind::GroupItems(items) => self.push(block("(", items, ")")),
+            ExpressionKind::GroupItems(items) => {
+                let inside = self.inside(items);
+                let parentheses = [[Task::Text("(")].into(), inside, [Task::Text(")")].into()];
+                self.push(parentheses.into_iter().flatten().collect::<Vec<_>>());
+            }
             ExpressionKind::Missing => {}
+        }
+    }
+
+    /// What stands between parentheses. A line that ended with a `;` would end the statement.
+    fn inside(&self, items: Items) -> Vec<Task> {
+        let all = self.ast.items(items);
+        match all.iter().any(|item| item.kind == ItemKind::Semicolon) {
+            true => all.iter().flat_map(|&item| [Task::Item(item), Task::Text(" ")]).collect(),
+            false => vec![Task::Indent, Task::Items(items), Task::Outdent, Task::Line],
         }
     }
 
@@ -173,17 +186,7 @@ impl Print<'_> {
             }
             match *argument {
                 Argument::Expression(id) => tasks.push(Task::Expression(id)),
-                Argument::Items(items) => {
-                    let items_of = self.ast.items(items);
-                    // A line that ends with a `;` would end the statement.
-                    match items_of.iter().any(|item| item.kind == ItemKind::Semicolon) {
-                        true => {
-                            let parted = |&item| [Task::Item(item), Task::Text(" ")];
-                            tasks.extend(items_of.iter().flat_map(parted));
-                        }
-                        false => tasks.extend([Task::Items(items), Task::Line]),
-                    }
-                }
+                Argument::Items(items) => tasks.extend(self.inside(items)),
             }
         }
         tasks.push(Task::Text(close));

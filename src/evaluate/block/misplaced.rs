@@ -55,7 +55,8 @@ impl Evaluator<'_> {
                 let rest = other.strip_prefix(name);
                 let is_whole = name.contains('_') || place.word == Some(Word::GlobalSettings);
                 let begins = is_whole && rest.is_some_and(|rest| rest.starts_with('_'));
-                begins || other.strip_suffix(name).is_some_and(|rest| rest.ends_with('_'))
+                let ends = || other.strip_suffix(name).is_some_and(|rest| rest.ends_with('_'));
+                begins || (home(word).is_none() && ends())
             };
             let mut words = place.words(dialect).filter(longer);
             words.next().filter(|_| words.next().is_none()).and_then(Word::from_name)

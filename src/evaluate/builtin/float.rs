@@ -13,8 +13,8 @@ use crate::math::elementary::{
 };
 use crate::vocabulary::Word;
 
-/// More than the dot product of two vectors errs by that were normalized by hand.
-const BORDER: f64 = 1e-9;
+/// 16 units in the last place of 1: more than the dot product of two normalized vectors errs by.
+const BORDER: f64 = 16.0 * f64::EPSILON;
 
 /// One or more.
 const ANY: RangeInclusive<usize> = 1..=usize::MAX;

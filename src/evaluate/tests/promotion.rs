@@ -70,3 +70,33 @@ fn the_shorter_operand_is_filled_up_by_zeros_and_a_number_by_itself() {
         assert_eq!(printed(&scene), answer, "{expression}");
     }
 }
+
+#[test]
+fn what_a_calculation_leaves_over_is_nothing_in_a_pov_file() {
+    for (scene, answer) in [
+        ("#declare I = 1; #while (I) #declare I = I - 0.1; #end P(I)", "0.000"),
+        ("P((cos(pi/2) = 0)) P((sin(pi) ? 1 : 2)) P(!1e-11)", "1.000 2.000 1.000"),
+        ("P((1e10 = 1e10 + 1)) P((0.1 + 0.2 - 0.3 <= 0))", "0.000 1.000"),
+    ] {
+        assert_eq!(printed(scene), answer, "{scene}");
+    }
+}
+
+#[test]
+fn a_number_has_a_first_component_and_an_element_is_defined_once_it_is_set() {
+    for (scene, answer) in [
+        ("#declare A = 3; #declare B = A.x; P(B) P(A.red) P(A.gray)", "3.000 3.000 0.891"),
+        (
+            "#declare Q = array[2]; #declare Q[0] = 1; P(defined(Q[0])) P(defined(Q[1]))",
+            "1.000 0.000",
+        ),
+        ("#declare A = array[2][1][2] { {{1, 2}}, {{3, 4}} } P(A[1][0][1])", "4.000"),
+    ] {
+        assert_eq!(printed(scene), answer, "{scene}");
+    }
+}
+
+#[test]
+fn declarations_stand_in_parentheses() {
+    assert_eq!(printed("#declare E = (#local B = 3; B*2); P(E)"), "6.000");
+}
