@@ -100,11 +100,13 @@ impl Isosurface {
     }
 
     /// The gradient where bounds tell no good one: at kinks and jumps, that of a wider and wider
-    /// neighbourhood; `None` where the function stays the same.
-    fn gradient_around(&self, point: Vector) -> Option<Vector> {
+    /// neighbourhood, and how wide; `None` where the function stays the same.
+    fn gradient_around(&self, point: Vector) -> Option<(Vector, f64)> {
         let steps = [1e-6, 0.1 * self.accuracy, self.accuracy, 4.0 * self.accuracy];
-        let gradients = steps.into_iter().map(|step| self.differences(point, step));
-        gradients.into_iter().find(|gradient| gradient.is_finite() && *gradient != Vector::ZERO)
+        let gradients = steps.into_iter().map(|step| (self.differences(point, step), step));
+        gradients
+            .into_iter()
+            .find(|(gradient, _)| gradient.is_finite() && *gradient != Vector::ZERO)
     }
 }
 
@@ -226,9 +228,10 @@ impl Local for Isosurface {
         if is_known && value.abs() <= self.accuracy * steepness {
             return Height { value, gradient, error: 0.5 * (high - low) };
         }
-        let gradient = self.gradient_around(point).unwrap_or(Vector::Y);
+        let (gradient, step) = self.gradient_around(point).unwrap_or((Vector::Y, 0.0));
         let (value, steepness) = (self.value(point), gradient.length());
-        if value.abs() <= self.accuracy * steepness {
+        // A value that is as large as the rise nearby is what a jump is from, and no distance.
+        if value.abs() <= 0.1 * step * steepness {
             let place = 1.0 + self.centre.length() / self.scale;
             let error = 8.0 * U * (value.abs() + self.threshold.abs() + place * steepness);
             return Height { value, gradient, error };
