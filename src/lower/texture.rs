@@ -5,9 +5,11 @@
 //! object's texture space is the space of its pattern, so that all transforms of a pigment are in
 //! the object's map and a coordinate that is constant over a flat face is one of the pattern's own.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
+
+use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::SmallVec;
 
 use super::finish::{BARE, lower_finish};
 use super::shape::LocalFace;
@@ -28,12 +30,12 @@ use crate::world::{
 /// What has been put into the World's lists of materials and maps.
 #[derive(Default)]
 pub struct Materials {
-    of_ids: BTreeMap<(PigmentId, FinishId), u32>,
+    of_ids: FxHashMap<(PigmentId, FinishId), u32>,
     /// Materials that share the numbers in which most differ; equality decides among them.
-    alike: HashMap<[u64; 6], Vec<u32>>,
-    maps: HashMap<[u64; 12], u32>,
+    alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
+    maps: FxHashMap<[u64; 12], u32>,
     /// Which places a material's origin has.
-    noted: HashSet<(u32, Part, Span)>,
+    noted: FxHashSet<(u32, Part, Span)>,
 }
 
 /// A part of a material, for the list of its places.
