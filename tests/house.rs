@@ -122,8 +122,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("smallvec", &["function/", "geometry/", "math/roots/", "shape/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
     // How wide what miette draws is.
-    ("textwrap", &["diagnostic/render.rs"]),
-    ("unicode_width", &["diagnostic/excerpt.rs"]),
+    ("unicode_width", &["diagnostic/cut.rs"]),
     ("stacker", &["evaluate/"]),
     ("gif", &["picture"]),
     ("image", &["picture"]),

@@ -2,17 +2,17 @@
 //!
 //! **In:** places in any number of files. **Out:** the lines around them, one text a run of
 //! neighbouring lines, all runs in one space of offsets, the first place's run first. **Invariant:** only those lines are
-//! copied; no line is longer than the room for it (unless labels fill it); no control or
-//! direction-changing character is left.
+//! copied; no line is wider than its window; no control or direction-changing character is left.
 
+use super::cut::{TAB, columns, parts};
 use crate::source::{FileId, Position, Sources, Span};
 
 /// A label over more lines than this is cut to its first line.
 const LONGEST_LABEL: usize = 8;
-/// The columns of a tab in miette's drawings.
-const TAB: usize = 4;
-/// Characters kept at least on both sides of the labels when a line is cut, shared among them.
-const AROUND: usize = 8;
+/// Columns beside the number of a line, and the one behind its end that a caret may need.
+const BESIDE: usize = 5;
+/// Columns beside the bars of labels over several lines.
+const BESIDE_BARS: usize = 3;
 
 /// Some neighbouring lines of one file.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,19 +34,32 @@ pub struct Excerpt {
     pub runs: Vec<Run>,
     /// For each span given: start and end offset, and the true position of its start.
     pub marks: Vec<(usize, usize, Position)>,
+    /// The columns of the longest number of a line.
+    pub digits: usize,
 }
 
 impl Excerpt {
-    /// Lines around `spans`, each with one line before and after; `room` characters a line.
-    pub fn around(spans: &[Span], sources: &Sources, room: usize) -> Self {
+    /// Lines around `spans`, each with one line before and after, for a window of `width` columns.
+    pub fn around(spans: &[Span], sources: &Sources, width: usize) -> Self {
         let spans: Vec<Span> = spans.iter().map(|&span| shortened(span, sources)).collect();
+        let lines = |span: &Span| {
+            let line = |at: u32| sources.get(span.file).position(at as usize).line;
+            (line(span.start), line(span.end))
+        };
+        let last = spans.iter().map(|span| lines(span).1 + 1).max().unwrap_or(0);
+        let digits = last.to_string().len();
+        let bars = match spans.iter().filter(|span| lines(span).0 < lines(span).1).count() {
+            0 => 0,
+            count => count + BESIDE_BARS,
+        };
+        let room = width.saturating_sub(digits + BESIDE + bars);
         let mut files: Vec<FileId> = Vec::new();
         for span in &spans {
             if !files.contains(&span.file) {
                 files.push(span.file);
             }
         }
-        let mut excerpt = Self::default();
+        let mut excerpt = Self { digits, ..Self::default() };
         for file in files {
             let here: Vec<Span> = spans.iter().copied().filter(|span| span.file == file).collect();
             excerpt.add_file(file, &here, sources, room);
@@ -116,19 +129,6 @@ impl Excerpt {
         (0..self.runs.len()).filter(|i| begin(i).is_some()).max_by_key(begin)
     }
 
-    /// The columns of a mark in its line as it is shown, from 0: where it begins, and behind its end there.
-    pub fn columns(&self, mark: usize) -> (usize, usize) {
-        let Some(&(start, end, _)) = self.marks.get(mark) else { return (0, 0) };
-        let Some(run) = self.runs.iter().rev().find(|run| run.base <= start) else { return (0, 0) };
-        let line = run.text[..start - run.base].rfind('\n').map_or(0, |at| at + 1);
-        let text = &run.text[line..];
-        let line_end = text.find('\n').unwrap_or(text.len());
-        let column = |offset: usize| {
-            text[..(offset - run.base - line).min(line_end)].chars().map(columns_of).sum()
-        };
-        (column(start), column(end))
-    }
-
     /// Where byte `at` of `file` is shown: exactly, or at the cut before it.
     fn offset(&self, file: FileId, at: usize) -> usize {
         let Some(run) = self.run(file, at).map(|i| &self.runs[i]) else { return 0 };
@@ -139,88 +139,43 @@ impl Excerpt {
 
 impl Run {
     fn add_line(&mut self, line: &str, start: usize, spans: &[Span], room: usize) {
+        let end = start + line.len();
+        let here = spans.iter().filter(|s| s.start as usize <= end && s.end as usize >= start);
+        let from = |span: &Span| (span.start as usize).max(start) - start;
+        let to = |span: &Span| (span.end as usize).min(end) - start;
+        let mut places: Vec<_> = here.map(|span| from(span)..to(span)).collect();
+        places.sort_unstable_by_key(|place| place.start);
+        // Of labels over each other, a later one may be underlined behind the line's end.
+        let mut reached = 0;
+        let behind = places.iter().filter(|place| {
+            let over = place.start < reached;
+            reached = reached.max(place.end).max(place.start + 1);
+            over
+        });
+        let room = room.saturating_sub(behind.count()).max(room / 2);
+        let drawn = self.text.len();
         let mut shown = 0;
-        for window in windows(line, start, spans, room) {
-            if window.start > shown {
+        for part in parts(line, &places, room) {
+            if part.start > shown {
                 self.text.push('…');
             }
-            for (i, c) in line[window.clone()].char_indices() {
-                self.places.push((start + window.start + i, self.text.len()));
-                push_visible(&mut self.text, c);
+            for (i, c) in line[part.clone()].char_indices() {
+                self.places.push((start + part.start + i, self.text.len()));
+                match c {
+                    '\t' => {
+                        let blanks = TAB - columns(&self.text[drawn..]) % TAB;
+                        self.text.extend(std::iter::repeat_n(' ', blanks));
+                    }
+                    _ => push_visible(&mut self.text, c),
+                }
             }
-            self.places.push((start + window.end, self.text.len()));
-            shown = window.end;
+            self.places.push((start + part.end, self.text.len()));
+            shown = part.end;
         }
         if shown < line.len() {
             self.text.push('…');
         }
         self.text.push('\n');
-    }
-}
-
-/// The parts of a line to show: all of it when there is room, else what surrounds the labels.
-fn windows(line: &str, start: usize, spans: &[Span], room: usize) -> Vec<std::ops::Range<usize>> {
-    if line.len() <= room || (line.len() <= 4 * room && line.chars().count() <= room) {
-        return std::iter::once(0..line.len()).collect();
-    }
-    let mut windows: Vec<std::ops::Range<usize>> = Vec::new();
-    let end = start + line.len();
-    let here = |span: &&Span| span.start as usize <= end && span.end as usize >= start;
-    let mut labels: Vec<_> = spans.iter().filter(here).collect();
-    labels.sort_unstable_by_key(|span| span.start);
-    let longest = room.saturating_sub(2 * AROUND + 2).max(1);
-    let places: Vec<(usize, usize)> = labels
-        .into_iter()
-        .map(|span| {
-            let from = (span.start as usize).saturating_sub(start);
-            let to = (span.end as usize).min(end) - start;
-            (from, to.min(forward(line, from, longest)))
-        })
-        .collect();
-    // What room the labels leave is shared by what stands beside them.
-    let taken: usize = places.iter().map(|&(from, to)| line[from..to].chars().count() + 2).sum();
-    let share = room.saturating_sub(taken) / (2 * places.len()).max(1);
-    let around = share.max(AROUND / places.len().max(1));
-    for (from, to) in places {
-        let window = back(line, from, around)..forward(line, to, around);
-        match windows.last_mut() {
-            Some(last) if last.end >= window.start => last.end = last.end.max(window.end),
-            _ => windows.push(window),
-        }
-    }
-    if windows.is_empty() {
-        windows.push(0..0);
-    }
-    // What is left, at a line's ends or where labels stand close to each other, goes to the last, then to the first.
-    let shown = |windows: &[std::ops::Range<usize>]| -> usize {
-        windows.iter().map(|window| line[window.clone()].chars().count() + 1).sum()
-    };
-    let spare = room.saturating_sub(shown(&windows) + 1);
-    if let Some(last) = windows.last_mut() {
-        last.end = forward(line, last.end, spare);
-    }
-    let spare = room.saturating_sub(shown(&windows) + 1);
-    if let Some(first) = windows.first_mut() {
-        first.start = back(line, first.start, spare);
-    }
-    windows
-}
-
-/// The byte `count` characters after byte `at`, or the line's end.
-fn forward(line: &str, at: usize, count: usize) -> usize {
-    line[at..].char_indices().nth(count).map_or(line.len(), |(i, _)| at + i)
-}
-
-/// The byte `count` characters before byte `at`, or 0.
-fn back(line: &str, at: usize, count: usize) -> usize {
-    line[..at].char_indices().rev().take(count).last().map_or(at, |(i, _)| i)
-}
-
-/// How many columns a character takes, as miette draws it.
-fn columns_of(c: char) -> usize {
-    match c {
-        '\t' => TAB,
-        _ => unicode_width::UnicodeWidthChar::width(c).unwrap_or(0),
     }
 }
 
@@ -249,6 +204,7 @@ pub fn push_visible(text: &mut String, c: char) {
         | '\u{200b}'..='\u{200f}'
         | '\u{2028}'..='\u{202e}'
         | '\u{2060}'..='\u{206f}'
+        | '\u{fe00}'..='\u{fe0f}'
         | '\u{feff}'
         | '\u{fff9}'..='\u{fffb}'
         | '\u{e0000}'..='\u{e0fff}' => text.push_str(&format!("‹U+{:04X}›", c as u32)),

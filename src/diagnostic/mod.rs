@@ -5,6 +5,7 @@
 
 mod allowance;
 mod code;
+mod cut;
 mod excerpt;
 pub mod json;
 mod level;
@@ -13,6 +14,7 @@ pub mod narrate;
 mod quote;
 pub mod render;
 pub mod suggest;
+mod wrap;
 
 pub use allowance::{Allowance, allowances};
 pub use code::Code;

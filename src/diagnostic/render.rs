@@ -1,17 +1,21 @@
 //! A message as a person reads it; the only file that names miette.
 //!
 //! **In:** a [`Diagnostic`] and the texts it points into. **Out:** text. **Invariant:** costs no more
-//! than the lines it shows, however long the file or its lines are; nothing the author wrote can
-//! move the cursor.
+//! than the lines it shows, however long the file or its lines are; no line is wider than the window; nothing the
+//! author wrote can move the cursor.
+
+mod beside;
 
 use std::fmt;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceSpan};
 
+use super::cut::ending;
 use super::excerpt::{Excerpt, visible, visible_untrimmed};
 use super::json::severity_name;
+use super::wrap::wrapped;
 use super::{Diagnostic, Severity};
-use crate::source::{FileId, Position, Sources, Span};
+use crate::source::{FileId, Position, Source, Sources, Span};
 
 /// How messages are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,14 +30,13 @@ impl Style {
     pub const PLAIN: Self = Self { width: 80, color: false };
 }
 
-/// Columns beside a line that its cuts may take, and a label's text does not need.
-const SPARE: usize = 3;
-/// The columns between a label's middle and its text.
-const ARM: usize = 4;
 /// A narrower window is drawn to as if it had this many columns.
 const LEAST_WIDTH: usize = 30;
-/// A label's text is broken into no shorter lines.
-const LEAST_ROOM: usize = 18;
+/// Columns that miette sets before the lines of a message and of its help, and what stays free behind them.
+const BESIDE_MESSAGE: usize = 6;
+const BESIDE_HELP: usize = 10;
+/// Columns beside the number of a line and a place in a frame's head.
+const BESIDE_PLACE: usize = 6;
 
 /// Steps of a trace that are shown; of a longer one, the innermost and the outermost.
 const TRACE_SHOWN: usize = 3;
@@ -45,19 +48,19 @@ pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String
         false => GraphicalTheme::unicode_nocolor(),
     };
     let width = style.width.max(LEAST_WIDTH);
-    let view = View::new(diagnostic, sources, width - 10);
+    let view = View::new(diagnostic, sources, width);
     let mut text = String::new();
     // Writing to a string fails only where a label lies outside of its text, and `Excerpt`
     // places every one; a bare sentence is still better than none.
     let drawn = GraphicalReportHandler::new_themed(theme)
-        .with_width(width)
+        .with_wrap_lines(false)
         .with_context_lines(1)
         .with_links(false)
         .render_report(&mut text, &view);
     if drawn.is_err() {
         text = short(diagnostic, sources) + "\n";
     }
-    text.lines().flat_map(|line| [line.trim_end(), "\n"]).collect()
+    beside::completed(&text, &view.texts, width)
 }
 
 /// The message alone, as its author laid it out; ends in a line break.
@@ -101,11 +104,13 @@ struct View {
     severity: Severity,
     labels: Vec<LabeledSpan>,
     help: Option<String>,
+    /// What the marks in the labels stand for.
+    texts: Vec<String>,
     text: Text,
 }
 
 impl View {
-    fn new(diagnostic: &Diagnostic, sources: &Sources, room: usize) -> Self {
+    fn new(diagnostic: &Diagnostic, sources: &Sources, width: usize) -> Self {
         let mut spans: Vec<(Span, String, bool)> = diagnostic
             .labels
             .iter()
@@ -113,42 +118,42 @@ impl View {
             .collect();
         spans.extend(calls(diagnostic).map(|(span, text)| (span, text, false)));
         let places: Vec<Span> = spans.iter().map(|(span, ..)| *span).collect();
-        let excerpt = Excerpt::around(&places, sources, room);
-        let labels = spans
-            .into_iter()
-            .zip(&excerpt.marks)
-            .enumerate()
-            .map(|(mark, ((_, text, primary), &(start, end, _)))| {
-                let (from, to) = excerpt.columns(mark);
-                let text = (!text.is_empty())
-                    .then(|| wrapped(&text, (room + SPARE).saturating_sub((from + to) / 2 + ARM)));
-                match primary {
-                    true => LabeledSpan::new_primary_with_span(text, (start, end - start)),
-                    false => LabeledSpan::new_with_span(text, (start, end - start)),
-                }
-            })
+        let excerpt = Excerpt::around(&places, sources, width);
+        let label = |(at, ((_, text, primary), &(start, end, _))): (usize, (&(_, String, _), &(_, _, _)))| {
+            let text = (!text.is_empty()).then(|| beside::mark(at));
+            match primary {
+                true => LabeledSpan::new_primary_with_span(text, (start, end - start)),
+                false => LabeledSpan::new_with_span(text, (start, end - start)),
+            }
+        };
+        let labels = spans.iter().zip(&excerpt.marks).enumerate().map(label).collect();
+        let help: Vec<String> = advice(diagnostic, sources)
+            .iter()
+            .flat_map(|text| wrapped(text, width - BESIDE_HELP))
             .collect();
-        let advice = advice(diagnostic, sources);
-        let names = sources.iter().map(|(_, source)| visible(&source.name)).collect::<Vec<_>>();
+        let places = excerpt.marks.iter();
+        let place = places.map(|(.., at)| format!(":{}:{}", at.line, at.column).len()).max();
+        let room = width.saturating_sub(excerpt.digits + BESIDE_PLACE + place.unwrap_or(0));
+        let name = |source: &Source, room: usize| ending(visible(&source.name), room);
+        let names = sources.iter().map(|(_, source)| name(source, room)).collect();
         // A message about the scene as a whole still says which scene.
-        let code = match (diagnostic.labels.is_empty(), names.first()) {
-            (true, Some(name)) => format!("{} in {name}", diagnostic.code.name()),
-            _ => diagnostic.code.name().to_owned(),
+        let code = diagnostic.code.name();
+        let code = match (diagnostic.labels.is_empty(), sources.iter().next()) {
+            (true, Some((_, source))) => {
+                format!("{code} in {}", name(source, width.saturating_sub(code.len() + " in ".len())))
+            }
+            _ => code.to_owned(),
         };
         Self {
             code,
-            message: visible(&diagnostic.message),
+            message: wrapped(&visible(&diagnostic.message), width - BESIDE_MESSAGE).join("\n"),
             severity: diagnostic.severity,
             labels,
-            help: (!advice.is_empty()).then(|| advice.join("\n")),
+            help: (!help.is_empty()).then(|| help.join("\n")),
+            texts: spans.into_iter().map(|(_, text, _)| text).collect(),
             text: Text { excerpt, names },
         }
     }
-}
-
-/// A label's text in lines of `room` columns, or a little more: one that stands far to the right has none.
-fn wrapped(text: &str, room: usize) -> String {
-    textwrap::wrap(text, room.max(LEAST_ROOM)).join("\n")
 }
 
 /// The calls that led here: the innermost ones and the outermost; calls from one place

@@ -207,12 +207,12 @@ fn a_narrow_window_breaks_the_labels_and_cuts_the_lines() {
 
       × unknown word `pigmnt`
        ╭─[a.scene:2:23]
-     1 │ sphere { <0, 1, 0>, 2 pigmen…
-     2 │ …, 1, 0>, 2 pigmnt { rgb <1, …
-       ·             ───┬──
-       ·                ╰─┤ not known in a
-       ·                  │ `sphere`, nor
-       ·                  │ anywhere else
+     1 │ sphere { <0, 1, 0>, 2 pigment { …
+     2 │ …<0, 1, 0>, 2 pigmnt { rgb <1, 0.…
+       ·               ───┬──
+       ·                  ╰─┤ not known in a
+       ·                    │ `sphere`, nor
+       ·                    │ anywhere else
        ╰────
       help: did you mean `pigment`, in
             which the colour of a thing
@@ -220,4 +220,47 @@ fn a_narrow_window_breaks_the_labels_and_cuts_the_lines() {
     ");
     let wide = human(&diagnostic, &sources, Style { width: 120, color: false });
     assert!(!wide.contains('…') && wide.contains("not known in a `sphere`, nor anywhere else"));
+}
+
+#[test]
+fn a_label_without_room_at_its_right_stands_left_of_its_bar() {
+    let line = format!("sphere {{ <0, 1, 0>, 2 {}pigmnt {{ rgb 1 }} }}\n", " ".repeat(34));
+    let (sources, file) = one_file("a.scene", &line);
+    let diagnostic = Diagnostic::new(Code::UnknownWord, "unknown word `pigmnt`")
+        .at(find(&sources, file, "pigmnt"), "not known in a `sphere`, nor anywhere else")
+        .also(find(&sources, file, "sphere"), "this block");
+    insta::assert_snapshot!(human(&diagnostic, &sources, Style::PLAIN), @"
+    unknown-word
+
+      × unknown word `pigmnt`
+       ╭─[a.scene:1:57]
+     1 │ sphere { <0, 1, 0>, 2                                   pigmnt { rgb 1 } }
+       · ───┬──                                                  ───┬──
+       ·    │          not known in a `sphere`, nor anywhere else ──╯
+       ·    ╰── this block
+       ╰────
+    ");
+}
+
+#[test]
+fn names_numbers_and_labels_over_lines_leave_the_window_its_width() {
+    let text = "\n".repeat(99_999) + "union {\n球\n}" + &"球".repeat(99);
+    let (sources, file) = one_file(&("folder/".repeat(30) + "a.scene"), &text);
+    let diagnostic = Diagnostic::new(Code::UnknownWord, "m").at(
+        find(&sources, file, "{\n球\n}"),
+        "this block ends here, and what it holds is known to nobody at all, nor wanted",
+    );
+    let style = Style { width: 60, color: false };
+    insta::assert_snapshot!(human(&diagnostic, &sources, style), @"
+    unknown-word
+
+      × m
+            ╭─[…er/folder/folder/folder/folder/a.scene:100000:7]
+     100000 │ ╭─▶ union {
+     100001 │ │   球
+     100002 │ ├─▶ }球球球球球球球球球球球球球球球球球球球球球…
+            · ╰───┤ this block ends here, and what it holds is
+            ·     │ known to nobody at all, nor wanted
+            ╰────
+    ");
 }

@@ -1,0 +1,115 @@
+//! Where a label's text stands: right of its bar; where it does not fit there, left of it.
+//!
+//! miette knows the right side only. It is given a mark for each text, and the rows that it drew are completed here.
+
+use super::super::cut::columns;
+use super::super::wrap::wrapped;
+
+/// A text is broken into shorter lines only where no side has this many columns.
+const COMFORT: usize = 18;
+/// Text is drawn over other labels' bars rather than in less room than this.
+const LEAST: usize = 10;
+/// The columns from a bar to its text.
+const ARM: usize = 4;
+
+/// What stands for the text of a label: no author's text holds such a character once it is visible.
+pub fn mark(label: usize) -> String {
+    format!("\u{1}{label}\u{2}")
+}
+
+/// The drawing with each mark replaced by its text, in a window of `width` columns.
+pub fn completed(drawn: &str, texts: &[String], width: usize) -> String {
+    let mut text = String::new();
+    for line in drawn.lines() {
+        let rows = row(line, texts, width).unwrap_or_else(|| vec![line.to_owned()]);
+        rows.iter().for_each(|row| text.extend([row.trim_end(), "\n"]));
+    }
+    text
+}
+
+/// The rows that a row with a mark becomes.
+fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
+    let (before, rest) = line.split_once('\u{1}')?;
+    let (label, after) = rest.split_once('\u{2}')?;
+    let text = texts.get(label.parse::<usize>().ok()?)?;
+    // Where there are colours, one begins at the bar and again at the text.
+    let Some(before) = before_code(before).0.strip_suffix("╰── ") else {
+        return Some(below_lines(before, text, after, width));
+    };
+    let (left, colour) = before_code(before);
+    let bar = plain(left).count();
+    let free = left.len() - left.trim_end_matches(' ').len();
+    let right_room = width.saturating_sub(bar + ARM);
+    let left_room = free.saturating_sub(ARM);
+    let wide = text.lines().map(columns).max().unwrap_or(0);
+    let goes_right = wide <= right_room
+        || (wide > left_room && (right_room >= COMFORT || right_room >= left_room.max(LEAST)));
+    if goes_right {
+        let lines = wrapped(text, right_room);
+        let arm = |i: usize| match (i, lines.len()) {
+            (0, 1) => "╰── ",
+            (0, _) => "╰─┤ ",
+            _ => "  │ ",
+        };
+        let draw = |(i, line): (usize, &String)| format!("{left}{colour}{}{line}{after}", arm(i));
+        return Some(lines.iter().enumerate().map(draw).collect());
+    }
+    let gutter = plain(left).position(|c| c == '·').map_or(0, |at| at + 2);
+    let lines = wrapped(text, left_room.max(LEAST.min(bar.saturating_sub(gutter + ARM - 1))));
+    let wide = lines.iter().map(|line| columns(line)).max().unwrap_or(0);
+    let left = beginning(left, (bar + 1).saturating_sub(ARM + wide));
+    let arm = |i: usize| match (i, lines.len()) {
+        (0, 1) => " ──╯",
+        (0, _) => " ├─╯",
+        _ => " │",
+    };
+    let draw = |(i, line): (usize, &String)| {
+        let pad = " ".repeat(wide - columns(line));
+        format!("{left}{colour}{line}{pad}{}{after}", arm(i))
+    };
+    Some(lines.iter().enumerate().map(draw).collect())
+}
+
+/// What stands before the code that a row ends with, and that code.
+fn before_code(row: &str) -> (&str, &str) {
+    let code = row.rfind('\u{1b}').filter(|_| row.ends_with('m'));
+    row.split_at(code.unwrap_or(row.len()))
+}
+
+/// The text of a label over several lines, which stands below the last of them.
+fn below_lines(before: &str, text: &str, after: &str, width: usize) -> Vec<String> {
+    let lines = wrapped(text, width.saturating_sub(plain(before).count()).max(LEAST));
+    let (arm, end) = before.rsplit_once('─').unwrap_or((before, ""));
+    let bars = arm.replace(['╰', '─'], " ");
+    let draw = |(i, line): (usize, &String)| match (i, lines.len()) {
+        (0, 1) => format!("{before}{line}{after}"),
+        (0, _) => format!("{arm}┤{end}{line}{after}"),
+        _ => format!("{bars}│{end}{line}{after}"),
+    };
+    lines.iter().enumerate().map(draw).collect()
+}
+
+/// The characters of a row with, for each, whether it is seen, or is part of a code that colours.
+fn seen(row: &str) -> impl Iterator<Item = (char, bool)> {
+    let mut code = false;
+    row.chars().map(move |c| {
+        let begins = c == '\u{1b}';
+        let seen = !code && !begins;
+        code = begins || (code && c != 'm');
+        (c, seen)
+    })
+}
+
+fn plain(row: &str) -> impl Iterator<Item = char> {
+    seen(row).filter(|(_, seen)| *seen).map(|(c, _)| c)
+}
+
+/// The first columns of a row, with all its colours.
+fn beginning(row: &str, count: usize) -> String {
+    let mut kept = 0;
+    let keep = |&(_, seen): &(char, bool)| {
+        kept += usize::from(seen);
+        !seen || kept <= count
+    };
+    seen(row).filter(keep).map(|(c, _)| c).collect()
+}
