@@ -21,6 +21,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::mend::{apply, mend};
+use lucarne::diagnostic::render::{Style, human};
 use lucarne::diagnostic::{Code, Diagnostic, Level, Levels, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
@@ -359,6 +360,135 @@ fn a_fix_leaves_fewer_messages_and_none_new_and_mending_again_changes_nothing() 
     let failures: Vec<String> =
         corpus().iter().map(bad_fixes).filter(|failure| !failure.is_empty()).collect();
     assert!(failures.is_empty(), "{} cases\n{}", failures.len(), failures.concat());
+}
+
+/// What stands on a screen: a report without the codes that colour it.
+fn uncoloured(text: &str) -> String {
+    let mut parts = text.split('\u{1b}');
+    let first = parts.next().unwrap_or("").to_owned();
+    parts.fold(first, |seen, part| seen + part.split_once('m').map_or(part, |(_, rest)| rest))
+}
+
+/// The columns of a screen that a line fills, each with its character.
+fn screen(line: &str) -> Vec<char> {
+    let columns = |c: char| unicode_width::UnicodeWidthChar::width(c).unwrap_or(8);
+    line.chars().flat_map(|c| std::iter::repeat_n(c, columns(c))).collect()
+}
+
+/// Whether one of the lines drawn shows the place of a label over what is drawn below it.
+fn is_underlined(span: Span, sources: &Sources, lines: &[&str]) -> bool {
+    let source = sources.get(span.file);
+    let number = source.position(span.start as usize).line.to_string();
+    let marked = sources.text(span).replace(['\t', ' '], "");
+    let marked = marked.replace('\u{200d}', "‹U+200D›").replace('\u{fe0f}', "‹U+FE0F›");
+    lines.windows(2).any(|pair| {
+        let row = pair[0].split_once(" │").filter(|(left, _)| left.trim() == number);
+        let (Some(_), true) = (row, pair[1].contains(['─', '┬', '▲'])) else { return false };
+        let (text, below) = (screen(pair[0]), screen(pair[1]));
+        let over: Vec<String> = below
+            .iter()
+            .enumerate()
+            .skip_while(|(_, c)| **c != '·')
+            .skip(1)
+            .map(|(at, c)| (text.get(at).copied().unwrap_or(' '), matches!(c, '─' | '┬' | '▲')))
+            .collect::<Vec<_>>()
+            .split(|(_, marks)| !marks)
+            .filter(|run| !run.is_empty())
+            .map(|run| run.iter().map(|(c, _)| *c).filter(|c| *c != ' ').collect())
+            .collect();
+        let whole: String = screen(&marked).into_iter().collect();
+        over.iter().any(|over| {
+            let begun = over.trim_end_matches('…');
+            over.contains(&whole)
+                || (pair[0].contains('…') && !begun.is_empty() && whole.contains(begun))
+        })
+    })
+}
+
+/// What is wrong with how a message is drawn, in windows of two widths, with and without colour.
+fn bad_drawing(one: &Diagnostic, sources: &Sources) -> String {
+    let mut wrong = String::new();
+    for width in [80, 60] {
+        let plain = human(one, sources, Style { width, color: false });
+        let coloured = uncoloured(&human(one, sources, Style { width, color: true }));
+        for line in plain.lines().filter(|line| screen(line).len() > width) {
+            wrong += &format!("  ! {} of {width} columns: {line}\n", screen(line).len());
+        }
+        if plain != coloured {
+            wrong += &format!("  ! colour moves what it colours:\n{plain}{coloured}");
+        }
+        let lines: Vec<&str> = plain.lines().collect();
+        for label in &one.labels {
+            let text = sources.text(label.span);
+            let seen = text.chars().all(|c| !c.is_control() || c == '\t');
+            if seen && !is_underlined(label.span, sources, &lines) {
+                wrong += &format!("  ! `{text}` is not underlined:\n{plain}");
+            }
+        }
+    }
+    wrong
+}
+
+/// Scenes whose lines, words and names do not fit into a window, each with a mistake.
+fn wide_cases() -> Vec<(String, String)> {
+    let named = |name: &str, scene: String| (name.to_owned(), scene);
+    let folder = "a folder with a long name/and another one in it/".repeat(3);
+    let row = "sphere { <0, 1, 0>, 2 } ".repeat(9);
+    let word = "Pigment".repeat(30);
+    let blocks: String = (0..40).map(|i| format!("union {{ // {i}\n")).collect();
+    vec![
+        named("a.scene", format!("{row}shpere {{ 0, 1 }} {row}")),
+        named("a.scene", format!("{}\n{row}\nshpere {{ 0, 1 }}\n{row}", "\n".repeat(123_455))),
+        named("a.scene", format!("{row}sphere {{ 0, 1 pigment {{ rgb 1 }} pigmnt {{ rgb 1 }} }}")),
+        named("a.scene", format!("sphere {{ 0, 1 {word} {{ rgb 1 }} }}")),
+        named("a.scene", format!("#declare {word} = 1; sphere {{ 0, {word}s }}")),
+        named("a.scene", format!("{}shpere {{ 0, 1 }}", "\t".repeat(30))),
+        named("a.scene", "\tsphere\t{\t0,\t1\t}\tshpere\t{ 0, 1 }".to_owned()),
+        named(
+            "a.scene",
+            format!("/* {} */ shpere {{ 0, 1 }} // {}", "球".repeat(40), "球".repeat(40)),
+        ),
+        named(
+            "a.scene",
+            format!("/* {} */ shpere {{ 0, 1 }}", "é👩\u{200d}🚀❤\u{fe0f}e\u{301}".repeat(20)),
+        ),
+        named("a.scene", format!("#error \"{}\"", "球と円柱と".repeat(30))),
+        named("a.scene", format!("#error \"{}\"", "a\tb\tlong ".repeat(30))),
+        named("a.scene", format!("#warning \"{}\"", "x".repeat(300))),
+        named("a.scene", format!("#include \"{folder}b.inc\"")),
+        named(&format!("{folder}c.scene"), "shpere { 0, 1 }".to_owned()),
+        named(&format!("{folder}d.scene"), "sphere { 0, 1 pigment { rgb 1 } }".to_owned()),
+        named(&format!("{}.scene", "球".repeat(60)), "shpere { 0, 1 }".to_owned()),
+        named("a.scene", blocks),
+        named(
+            "a.scene",
+            format!(
+                "{}#macro A(B) sphere {{ 0, B }} #end {}A(1, 2)",
+                " ".repeat(30),
+                " ".repeat(20)
+            ),
+        ),
+        named("a.scene", format!("sphere {{ 0, 1{}", " ".repeat(90))),
+    ]
+}
+
+#[test]
+fn no_message_is_wider_than_its_window_and_each_label_is_under_its_text() {
+    let mut wrong = Vec::new();
+    let mut look = |title: String, (found, sources): (Vec<Diagnostic>, Sources)| {
+        let bad: String = found.iter().map(|one| bad_drawing(one, &sources)).collect();
+        if !bad.is_empty() {
+            wrong.push(format!("{title}\n{bad}"));
+        }
+    };
+    for case in corpus() {
+        let title = format!("{}:{} {}", case.file, case.line, case.title);
+        look(title, messages(case.name(), case.bytes(&case.scene), &case.files()));
+    }
+    for (at, (name, scene)) in wide_cases().into_iter().enumerate() {
+        look(format!("wide case {at}"), messages(&name, scene.into_bytes(), &Includes::default()));
+    }
+    assert!(wrong.is_empty(), "{} cases\n{}", wrong.len(), wrong.concat());
 }
 
 fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -92,7 +92,9 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
         let part = back(line, place.start, around)..forward(line, place.end, around);
         match parts.last_mut() {
             // An `…` for one column would gain none.
-            Some(last) if forward(line, last.end, 1) >= part.start => last.end = last.end.max(part.end),
+            Some(last) if forward(line, last.end, 1) >= part.start => {
+                last.end = last.end.max(part.end)
+            }
             _ => parts.push(part),
         }
     }

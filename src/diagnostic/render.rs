@@ -119,14 +119,15 @@ impl View {
         spans.extend(calls(diagnostic).map(|(span, text)| (span, text, false)));
         let places: Vec<Span> = spans.iter().map(|(span, ..)| *span).collect();
         let excerpt = Excerpt::around(&places, sources, width);
-        let label = |(at, ((_, text, primary), &(start, end, _))): (usize, (&(_, String, _), &(_, _, _)))| {
+        let marks = excerpt.marks.iter().map(|&(start, end, _)| (start, end - start));
+        let labels = spans.iter().zip(marks).enumerate().map(|(at, ((_, text, primary), mark))| {
             let text = (!text.is_empty()).then(|| beside::mark(at));
             match primary {
-                true => LabeledSpan::new_primary_with_span(text, (start, end - start)),
-                false => LabeledSpan::new_with_span(text, (start, end - start)),
+                true => LabeledSpan::new_primary_with_span(text, mark),
+                false => LabeledSpan::new_with_span(text, mark),
             }
-        };
-        let labels = spans.iter().zip(&excerpt.marks).enumerate().map(label).collect();
+        });
+        let labels = labels.collect();
         let help: Vec<String> = advice(diagnostic, sources)
             .iter()
             .flat_map(|text| wrapped(text, width - BESIDE_HELP))
@@ -134,16 +135,16 @@ impl View {
         let places = excerpt.marks.iter();
         let place = places.map(|(.., at)| format!(":{}:{}", at.line, at.column).len()).max();
         let room = width.saturating_sub(excerpt.digits + BESIDE_PLACE + place.unwrap_or(0));
-        let name = |source: &Source, room: usize| ending(visible(&source.name), room);
+        let name = |source: &Source, room: usize| {
+            ending(visible(&source.name).replace('\t', "␉").replace('\n', "␊"), room)
+        };
         let names = sources.iter().map(|(_, source)| name(source, room)).collect();
         // A message about the scene as a whole still says which scene.
-        let code = diagnostic.code.name();
-        let code = match (diagnostic.labels.is_empty(), sources.iter().next()) {
-            (true, Some((_, source))) => {
-                format!("{code} in {}", name(source, width.saturating_sub(code.len() + " in ".len())))
-            }
-            _ => code.to_owned(),
-        };
+        let mut code = diagnostic.code.name().to_owned();
+        if let (true, Some((_, source))) = (diagnostic.labels.is_empty(), sources.iter().next()) {
+            code += " in ";
+            code += &name(source, width.saturating_sub(code.len()));
+        }
         Self {
             code,
             message: wrapped(&visible(&diagnostic.message), width - BESIDE_MESSAGE).join("\n"),

@@ -11,6 +11,16 @@ pub fn wrapped(text: &str, room: usize) -> Vec<String> {
     text.split('\n').flat_map(|line| broken(line, room)).collect()
 }
 
+/// As [`wrapped`], in lines about as long as each other: the narrowest that are no more, and break no word more.
+pub fn balanced(text: &str, room: usize) -> Vec<String> {
+    let lines = wrapped(text, room);
+    let widest = text.lines().flat_map(words).map(|word| columns(word.trim_end())).max();
+    (widest.unwrap_or(room)..room)
+        .map(|narrower| wrapped(text, narrower))
+        .find(|others| others.len() == lines.len())
+        .unwrap_or(lines)
+}
+
 fn broken(text: &str, room: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
@@ -72,13 +82,19 @@ mod tests {
     #[test]
     fn a_text_breaks_between_words_and_keeps_its_own_lines_and_its_code_whole() {
         assert_eq!(wrapped("one two three", 9), ["one two", "three"]);
-        assert_eq!(wrapped("write `pigment { rgb 1 }` there", 21), [
-            "write",
-            "`pigment { rgb 1 }`",
-            "there"
-        ]);
+        assert_eq!(
+            wrapped("write `pigment { rgb 1 }` there", 21),
+            ["write", "`pigment { rgb 1 }`", "there"]
+        );
         assert_eq!(wrapped("a\n\n  b  c", 9), ["a", "", "  b  c"]);
         assert_eq!(wrapped("one ` is alone", 9), ["one ` is", "alone"]);
+    }
+
+    #[test]
+    fn balanced_lines_leave_no_word_alone_and_no_code_broken() {
+        assert_eq!(balanced("one two three four", 14), ["one two", "three four"]);
+        assert_eq!(balanced("it is `a b c d` here now", 18), ["it is `a b c d`", "here now"]);
+        assert_eq!(balanced("one two", 14), ["one two"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! miette knows the right side only. It is given a mark for each text, and the rows that it drew are completed here.
 
 use super::super::cut::columns;
-use super::super::wrap::wrapped;
+use super::super::wrap::balanced;
 
 /// A text is broken into shorter lines only where no side has this many columns.
 const COMFORT: usize = 18;
@@ -45,7 +45,7 @@ fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
     let goes_right = wide <= right_room
         || (wide > left_room && (right_room >= COMFORT || right_room >= left_room.max(LEAST)));
     if goes_right {
-        let lines = wrapped(text, right_room);
+        let lines = balanced(text, right_room);
         let arm = |i: usize| match (i, lines.len()) {
             (0, 1) => "╰── ",
             (0, _) => "╰─┤ ",
@@ -55,7 +55,7 @@ fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
         return Some(lines.iter().enumerate().map(draw).collect());
     }
     let gutter = plain(left).position(|c| c == '·').map_or(0, |at| at + 2);
-    let lines = wrapped(text, left_room.max(LEAST.min(bar.saturating_sub(gutter + ARM - 1))));
+    let lines = balanced(text, left_room.max(LEAST.min(bar.saturating_sub(gutter + ARM - 1))));
     let wide = lines.iter().map(|line| columns(line)).max().unwrap_or(0);
     let left = beginning(left, (bar + 1).saturating_sub(ARM + wide));
     let arm = |i: usize| match (i, lines.len()) {
@@ -78,7 +78,7 @@ fn before_code(row: &str) -> (&str, &str) {
 
 /// The text of a label over several lines, which stands below the last of them.
 fn below_lines(before: &str, text: &str, after: &str, width: usize) -> Vec<String> {
-    let lines = wrapped(text, width.saturating_sub(plain(before).count()).max(LEAST));
+    let lines = balanced(text, width.saturating_sub(plain(before).count()).max(LEAST));
     let (arm, end) = before.rsplit_once('─').unwrap_or((before, ""));
     let bars = arm.replace(['╰', '─'], " ");
     let draw = |(i, line): (usize, &String)| match (i, lines.len()) {

@@ -259,8 +259,8 @@ fn names_numbers_and_labels_over_lines_leave_the_window_its_width() {
      100000 │ ╭─▶ union {
      100001 │ │   球
      100002 │ ├─▶ }球球球球球球球球球球球球球球球球球球球球球…
-            · ╰───┤ this block ends here, and what it holds is
-            ·     │ known to nobody at all, nor wanted
+            · ╰───┤ this block ends here, and what it holds
+            ·     │ is known to nobody at all, nor wanted
             ╰────
     ");
 }
