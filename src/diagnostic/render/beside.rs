@@ -1,12 +1,10 @@
-//! Where a label's text stands: right of its bar; where it does not fit there, left of it.
+//! Where a label's text stands: right of its bar; where it does not fit there, left of it, if that takes fewer rows.
 //!
 //! miette knows the right side only. It is given a mark for each text, and the rows that it drew are completed here.
 
 use super::super::cut::columns;
-use super::super::wrap::balanced;
+use super::super::wrap::{balanced, wrapped};
 
-/// A text is broken into shorter lines only where no side has this many columns.
-const COMFORT: usize = 18;
 /// Text is drawn over other labels' bars rather than in less room than this.
 const LEAST: usize = 10;
 /// The columns from a bar to its text.
@@ -42,8 +40,12 @@ fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
     let right_room = width.saturating_sub(bar + ARM);
     let left_room = free.saturating_sub(ARM);
     let wide = text.lines().map(columns).max().unwrap_or(0);
+    let rows = |room: usize| match room < LEAST {
+        true => usize::MAX,
+        false => wrapped(text, room).len(),
+    };
     let goes_right = wide <= right_room
-        || (wide > left_room && (right_room >= COMFORT || right_room >= left_room.max(LEAST)));
+        || (wide > left_room && right_room >= LEAST && rows(right_room) <= rows(left_room));
     if goes_right {
         let lines = balanced(text, right_room);
         let arm = |i: usize| match (i, lines.len()) {
