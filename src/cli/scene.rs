@@ -33,7 +33,7 @@ pub struct SceneArguments {
     /// (`render` writes them; other commands say what it would write)
     #[arg(long)]
     pub allow_write: bool,
-    /// Warn about what is probably a mistake, in `.pov` files too
+    /// Warn about all that is probably a mistake, in `.pov` files too
     #[arg(long)]
     lint: bool,
     /// Treat warnings as errors

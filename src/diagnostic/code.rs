@@ -25,6 +25,11 @@ macro_rules! codes {
                 match self { $(Code::$variant => codes!(@lint $severity)),* }
             }
 
+            /// True for a lint that is told of a `.pov`, too: of what no finished scene has.
+            pub fn is_sure(self) -> bool {
+                match self { $(Code::$variant => codes!(@sure $severity)),* }
+            }
+
             /// True for a lint that is told only where it is asked for by name, or with all others: here
             /// nothing is wrong.
             pub fn is_quiet(self) -> bool {
@@ -58,11 +63,15 @@ macro_rules! codes {
     (@severity error) => { Severity::Error };
     (@severity warning) => { Severity::Warning };
     (@severity lint) => { Severity::Warning };
+    (@severity sure) => { Severity::Warning };
     (@severity quiet) => { Severity::Warning };
     (@severity note) => { Severity::Note };
     (@lint lint) => { true };
+    (@lint sure) => { true };
     (@lint quiet) => { true };
     (@lint $other:ident) => { false };
+    (@sure sure) => { true };
+    (@sure $other:ident) => { false };
     (@quiet quiet) => { true };
     (@quiet $other:ident) => { false };
 }
@@ -113,33 +122,33 @@ codes! {
     EmptyScene "empty-scene" lint "the scene shows nothing";
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";
     NeverPlaced "never-placed" lint "a declared object is never placed in the scene";
-    NothingInView "nothing-in-view" lint "every object lies outside of what the camera sees";
+    NothingInView "nothing-in-view" sure "every object lies outside of what the camera sees";
     FarAway "far-away" lint "an object is too far from the camera, for its size, to be drawn exactly";
-    LowIor "low-ior" lint "an index of refraction is below 1";
+    LowIor "low-ior" sure "an index of refraction is below 1";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
-    SuspiciousUnit "suspicious-unit" lint "an angle looks like radians where degrees are meant, or the reverse";
+    SuspiciousUnit "suspicious-unit" sure "an angle looks like radians where degrees are meant, or the reverse";
     DeepTrace "deep-trace" warning "rays are to be followed deeper than POV-Ray follows them";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
-    ColorRange "color-range" lint "a colour looks as if written as 0 to 255, or is negative";
+    ColorRange "color-range" sure "a colour looks as if written as 0 to 255, or is negative";
     UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
     UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";
-    EnclosedLight "enclosed-light" lint "a light stands inside an opaque object, and lights nothing outside of it";
+    EnclosedLight "enclosed-light" sure "a light stands inside an opaque object, and lights nothing outside of it";
     TooClear "too-clear" lint "a colour is clearer than it can be";
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
-    NegativeSize "negative-size" lint "a radius is negative; its absolute value is used";
+    NegativeSize "negative-size" sure "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     OpenOutline "open-outline" lint "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
-    UnsortedMap "unsorted-map" lint "the entries of a map are not in rising order";
+    UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
-    NeverRuns "never-runs" lint "a loop counts away from its end, so it has no turn";
-    CountedTwice "counted-twice" lint "a `#for` that counts by itself is counted on in its body, too";
+    NeverRuns "never-runs" sure "a loop counts away from its end, so it has no turn";
+    CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
-    ShortFile "short-file" lint "a file of values ends in the middle of what `#read` reads together";
+    ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
     ReplacedPigment "replaced-pigment" lint "an object has two pigments; the last one is used";
-    RepeatedParameter "repeated-parameter" lint "two parameters of a macro have one name";
+    RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
     UnknownLint "unknown-lint" lint "a comment that is to silence a warning does not";
     // files
@@ -148,7 +157,7 @@ codes! {
     ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
     ForeignFile "foreign-file" error "a file is another program's, and no scene";
     MalformedMesh "malformed-mesh" error "a mesh's file is not what its format says, or of no format that is read";
-    IncompleteMesh "incomplete-mesh" lint "a mesh's file asks for what is not there, or not read";
+    IncompleteMesh "incomplete-mesh" sure "a mesh's file asks for what is not there, or not read";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
     StandInFont "stand-in-font" lint "a font of POV-Ray's is not there, and the built-in one is used";
     // limits

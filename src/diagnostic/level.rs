@@ -19,7 +19,7 @@ pub enum Level {
 /// The level of every code that warns.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Levels {
-    /// Lints are told: not the quiet ones.
+    /// All lints are told but the quiet ones; otherwise only the sure ones are.
     lints: bool,
     /// The scene is whole: that it shows nothing is told in any case.
     whole: bool,
@@ -29,7 +29,7 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Lints told, but for the quiet ones; or none.
+    /// All lints told but the quiet ones; or only the sure ones.
     pub fn new(lints: bool) -> Self {
         Self { lints, ..Self::default() }
     }
@@ -56,7 +56,10 @@ impl Levels {
     /// Of a code that warns; of an error and of a note, none.
     pub fn of(&self, code: Code) -> Option<Level> {
         let of_whole = matches!(code, Code::NoLight | Code::EmptyScene);
-        let is_told = !code.is_lint() || self.lints && !code.is_quiet() || self.whole && of_whole;
+        let is_told = !code.is_lint()
+            || code.is_sure()
+            || self.lints && !code.is_quiet()
+            || self.whole && of_whole;
         let unnamed = self.all.unwrap_or(if is_told { Level::Warn } else { Level::Allow });
         code.warns().then(|| self.named.get(&code).copied().unwrap_or(unnamed))
     }
@@ -80,13 +83,21 @@ mod tests {
     #[test]
     fn a_named_warning_has_its_own_level_and_an_error_none() {
         let mut levels = Levels::new(false);
-        assert_eq!(levels.of(Code::ColorRange), Some(Level::Allow));
-        levels.set(Code::ColorRange, Level::Deny);
+        assert_eq!(levels.of(Code::UnusedDeclaration), Some(Level::Allow));
+        levels.set(Code::UnusedDeclaration, Level::Deny);
         levels.set_all(Level::Warn);
-        assert_eq!(levels.of(Code::ColorRange), Some(Level::Deny));
+        assert_eq!(levels.of(Code::UnusedDeclaration), Some(Level::Deny));
         assert_eq!(levels.of(Code::NoLight), Some(Level::Warn));
         assert_eq!(levels.of(Code::UnknownWord), None);
         assert_eq!(Levels::new(false).of(Code::AuthorWarning), Some(Level::Warn));
+    }
+
+    #[test]
+    fn a_sure_lint_is_told_of_all_and_can_be_silenced() {
+        let mut levels = Levels::new(false);
+        assert_eq!(levels.of(Code::SuspiciousUnit), Some(Level::Warn));
+        levels.set_all(Level::Allow);
+        assert_eq!(levels.of(Code::SuspiciousUnit), Some(Level::Allow));
     }
 
     #[test]

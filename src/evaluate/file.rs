@@ -129,7 +129,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// A name that nothing has opened; where one file is open, that is meant.
+    /// A name that nothing has opened; one like it that is to be opened is meant, or the only one.
     fn unknown_file(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         let ast = &here.unit.ast;
         let opens = |directive: &Directive| match directive.kind {
@@ -138,17 +138,16 @@ impl Evaluator<'_> {
         };
         let files: BTreeSet<String> = ast.directives.iter().filter_map(opens).collect();
         let text = self.sources.text(span).to_owned();
-        let one = files
-            .first()
-            .filter(|file| files.len() == 1 && suggest::closest(&text, [file.as_str()]).is_none());
-        let Some(file) = one else {
+        let only = files.first().filter(|_| files.len() == 1).map(String::as_str);
+        let near = suggest::closest(&text, files.iter().map(String::as_str));
+        let Some(file) = near.or(only) else {
             return self.undeclared_among(here, symbol, span, |_| false);
         };
         let message = format!("`{text}` is not declared: no `#fopen` has opened it");
         let mut diagnostic = Diagnostic::new(Code::UndeclaredName, message)
             .at(span, "expected the name of an open file")
             .help(format!("did you mean `{file}`?"))
-            .fix(span, file.as_str());
+            .fix(span, file);
         let declared = self.scopes.symbol(file).and_then(|symbol| self.scopes.declared(symbol));
         if let Some(declared) = declared {
             diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));

@@ -7,7 +7,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
-use crate::syntax::ast::{ExpressionId, ItemKind};
+use crate::syntax::ast::{ExpressionId, ExpressionKind, ItemKind};
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::block::Place;
@@ -38,6 +38,9 @@ impl Evaluator<'_> {
             }
             return;
         }
+        if numeric && self.two_values(head) {
+            return;
+        }
         // What else stands behind the value is a mistake of its own.
         let ends = matches!(
             self.peek_on().map(|token| &token.kind),
@@ -61,6 +64,37 @@ impl Evaluator<'_> {
             return;
         }
         self.report_in(last.expansion, diagnostic);
+    }
+
+    /// `#declare Area = 2 pi*R;`, with no sign between two values on one line: takes the second, and its `;`.
+    fn two_values(&mut self, head: Span) -> bool {
+        let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek_on().cloned()
+        else {
+            return false;
+        };
+        let Some(last) = self.taken.map(|last| last.span) else { return false };
+        let is_behind = last.file == span.file && last.start >= head.start && last.end < span.start;
+        let between = Span { start: last.end, end: span.start, ..span };
+        let is_object = match here.unit.expression(id).kind {
+            ExpressionKind::Name(name) => {
+                matches!(self.scopes.read(here.symbol(name)), Some(Value::Object(_)))
+            }
+            _ => false,
+        };
+        if !is_behind || is_object || self.sources.text(between).contains(|c| c != ' ' && c != '\t')
+        {
+            return false;
+        }
+        self.next();
+        self.pass(ItemKind::Semicolon);
+        let [one, other] = [last, span].map(|span| self.sources.text(span).to_owned());
+        let diagnostic =
+            Diagnostic::new(Code::ExtraPart, "no sign stands between two values")
+                .at(span, format!("expected an operator before `{other}`"))
+                .help(format!("a product is written with `*`: `{one}*{other}`"))
+                .fix(between, "*");
+        self.report(&here, diagnostic);
+        true
     }
 
     /// `#version 3.7`, of which POV-Ray says no more than that it may be a mistake.

@@ -11,7 +11,7 @@ use std::ops::Range;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{Ast, Body, DirectiveKind, Item, ItemKind, Items};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 /// Behind so many faults nothing is certain any more.
 const MOST_FAULTS: usize = 100;
@@ -173,9 +173,25 @@ impl<'a> Statements<'a> {
     /// From where on statements have nothing to do with a fault within a block.
     fn others(&self, code: Code, fault: Span) -> u32 {
         match self.block_around(fault) {
-            Some(_) if !code.shifts_what_follows() => self.certain_after(fault),
+            Some(_) if !code.shifts_what_follows() => {
+                self.certain_after(fault).min(self.statement_around(fault).unwrap_or(u32::MAX))
+            }
             _ => u32::MAX,
         }
+    }
+
+    /// Where the innermost object, light or camera around a place ends: in a union another may follow.
+    fn statement_around(&self, place: Span) -> Option<u32> {
+        let holds = |pair: &&[Item]| {
+            let (ItemKind::Word(word), ItemKind::Block(_)) = (pair[0].kind, pair[1].kind) else {
+                return false;
+            };
+            let block = pair[1].span;
+            let is_whole = matches!(word.family(), Family::Shape | Family::Csg)
+                || matches!(word, Word::Object | Word::LightSource | Word::Camera);
+            is_whole && block.start < place.start && place.start < block.end
+        };
+        self.ast.items.windows(2).filter(holds).map(|pair| pair[1].span.end).min()
     }
 
     /// Where the innermost block around a place ends.

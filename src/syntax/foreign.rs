@@ -1,4 +1,4 @@
-//! Knows a file that is another program's and no scene: a web page, a mesh, a script.
+//! Knows a file that is another program's and no scene: a web page, a mesh, a script, a picture.
 //!
 //! **In:** a text. **Out:** what it is, and where it begins. **Invariant:** a text with a line that begins
 //! as a scene's lines do is a scene, whatever else stands in it; one message then says it all.
@@ -23,11 +23,40 @@ const PROGRAM: &str = "run it with its own program, and give what it writes";
 pub(super) fn foreign(text: &str, file: FileId) -> Option<Diagnostic> {
     let start = text.len() - text.trim_start().len();
     let body = &text[start..];
-    let Kind { name, help } = by_its_start(body).or_else(|| by_its_lines(body))?;
+    let Kind { name, help } =
+        by_its_mark(text).or_else(|| by_its_start(body)).or_else(|| by_its_lines(body))?;
     let first = body.find(char::is_whitespace).unwrap_or(body.len());
     let span = Span::new(file, start, start + first);
     let message = format!("this is {name}, not a scene");
     Some(Diagnostic::new(Code::ForeignFile, message).at(span, "the file begins so").help(help))
+}
+
+/// What is no text. Bytes that are not UTF-8 were read as Latin-1.
+fn by_its_mark(text: &str) -> Option<Kind> {
+    const PICTURE: &str = "a picture belongs into a pigment, or a height field";
+    const MARKS: [(&str, &str, &str); 14] = [
+        ("\u{89}PNG", "a picture in PNG", PICTURE),
+        ("\u{ff}\u{d8}\u{ff}", "a picture in JPEG", PICTURE),
+        ("GIF8", "a picture in GIF", PICTURE),
+        ("II*\0", "a picture in TIFF", PICTURE),
+        ("MM\0*", "a picture in TIFF", PICTURE),
+        ("RIFF", "a picture, a sound or a film (RIFF)", PICTURE),
+        ("%PDF-", "a PDF document", "copy the scene's text out of it"),
+        ("PK\u{3}\u{4}", "an archive (ZIP)", "unpack it first"),
+        ("\u{1f}\u{8b}", "a compressed file (gzip)", "unpack it first"),
+        ("\u{7f}ELF", "a program for the machine", PROGRAM),
+        ("glTF\u{2}\0", "a mesh in glTF", MESH),
+        ("BLENDER", "a scene of Blender's", "export it first"),
+        ("\u{ff}\u{fe}", "a text in UTF-16", "save it as UTF-8"),
+        ("\u{fe}\u{ff}", "a text in UTF-16", "save it as UTF-8"),
+    ];
+    let marked = MARKS.iter().find(|(mark, ..)| text.starts_with(mark));
+    if let Some(&(_, name, help)) = marked {
+        return Some(Kind { name, help });
+    }
+    // No text has several zeros near its start.
+    let zeros = text.bytes().take(4096).filter(|byte| *byte == 0).count();
+    (zeros > 2).then_some(Kind { name: "no text", help: "a scene is a text file" })
 }
 
 /// Forms that say in their first characters what they are.

@@ -146,10 +146,49 @@ impl Reader<'_> {
         true
     }
 
+    /// `１２．５`, as a keyboard for Chinese or Japanese writes digits.
+    fn wide_number(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_wide = |text: &str| text.chars().all(|c| matches!(c, '０'..='９' | '．'));
+        if !is_wide(self.slice(0)) {
+            return false;
+        }
+        let mut end = 1;
+        while self.touches(end)
+            && (self.kind(end) == Some(TokenKind::Number) || is_wide(self.slice(end)))
+        {
+            end += 1;
+        }
+        let before = self.number_before(meant);
+        let here = self.span(0, end - 1);
+        let span = Span { start: before.map_or(here.start, |before| before.start), ..here };
+        let text = self.text.get(span.range()).unwrap_or("");
+        let narrow = |c: char| match c {
+            '０'..='９' | '．' => char::from_u32(c as u32 - '０' as u32 + '0' as u32).unwrap_or(c),
+            c => c,
+        };
+        let number: String = text.chars().map(narrow).collect();
+        if number.parse::<f64>().is_err() {
+            return false;
+        }
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(span, "its digits are wide ones, of another alphabet")
+                .help(format!("write `{number}`"))
+                .fix(span, number),
+        );
+        let stand_in = Token { kind: STAND_IN, end: span.end, ..self.tokens[self.at] };
+        match (before, meant.last_mut()) {
+            (Some(_), Some(whole)) => (whole.kind, whole.end) = (STAND_IN, span.end),
+            _ => meant.push(stand_in),
+        }
+        self.at += end;
+        true
+    }
+
     /// A sign that looks like one of the language's.
     pub(super) fn sign(&mut self, meant: &mut Vec<Token>) -> bool {
         let text = self.slice(0).to_owned();
-        if self.raised_point(meant) {
+        if self.raised_point(meant) || self.wide_number(meant) {
             return true;
         }
         let Some((name, ours)) = sign(&text) else { return false };
