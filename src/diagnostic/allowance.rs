@@ -2,7 +2,7 @@
 //!
 //! Behind code it speaks for its line; on a line of its own for the item that follows, to the end of the
 //! line on which its brackets are closed. A message about the whole scene is silenced wherever the main
-//! file allows it.
+//! file allows it by name. `allow(all)` allows every lint of its place, and none of the whole scene.
 //!
 //! **Invariant:** an error is never silenced; a name that is no lint is told, and so is a comment that
 //! means to say something and is not written so.
@@ -18,20 +18,42 @@ use crate::source::{FileId, Source, Span};
 pub struct Allowance {
     file: FileId,
     reach: Range<usize>,
-    lint: Code,
+    lints: Lints,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Lints {
+    One(Code),
+    All,
+}
+
+/// The name of all lints.
+const ALL: &str = "all";
+
+impl Lints {
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            ALL => Some(Self::All),
+            _ => Code::from_name(name).filter(|code| code.warns()).map(Self::One),
+        }
+    }
 }
 
 impl Allowance {
     pub fn silences(&self, diagnostic: &Diagnostic) -> bool {
         match diagnostic.primary() {
             Some(label) => self.reaches(diagnostic.code, label.span),
-            None => self.lint == diagnostic.code && self.file == FileId(0),
+            None => self.lints == Lints::One(diagnostic.code) && self.file == FileId(0),
         }
     }
 
     /// Whether this lint is not told of this place.
     pub fn reaches(&self, lint: Code, place: Span) -> bool {
-        self.lint == lint && self.file == place.file && self.reach.contains(&place.range().start)
+        let is_meant = match self.lints {
+            Lints::One(one) => one == lint,
+            Lints::All => lint.warns(),
+        };
+        is_meant && self.file == place.file && self.reach.contains(&place.range().start)
     }
 }
 
@@ -63,8 +85,8 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
             let lead = name.len() - name.trim_start().len();
             let span = Span::new(file, place + lead, place + lead + name.trim().len());
             place += name.len() + 1;
-            match Code::from_name(name.trim()).filter(|code| code.warns()) {
-                Some(lint) => allowed.push(Allowance { file, reach: reach.clone(), lint }),
+            match Lints::named(name.trim()) {
+                Some(lints) => allowed.push(Allowance { file, reach: reach.clone(), lints }),
                 None => told.push(unknown(name.trim(), span)),
             }
         }
@@ -83,7 +105,7 @@ fn unclear(text: &str, file: FileId, at: usize) -> Option<Diagnostic> {
     let names: Vec<&str> = names
         .map(|name| name.trim_end_matches(')'))
         .filter(|name| !name.is_empty())
-        .take_while(|name| is_like_a_code(name))
+        .take_while(|name| is_like_a_code(name) || is_all(name, list))
         .collect();
     let (&first, span) = (names.first()?, Span::new(file, at, at + verb.len()));
     if verb != "allow" {
@@ -116,8 +138,13 @@ fn is_like_a_code(name: &str) -> bool {
     codes().any(|code| code == name) || (name.contains('-') && closest(name, codes()).is_some())
 }
 
+/// Whether `all` is the one name of a list, and no word of a sentence.
+fn is_all(name: &str, list: &str) -> bool {
+    name == ALL && list.trim_end().trim_end_matches("*/").trim_end().trim_end_matches(')') == ALL
+}
+
 fn unknown(name: &str, span: Span) -> Diagnostic {
-    let lints = Code::ALL.iter().filter(|code| code.warns()).map(|code| code.name());
+    let lints = || Code::ALL.iter().filter(|code| code.warns()).map(|code| code.name());
     if Code::from_name(name).is_some() {
         return Diagnostic::new(Code::UnknownLint, format!("`{name}` is no lint"))
             .at(span, "it cannot be allowed")
@@ -125,7 +152,18 @@ fn unknown(name: &str, span: Span) -> Diagnostic {
     }
     let told = Diagnostic::new(Code::UnknownLint, format!("there is no lint `{name}`"))
         .at(span, "not known");
-    match closest(name, lints) {
+    // `allow(unused)`: a part of one name, and of no other.
+    let mut holding = lints().filter(|lint| lint.split('-').any(|part| part == name));
+    let only = holding.next().filter(|_| holding.next().is_none());
+    let meant = match name.to_lowercase().as_str() {
+        "*" | "everything" | "any" | "lints" | "warnings" => Some(ALL),
+        lower => {
+            let hyphened = lower.replace(['_', ' '], "-");
+            let same = lints().chain([ALL]).find(|lint| *lint == hyphened);
+            same.or_else(|| closest(&hyphened, lints().chain([ALL]))).or(only)
+        }
+    };
+    match meant {
         Some(near) => told.help(format!("did you mean `{near}`?")).fix(span, near),
         None => told.help("`lucarne explain` lists them"),
     }
@@ -206,6 +244,10 @@ mod tests {
             ("// lucarne: allow no-pigment, no-light", "in parentheses", "(no-pigment, no-light)"),
             ("// lucarne: allow (no-light) as it is", "in parentheses", "allow(no-light) as it"),
             ("// lucarne: allow(no-light", "in parentheses", "allow(no-light)"),
+            ("// lucarne: allow all", "in parentheses", "allow(all)"),
+            ("// lucarne: allow(*)", "there is no lint", "allow(all)"),
+            ("// lucarne: allow(unused)", "there is no lint", "allow(unused-declaration)"),
+            ("// lucarne: allow(No_Pigment)", "there is no lint", "allow(no-pigment)"),
             ("// lucarne: deny(no-pigment)", "can only `allow`", "deny"),
             ("// lucarne: ignore no-pigment", "can only `allow`", "ignore"),
         ] {
@@ -219,6 +261,24 @@ mod tests {
         let (allowed, told) =
             allowances(&Source::new("a.scene", "// lucarne: a house with windows"), FileId(0));
         assert_eq!((allowed, told), (vec![], vec![]));
+    }
+
+    #[test]
+    fn all_lints_of_a_place_are_allowed_but_those_of_the_whole_scene_by_name_only() {
+        let text = "a // lucarne: allow(all)\nb";
+        let (allowed, told) = allowances(&Source::new("a.scene", text), FileId(0));
+        let ([allowed], []) = (&allowed[..], &told[..]) else { panic!("{allowed:?} {told:?}") };
+        let at = |code: Code, place: usize| {
+            Diagnostic::new(code, "told").at(Span::new(FileId(0), place, place + 1), "here")
+        };
+        assert!(allowed.silences(&at(Code::NoPigment, 0)));
+        assert!(allowed.silences(&at(Code::UnusedDeclaration, 0)));
+        assert!(!allowed.silences(&at(Code::UnknownWord, 0)));
+        assert!(!allowed.silences(&at(Code::NoPigment, text.len() - 1)));
+        assert!(!allowed.silences(&Diagnostic::new(Code::NoCamera, "told")));
+        let (allowed, _) =
+            allowances(&Source::new("a.scene", "// lucarne: allow all of them"), FileId(0));
+        assert!(allowed.is_empty());
     }
 
     #[test]
