@@ -39,12 +39,10 @@ impl Evaluator<'_> {
         let Flaws { degenerate, aimless } = flaws;
         let mesh = token.here.site(token.span);
         if left == 0 && self.poison.is_none() {
-            let message = format!("this `{}` has no triangle", word.name());
-            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
-                .at(token.span, "nothing is left of it");
             self.scene.sizeless.push((word.name(), mesh));
             // Unless its triangles stand too late.
-            self.owed = Some((token.here.clone(), diagnostic));
+            self.owed =
+                Some((token.here.clone(), without_triangles(token, word, degenerate.count)));
         } else if degenerate.count > 0 {
             let message = match degenerate.count {
                 1 => "a triangle of this mesh is a line or a point".to_owned(),
@@ -74,6 +72,31 @@ impl Evaluator<'_> {
             .at(site.span, "left out: its face is lit by the other normals, or as a flat one")
             .help(help);
         self.report_in(site.expansion, diagnostic);
+    }
+}
+
+/// POV-Ray, too, refuses a mesh of which nothing is left.
+fn without_triangles(token: &Token, word: Word, degenerate: u32) -> Diagnostic {
+    let name = word.name();
+    let told = match degenerate {
+        0 => Diagnostic::new(Code::MissingPart, format!("this {name} has no triangles"))
+            .at(token.span, "expected one at least"),
+        1 => Diagnostic::new(
+            Code::ZeroSize,
+            format!("the one triangle of this {name} is a line or a point"),
+        )
+        .at(token.span, "nothing is left of it"),
+        count => Diagnostic::new(
+            Code::ZeroSize,
+            format!("all {count} triangles of this {name} are lines or points"),
+        )
+        .at(token.span, "nothing is left of it"),
+    };
+    match (word, degenerate) {
+        (Word::Mesh, 0) => {
+            told.help("a triangle is written `triangle { <corner>, <corner>, <corner> }`")
+        }
+        _ => told,
     }
 }
 

@@ -75,7 +75,7 @@ impl Evaluator<'_> {
             vertices.is_none().then_some("vertex_vectors"),
             faces.is_none().then_some("face_indices"),
         ];
-        let (Some((_, vertices)), Some((of_faces, faces))) = (vertices, faces) else {
+        let (Some((of_vertices, vertices)), Some((of_faces, faces))) = (vertices, faces) else {
             let missing: Vec<_> = missing.into_iter().flatten().collect();
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
@@ -84,6 +84,8 @@ impl Evaluator<'_> {
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         };
+        self.expect_entries(&of_vertices, vertices.len(), "vertices")?;
+        self.expect_entries(&of_faces, faces.len(), "faces")?;
         let of_normals = normals.as_ref().map(|(list, _)| list.clone());
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
@@ -330,6 +332,17 @@ impl Evaluator<'_> {
         let blank = number.len() - number.trim_start().len();
         let start = entry.range().start + 1 + before + blank;
         Some(Span::new(entry.file, start, start + number.trim().len()))
+    }
+
+    /// A list of a mesh2 that must not be empty: POV-Ray, too, refuses a mesh without a triangle.
+    fn expect_entries(&mut self, list: &Token, count: usize, of: &str) -> Outcome<()> {
+        if count > 0 {
+            return Ok(());
+        }
+        let diagnostic = Diagnostic::new(Code::MissingPart, format!("this mesh2 has no {of}"))
+            .at(list.span, "this list is empty")
+            .help("leave the mesh out where nothing of it is left, by `#if`");
+        Err(self.report(&list.here, diagnostic))
     }
 
     fn one_for_each(
