@@ -5,8 +5,8 @@
 //!
 //! **Source:** manual, section 3.3.1.10 ("Splines"); what it leaves open was read off POV-Ray's
 //! values (the tests hold a table of them): a quadratic piece goes through the point before it, a
-//! cubic one has at each end the mean of the slopes to either side, and of two values for one time
-//! the first counts.
+//! cubic one has at each end the mean of the slopes to either side. A value for a time that has one
+//! replaces it, unless that time is the last of several so far: then it is dropped.
 
 use crate::math::interval::Interval;
 
@@ -46,9 +46,8 @@ pub struct Spline {
 
 impl Spline {
     /// At least one knot, in any order; none is no spline.
-    pub fn new(kind: SplineKind, mut knots: Vec<Knot>) -> Option<Self> {
-        knots.sort_by(|a, b| a.time.total_cmp(&b.time));
-        knots.dedup_by(|later, first| later.time == first.time);
+    pub fn new(kind: SplineKind, knots: Vec<Knot>) -> Option<Self> {
+        let knots = in_order(knots);
         let bends = match kind {
             SplineKind::Natural => bends(&knots),
             SplineKind::Linear | SplineKind::Quadratic | SplineKind::Cubic => Vec::new(),
@@ -156,6 +155,36 @@ impl Spline {
             a.value[k] + (time - a.time) * (ab + (time - b.time) * bend)
         })
     }
+}
+
+/// Of each time, as they are written, whether its value replaces one for the same time before it.
+pub fn replacing(times: impl Iterator<Item = f64>) -> impl Iterator<Item = bool> {
+    let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
+    times.map(move |time| {
+        let is_dropped = time == last && first < last;
+        (first, last) = (first.min(time), last.max(time));
+        !is_dropped
+    })
+}
+
+/// The knots that count, in the order of their times.
+fn in_order(knots: Vec<Knot>) -> Vec<Knot> {
+    let replacing = replacing(knots.iter().map(|knot| knot.time)).collect::<Vec<_>>();
+    let mut all: Vec<(Knot, bool)> = knots.into_iter().zip(replacing).collect();
+    // Adding zero turns −0 into 0. What is equal keeps its order.
+    all.sort_by(|(a, _), (b, _)| (a.time + 0.0).total_cmp(&(b.time + 0.0)));
+    let mut kept: Vec<Knot> = Vec::with_capacity(all.len());
+    for (knot, replaces) in all {
+        match kept.last_mut() {
+            Some(before) if before.time == knot.time => {
+                if replaces {
+                    *before = knot;
+                }
+            }
+            _ => kept.push(knot),
+        }
+    }
+    kept
 }
 
 fn each(f: impl Fn(usize) -> f64) -> Values {
@@ -346,9 +375,26 @@ mod tests {
     }
 
     #[test]
-    fn knots_may_come_in_any_order_and_the_first_of_two_at_one_time_counts() {
-        let s = spline(SplineKind::Linear, &[(2.0, 1.0), (1.0, 5.0), (0.0, 1.0), (1.0, 9.0)]);
+    fn knots_may_come_in_any_order() {
+        let s = spline(SplineKind::Linear, &[(2.0, 1.0), (1.0, 5.0), (0.0, 1.0)]);
         assert_eq!([s.at(0.5)[0], s.at(1.5)[0], s.at(-4.0)[0], s.at(9.0)[0]], [3.0, 3.0, 1.0, 1.0]);
+    }
+
+    /// What POV-Ray 3.7 gives at 0, 1/2, 1, 3/2, 2 and 3.
+    #[test]
+    fn a_value_for_a_time_that_has_one_replaces_it_but_for_the_last_of_several() {
+        type Case = (&'static [(f64, f64)], [f64; 6]);
+        const CASES: [Case; 5] = [
+            (&[(0.0, 0.0), (1.0, 1.0), (1.0, 5.0), (2.0, 6.0)], [0.0, 0.5, 1.0, 3.5, 6.0, 6.0]),
+            (&[(0.0, 0.0), (1.0, 1.0), (2.0, 6.0), (1.0, 5.0)], [0.0, 2.5, 5.0, 5.5, 6.0, 6.0]),
+            (&[(0.0, 0.0), (0.0, 9.0), (0.0, 4.0), (1.0, 2.0)], [4.0, 3.0, 2.0, 2.0, 2.0, 2.0]),
+            (&[(0.0, 0.0), (0.0, 9.0)], [9.0, 9.0, 9.0, 9.0, 9.0, 9.0]),
+            (&[(2.0, 1.0), (1.0, 5.0), (0.0, 1.0), (1.0, 9.0)], [1.0, 5.0, 9.0, 5.0, 1.0, 1.0]),
+        ];
+        for (knots, expected) in CASES {
+            let s = spline(SplineKind::Linear, knots);
+            assert_eq!([0.0, 0.5, 1.0, 1.5, 2.0, 3.0].map(|time| s.at(time)[0]), expected);
+        }
     }
 
     #[test]

@@ -148,6 +148,7 @@ codes! {
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
     ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
     ReplacedPigment "replaced-pigment" lint "an object has two pigments; the last one is used";
+    RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";
     RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";
     UnknownLint "unknown-lint" lint "a comment that is to silence a warning does not";
@@ -175,7 +176,7 @@ codes! {
     Comma "comma" warning "a comma stands where it parts no values";
     ExtraComponent "extra-component" warning "a colour is given more components than its word takes";
     Semicolon "semicolon" warning "a `;` is missing behind a declared number, or stands where none can";
-    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`, or of a version to come";
+    OldVersion "old-version" warning "a `.pov` file without `#version` or `assumed_gamma`, or of a version to come or of a patch";
 }
 
 impl Code {

@@ -1,13 +1,14 @@
 //! Splines: `spline { natural_spline 0, <0, 0, 0>, 1, <2, 1, 0> }`, and their values in time.
 //!
 //! **Source:** manual, section 3.3.1.10 ("Splines"); measured: a name of a spline comes before the
-//! kind, and gives kind and values; values of different size meet as in sums.
+//! kind, and gives kind and values; values of different size meet as in sums. Of two values for one
+//! time see `spline.rs`.
 
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
-use crate::spline::{Knot, Spline, SplineKind};
+use crate::source::{Site, Span};
+use crate::spline::{Knot, Spline, SplineKind, replacing};
 use crate::syntax::ast::Argument;
 use crate::vocabulary::Word;
 
@@ -52,7 +53,7 @@ impl Evaluator<'_> {
 
     fn spline_items(&mut self, opener: &Token) -> Outcome<Value> {
         let (mut kind, mut knots, mut components) = (SplineKind::Linear, Vec::new(), 2);
-        let mut poison = None;
+        let (mut poison, mut written) = (None, Vec::new());
         loop {
             self.skip_commas();
             let Some(token) = self.next() else { break };
@@ -90,6 +91,7 @@ impl Evaluator<'_> {
                         values = [number; 5];
                     }
                     knots.push(Knot { time, value: values });
+                    written.push((time, token.here.site(token.span)));
                 }
                 found @ Value::Poison(_) => poison = poison.or(Some(found)),
                 other => {
@@ -101,6 +103,7 @@ impl Evaluator<'_> {
         if let Some(poison) = poison {
             return Ok(poison);
         }
+        self.tell_same_time(&written);
         match Spline::new(kind, knots) {
             Some(spline) => Ok(Value::Spline(Arc::new(SplineValue { spline, components }))),
             None => {
@@ -110,6 +113,30 @@ impl Evaluator<'_> {
                 Err(self.report(&opener.here, diagnostic))
             }
         }
+    }
+
+    /// Two values for one time, which are no jump: one of them does not count.
+    fn tell_same_time(&mut self, written: &[(f64, Site)]) {
+        let mut at: Vec<usize> = (0..written.len()).collect();
+        at.sort_by(|&a, &b| written[a].0.total_cmp(&written[b].0));
+        let same = |pair: &&[usize]| written[pair[0]].0 == written[pair[1]].0;
+        let Some(&[first, second]) = at.windows(2).find(same) else { return };
+        let (time, before) = written[first];
+        let later = written[second].1;
+        let replaces = replacing(written.iter().map(|(time, _)| *time)).nth(second);
+        let (what, label) = match replaces {
+            Some(false) => ("second is dropped", "this one has no effect"),
+            _ => ("first is replaced", "this one counts"),
+        };
+        let message = format!("this spline has two values for the time {time}: the {what}");
+        let mut diagnostic = Diagnostic::new(Code::RepeatedTime, message)
+            .at(later.span, label)
+            .help("a jump lies between two times that differ by a little");
+        // Of a loop, both stand at one place.
+        if before.span != later.span {
+            diagnostic = diagnostic.also(before.span, "the first is here");
+        }
+        self.report_in(later.expansion, diagnostic);
     }
 
     /// `cubic` for `cubic_spline`.
