@@ -20,8 +20,10 @@ use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
+mod argument;
 mod mention;
 mod operation;
+mod refused;
 
 use mention::mention;
 use operation::{is_operation, operation, operation_of};
@@ -162,17 +164,6 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    fn no_parameter(&mut self, here: &Here, span: Span) -> Reported {
-        let text = self.sources.text(span).to_owned();
-        let diagnostic = Diagnostic::new(
-            Code::UndeclaredName,
-            format!("`{text}` is no parameter of this function"),
-        )
-        .at(span, "a vector elsewhere; in a function it must be a parameter")
-        .help(format!("`function (…, {text}) {{ … }}` would make it one"));
-        self.report(here, diagnostic)
-    }
-
     /// Operations lean to the left as deep as they are long: from the leftmost operand on.
     fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let (mut operations, mut first) = (Vec::new(), id);
@@ -285,6 +276,7 @@ impl Evaluator<'_> {
             },
             Callee::Word(word, word_span) => match word {
                 Word::Sum | Word::Prod => self.loop_node(here, formula, word, word_span, arguments),
+                Word::Rand | Word::Seed => Err(self.no_stream(here, word, word_span)),
                 _ if is_operation(word) => {
                     self.operation_node(here, formula, word, word_span, arguments)
                 }
@@ -296,32 +288,6 @@ impl Evaluator<'_> {
     fn constant_zero(&mut self, here: &Here, formula: &mut Formula, span: Span) -> Outcome<Node> {
         let built = formula.builder.constant(0.0);
         self.built(here, span, built)
-    }
-
-    fn argument_nodes(
-        &mut self,
-        here: &Here,
-        formula: &mut Formula,
-        arguments: Arguments,
-    ) -> Outcome<Vec<Node>> {
-        let unit = here.unit.clone();
-        let mut nodes = Vec::new();
-        let mut outcome = Ok(());
-        for argument in unit.ast.arguments(arguments) {
-            let node = match *argument {
-                Argument::Expression(id) => self.node(here, formula, id),
-                Argument::Items(items) => {
-                    let first = unit.ast.items(items).first();
-                    let span = first.map_or(Span::new(unit.ast.file, 0, 0), |item| item.span);
-                    Err(self.expected("a number", None, (here, span)))
-                }
-            };
-            match node {
-                Ok(node) => nodes.push(node),
-                Err(reported) => outcome = Err(reported),
-            }
-        }
-        outcome.map(|()| nodes)
     }
 
     fn function_node(

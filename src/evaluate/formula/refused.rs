@@ -1,0 +1,34 @@
+//! What has no meaning in a function: a vector's letter that is no parameter, a stream of random numbers.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::{Evaluator, Here, Reported};
+use crate::source::Span;
+use crate::vocabulary::Word;
+
+impl Evaluator<'_> {
+    pub(super) fn no_parameter(&mut self, here: &Here, span: Span) -> Reported {
+        let text = self.sources.text(span).to_owned();
+        let diagnostic = Diagnostic::new(
+            Code::UndeclaredName,
+            format!("`{text}` is no parameter of this function"),
+        )
+        .at(span, "a vector elsewhere; in a function it must be a parameter")
+        .help(format!("`function (…, {text}) {{ … }}` would make it one"));
+        self.report(here, diagnostic)
+    }
+
+    /// `rand(S)` in a body, which has one value for each set of arguments; POV-Ray refuses it, too.
+    pub(super) fn no_stream(&mut self, here: &Here, word: Word, span: Span) -> Reported {
+        let message = format!("`{}` cannot be called in a function", word.name());
+        let diagnostic = Diagnostic::new(Code::NotCallable, message)
+            .at(span, "a function gives the same value for the same arguments, and has no stream")
+            .help("draw before it: `#declare R = rand(S);`, and write `R` here");
+        let diagnostic = match word {
+            Word::Rand => diagnostic
+                .help("a macro draws at each call: `#macro R() rand(S) #end`")
+                .help("what differs from place to place is noise: `f_noise3d(x, y, z)` of \"functions.inc\""),
+            _ => diagnostic,
+        };
+        self.report(here, diagnostic)
+    }
+}
