@@ -235,13 +235,23 @@ impl<'a> Nest<'a> {
         self.open(FrameKind::Vector, span, false);
     }
 
-    /// Whether the directive reached stands among the components of a vector that goes on behind its `#end`:
-    /// `<#if (A) 1 #else 2 #end, 0, 0>`.
+    pub(super) fn too_deep(&mut self, span: Span, what: &str) {
+        if !self.ends_early {
+            self.report(super::nesting_limit(span, what, self.nesting_limit));
+        }
+        // Nothing behind it can be understood: the text ends here.
+        self.at = self.tokens.len();
+        self.cut = true;
+    }
+
+    /// Whether the directive reached stands among the components of a vector that goes on behind its end:
+    /// `<#if (A) 1 #else 2 #end, 0, 0>`, `<#local B = 3; B, 2, 1>`.
     pub(super) fn is_within_vector(&mut self) -> bool {
         if !self.in_vector() {
             return false;
         }
         let (mut directives, mut parentheses, mut declares) = (0_usize, 0_usize, false);
+        let mut vectors = 0_usize;
         for token in self.tokens[self.at..].iter().take(LONGEST_VECTOR) {
             match token.kind {
                 TokenKind::Directive(Head::End) if directives == 0 => return false,
@@ -249,15 +259,18 @@ impl<'a> Nest<'a> {
                 TokenKind::Directive(head) if head.opens() => directives += 1,
                 TokenKind::Directive(head) if head.divides() && directives > 0 => {}
                 TokenKind::Directive(Head::Break) if directives > 0 => {}
-                TokenKind::Directive(Head::Declare | Head::Local) if directives > 0 => {
-                    declares = true;
-                }
+                TokenKind::Directive(Head::Declare | Head::Local) => declares = true,
+                TokenKind::Directive(Head::Debug | Head::Warning | Head::Undef) => {}
                 TokenKind::Mark(Mark::Semicolon) if std::mem::take(&mut declares) => {}
                 TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
                 TokenKind::Mark(Mark::Close(Bracket::Round)) => {
                     parentheses = parentheses.saturating_sub(1);
                 }
-                TokenKind::Mark(Mark::Greater) if directives + parentheses == 0 => return true,
+                TokenKind::Mark(Mark::Less) if parentheses == 0 => vectors += 1,
+                TokenKind::Mark(Mark::Greater) if parentheses == 0 && vectors > 0 => vectors -= 1,
+                TokenKind::Mark(Mark::Greater) if directives + parentheses == 0 => {
+                    return !declares;
+                }
                 TokenKind::Mark(
                     Mark::Semicolon | Mark::Open(Bracket::Brace) | Mark::Close(Bracket::Brace),
                 ) => return false,
@@ -267,6 +280,7 @@ impl<'a> Nest<'a> {
                 | TokenKind::Name
                 | TokenKind::Number
                 | TokenKind::Numbers
+                | TokenKind::Vectors
                 | TokenKind::String => {}
                 _ => return false,
             }

@@ -44,6 +44,15 @@ impl<'a> Nest<'a> {
                     self.skip_deprecation();
                     return true;
                 }
+                TokenKind::Name
+                    if head == Head::Version
+                        && first
+                        && state == State::Idle
+                        && self.slice(span) == "unofficial" =>
+                {
+                    self.unofficial(span);
+                    return true;
+                }
                 // A reserved word where a name is wanted: told when the head is read.
                 TokenKind::Word(word)
                     if names && first && state == State::Idle && word.role() != Role::Value =>
@@ -112,6 +121,27 @@ impl<'a> Nest<'a> {
                 self.at += 1;
             }
         }
+    }
+
+    /// `#version unofficial 3.7;` is version 3.7, as in POV-Ray; `#version unofficial megapov 1.21;` is that
+    /// of a patch, which POV-Ray refuses, and is read on as the language here.
+    fn unofficial(&mut self, word: Span) {
+        let ahead = |n: usize| self.tokens.get(self.at + n).copied();
+        let is_patch = |token: &Token| matches!(token.kind, TokenKind::Name | TokenKind::String);
+        let (Some(patch), number) = (ahead(1).filter(is_patch), ahead(2)) else { return };
+        let number = number.filter(|token| token.kind == TokenKind::Number);
+        let name = self.span(patch);
+        let whole = word.to(number.map_or(name, |number| self.span(number)));
+        self.at += 1 + usize::from(number.is_some());
+        let message =
+            format!("`{}` is a patch of POV-Ray, which is not known here", self.slice(name));
+        self.report(
+            Diagnostic::new(Code::OldVersion, message)
+                .at(whole, "read as version 3.7, without what the patch adds")
+                .help("write `#version 3.7;`")
+                .fix(whole, "3.7"),
+        );
+        self.operand(ExpressionKind::Number(3.7), whole, false);
     }
 
     pub(super) fn next_opens_parenthesis(&self) -> bool {
@@ -195,6 +225,7 @@ impl<'a> Nest<'a> {
             | Head::Unknown => None,
         };
         self.add_directive(kind.unwrap_or(DirectiveKind::Malformed), open, last);
+        self.top().declaring |= matches!(head, Head::Declare | Head::Local);
     }
 
     pub(super) fn fopen(

@@ -7,7 +7,6 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Role;
-use crate::vocabulary::Word;
 
 /// How many tokens after a `;` the end of its vector is looked for.
 const LONGEST_VECTOR: usize = 40;
@@ -35,6 +34,10 @@ impl<'a> Nest<'a> {
                 self.close_bracket(bracket, span);
             }
             Mark::Comma => self.comma(span),
+            Mark::Semicolon if self.in_vector() && self.top().declaring => {
+                self.item(ItemKind::Semicolon, span);
+                self.top().declaring = false;
+            }
             Mark::Semicolon if self.in_vector() && self.semicolon_in_vector(span) => {}
             Mark::Semicolon => {
                 self.leave_vectors(span);
@@ -178,42 +181,11 @@ impl<'a> Nest<'a> {
             return self.operator(OperatorKind::Question, span);
         }
         if self.stacks.open_question(base).is_none() {
-            let held = self.stacks.operands.last().map(|held| self.ast.expression(*held).kind);
-            let holding = matches!(self.top().state, State::Holding { .. });
-            // `xyz(2, 0, 1): 3` in a `polynomial`.
-            if let Some(ExpressionKind::Call(Callee::Word(Word::Xyz, _), _)) = held
-                && holding
-                && self.stacks.operators.len() == base
-            {
-                return self.finish_expression();
-            }
-            return self.report(self.lone_colon(held, span));
+            return self.lone_colon(span);
         }
         self.before_operator(span);
         self.stacks.colon(base, &mut self.ast.expressions);
         self.top().state = State::Wanting;
-    }
-
-    /// `translate y: 2`: a direction, and how far.
-    fn lone_colon(&self, held: Option<ExpressionKind>, span: Span) -> Diagnostic {
-        let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`")
-            .at(span, "expected `condition ? one : other`");
-        let direction = match held {
-            Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => word.name(),
-            // `spline { 0: x, 1: y }`.
-            Some(ExpressionKind::Number(_)) => {
-                return diagnostic.help("values are parted by commas").fix(span, ",");
-            }
-            _ => return diagnostic,
-        };
-        let number = self.tokens.get(self.at + 1).map(|token| self.span(*token));
-        let number = number.filter(|number| {
-            self.slice(*number).starts_with(|c: char| c.is_ascii_digit() || c == '.')
-        });
-        let Some(number) = number else { return diagnostic };
-        diagnostic
-            .help(format!("write `{direction}*{}`", self.slice(number)))
-            .fix(Span { end: number.start, ..span }, "*")
     }
 
     pub(super) fn component(&mut self, dot: Span) {
@@ -340,7 +312,7 @@ impl<'a> Nest<'a> {
     }
 
     /// Among the parameters of a `#macro`.
-    fn in_macro_head(&self) -> bool {
+    pub(super) fn in_macro_head(&self) -> bool {
         let outer = self.frames.len().checked_sub(2).map(|outer| &self.frames[outer].kind);
         matches!(outer, Some(FrameKind::Head(Head::Macro)))
     }

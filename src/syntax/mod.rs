@@ -8,6 +8,7 @@ mod around;
 pub mod ast;
 mod balance;
 mod bracket;
+mod colon;
 mod comment;
 mod control;
 mod directive;

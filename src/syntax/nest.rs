@@ -41,6 +41,8 @@ pub(super) struct Frame {
     pub of_color: bool,
     /// That its expression needs parentheses has been told.
     pub level_told: bool,
+    /// A vector in which a `#declare` has begun and its `;` is still to come.
+    pub declaring: bool,
 }
 
 pub(super) enum FrameKind {
@@ -220,6 +222,7 @@ impl<'a> Nest<'a> {
             after_contextual: false,
             of_color: false,
             level_told: false,
+            declaring: false,
         });
     }
 
@@ -320,22 +323,13 @@ impl<'a> Nest<'a> {
         if told {
             id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);
         }
-        if self.in_vector() {
+        if self.in_vector() && !self.top().declaring {
             self.end_directives_in_vector();
             self.arguments.push(Argument::Expression(id));
         } else {
             let span = self.ast.expression(id).span;
             self.items.push(Item { kind: ItemKind::Expression(id), span });
         }
-    }
-
-    pub(super) fn too_deep(&mut self, span: Span, what: &str) {
-        if !self.ends_early {
-            self.report(super::nesting_limit(span, what, self.nesting_limit));
-        }
-        // Nothing behind it can be understood: the text ends here.
-        self.at = self.tokens.len();
-        self.cut = true;
     }
 
     pub(super) fn stray(&mut self, token: Token) {

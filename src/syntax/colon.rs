@@ -1,0 +1,129 @@
+//! A `:` that belongs to no `?`: of a type, of an argument's name, beside a comma or in the place of one.
+//!
+//! **Invariant:** one message a sign, with what it was rather meant for.
+
+use super::ast::{Callee, ExpressionKind, ItemKind};
+use super::nest::{FrameKind, Nest, State};
+use super::token::{Mark, TokenKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::vocabulary::Word;
+
+/// What other languages call the kinds of their parameters.
+const TYPES: &[&str] = &[
+    "array", "bool", "boolean", "color", "colour", "double", "f32", "f64", "float", "float3",
+    "int", "integer", "list", "num", "number", "object", "real", "scalar", "str", "string", "vec2",
+    "vec3", "vector", "vector3",
+];
+
+impl<'a> Nest<'a> {
+    pub(super) fn lone_colon(&mut self, span: Span) {
+        let (state, base) = (self.top().state, self.top().operators);
+        let alone = matches!(state, State::Holding { .. }) && self.stacks.operators.len() == base;
+        let held = self.stacks.operands.last().map(|held| *self.ast.expression(*held));
+        let kind = held.map(|held| held.kind);
+        // `xyz(2, 0, 1): 3` in a `polynomial`.
+        if let Some(ExpressionKind::Call(Callee::Word(Word::Xyz, _), _)) = kind
+            && alone
+        {
+            return self.finish_expression();
+        }
+        let told = Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`");
+        if self.parts_nothing() {
+            return self.report(told.at(span, "it parts nothing: leave it out").fix(span, ""));
+        }
+        if self.lists_parameters() {
+            return self.colon_of_parameter(span);
+        }
+        let first = self.items.len() == self.top().items;
+        let called = matches!(self.top().kind, FrameKind::Call(Callee::Name(..)));
+        if let (Some(ExpressionKind::Name(_)), Some(held)) = (kind, held)
+            && alone
+            && first
+            && called
+        {
+            return self.named_argument(held.span.to(span));
+        }
+        let told = told.at(span, "expected `condition ? one : other`");
+        let told = match kind {
+            // `translate y: 2`: a direction, and how far.
+            Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => {
+                self.times(told, word, span)
+            }
+            // `spline { 0: x, 1: y }`.
+            Some(ExpressionKind::Number(_)) => {
+                told.help("values are parted by commas").fix(span, ",")
+            }
+            _ => told,
+        };
+        self.report(told);
+    }
+
+    fn times(&self, told: Diagnostic, direction: Word, span: Span) -> Diagnostic {
+        let number = self.tokens.get(self.at + 1).map(|token| self.span(*token));
+        let number = number.filter(|number| {
+            self.slice(*number).starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        });
+        let Some(number) = number else { return told };
+        told.help(format!("write `{}*{}`", direction.name(), self.slice(number)))
+            .fix(Span { end: number.start, ..span }, "*")
+    }
+
+    /// `f(a:, b)`, `<1, :2>`: beside a comma, or a bracket.
+    fn parts_nothing(&self) -> bool {
+        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        let behind = self.tokens.get(self.at + 1);
+        let begins = |kind| matches!(kind, TokenKind::Mark(Mark::Comma | Mark::Open(_)));
+        let ends = |kind| matches!(kind, TokenKind::Mark(Mark::Comma | Mark::Close(_)));
+        before.is_some_and(|before| begins(before.kind))
+            || behind.is_some_and(|behind| ends(behind.kind))
+    }
+
+    /// Among the parameters of a `#macro`, or of a `function`.
+    fn lists_parameters(&mut self) -> bool {
+        let base = self.top().items;
+        let before = base.checked_sub(1).and_then(|at| self.items.get(at)).map(|item| item.kind);
+        self.in_macro_head()
+            || matches!(self.top().kind, FrameKind::Group)
+                && matches!(before, Some(ItemKind::Word(Word::Function)))
+    }
+
+    /// `function(x: float)`, `function(x: y)`.
+    fn colon_of_parameter(&mut self, span: Span) {
+        let next = self.tokens.get(self.at + 1).map(|next| self.span(*next));
+        let kind = next.filter(|next| {
+            let text = self.slice(*next).to_ascii_lowercase();
+            TYPES.contains(&text.as_str())
+        });
+        if let Some(kind) = kind {
+            let message = format!("parameters have no types, and `{}` is one", self.slice(kind));
+            let whole = span.to(kind);
+            self.report(
+                Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(whole, "leave this out: a parameter is whatever a call gives")
+                    .fix(whole, ""),
+            );
+            self.at += 1;
+            return;
+        }
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, "parameters are parted by commas")
+                .at(span, "expected `,` instead of `:`")
+                .fix(span, ","),
+        );
+        self.comma(span);
+    }
+
+    /// `Ball(Radius: 2)`.
+    fn named_argument(&mut self, name: Span) {
+        self.stacks.operands.pop();
+        self.top().state = State::Idle;
+        let behind = self.tokens.get(self.at + 1).map_or(name.end, |next| next.start);
+        let message = "arguments have no names: which is which, their order tells";
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(name, "leave this out")
+                .fix(Span { end: behind, ..name }, ""),
+        );
+    }
+}
