@@ -50,7 +50,13 @@ impl Repair<'_> {
         let diagnostic = Diagnostic::new(code, message)
             .at(self.span(open.token), "opened here")
             .also(place, label);
-        self.tell(diagnostic);
+        let beside = outside.filter(|outside| self.stands_beside(open.token, outside.token));
+        self.tell(match beside.map(|outside| self.span(outside.token - 1).after()) {
+            Some(end) => diagnostic
+                .help(format!("`{found}` stands beside this block, not in it"))
+                .fix(end, " }"),
+            None => diagnostic,
+        });
     }
 
     /// `function(x, y; { … }`: a sign stands where the closer belongs.

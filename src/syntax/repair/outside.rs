@@ -34,8 +34,8 @@ impl Repair<'_> {
                     None => {}
                 }
             }
-            // Nothing else ends more than the innermost.
-            if !begins {
+            // Nothing else ends more than the innermost, but for what stands beside several.
+            if !begins && !self.stands_beside(self.open[level].token, at) {
                 break;
             }
         }
@@ -50,7 +50,8 @@ impl Repair<'_> {
         let beside = begins && place.indent <= open.indent;
         match open.opener {
             Opener::Bracket(Bracket::Brace) => {
-                (beside && indented || begins && !self.may_hold(open.token, at)).then_some(true)
+                let ended = beside && indented || begins && !self.may_hold(open.token, at);
+                (ended || self.stands_beside(open.token, at)).then_some(true)
             }
             Opener::Directive if beside && indented => Some(true),
             // Of a text without indentation, one statement.
@@ -107,6 +108,35 @@ impl Repair<'_> {
             && self.tokens.get(at + 1).is_some_and(|next| next.kind == round)
     }
 
+    /// Whether the statement at `at` stands beside the block that opens at `opener`, and never in it: a `finish`
+    /// and a `pigment`.
+    pub(super) fn stands_beside(&self, opener: usize, at: usize) -> bool {
+        let TokenKind::Word(inner) = self.tokens[at].kind else { return false };
+        let outer = opener.checked_sub(1).map(|before| self.tokens[before].kind);
+        let Some(TokenKind::Word(outer)) = outer else { return false };
+        let of_surface = matches!(
+            outer,
+            Word::Pigment
+                | Word::Normal
+                | Word::Finish
+                | Word::Interior
+                | Word::TransformWord
+                | Word::ColorMap
+        );
+        match inner {
+            Word::Pigment | Word::Normal | Word::Finish | Word::Texture => {
+                of_surface && self.begins_statement(at)
+            }
+            Word::Interior | Word::Material => {
+                (of_surface || outer == Word::Texture) && self.begins_statement(at)
+            }
+            Word::Translate | Word::Rotate | Word::Scale | Word::Matrix => {
+                matches!(outer, Word::Finish | Word::ColorMap)
+            }
+            _ => false,
+        }
+    }
+
     /// False where the block that opens at `opener` cannot hold the statement at `at`: an object stands at
     /// the top level, and in few blocks.
     pub(super) fn may_hold(&self, opener: usize, at: usize) -> bool {
@@ -122,7 +152,7 @@ impl Repair<'_> {
             Family::Camera | Family::Atmosphere | Family::Setting => false,
             _ => true,
         };
-        !only_outside || holds_objects
+        (!only_outside || holds_objects) && !self.stands_beside(opener, at)
     }
 
     /// What was open around `closed` had not ended inside it.
