@@ -13,7 +13,7 @@ use crate::math::{UnitVector, Vector};
 use crate::scene::{
     ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId,
 };
-use crate::shape::{Bounds, Ray, Rounding};
+use crate::shape::{Bounds, Ray, Rounding, Shape};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionKind};
 use crate::vocabulary::Word;
@@ -167,7 +167,7 @@ impl Probe {
             .any(|i| self.world.whole_contains(&self.world.objects[i as usize], point))
     }
 
-    /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward.
+    /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward, but for a mesh.
     fn trace(&self, origin: Vector, direction: UnitVector) -> Option<(Vector, Vector)> {
         let ray = Ray { origin, direction: direction.get() };
         let hit = self.geometry.nearest(&ray)?;
@@ -176,9 +176,15 @@ impl Probe {
         if let Some(smooth) = geometry::shading_normal(&self.world, &hit, &surface) {
             return Some((surface.point, smooth + Vector::ZERO));
         }
-        // Out of an inverse object it points into the shape. Zero has no sign where people read it.
-        let inverse = self.world.objects[hit.object as usize].inverse;
-        let normal = if inverse { -surface.normal } else { surface.normal };
+        // Out of an inverse object it points into the shape; that of a mesh is as its corners turn, be it a
+        // solid or not (measured). Zero has no sign where people read it.
+        let object = &self.world.objects[hit.object as usize];
+        let is_turned = match object.shape {
+            Shape::Placed(i) => self.world.placed[i as usize].is_turned(&surface),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => false,
+        };
+        let flips = object.inverse != is_turned;
+        let normal = if flips { -surface.normal } else { surface.normal };
         Some((surface.point, normal + Vector::ZERO))
     }
 }

@@ -113,6 +113,12 @@ impl Placed {
         Some(UnitVector::from_direction(self.placement.world_normal(normal))?.get())
     }
 
+    /// Whether the normal of a surface was turned outward there: that of a solid mesh whose corners turn the
+    /// other way.
+    pub fn is_turned(&self, surface: &SurfacePoint) -> bool {
+        matches!(*self.body, Body::Mesh(_)) && surface.face % 2 == 1
+    }
+
     /// Of a painted mesh, what a point of its surface is painted with, and how much of each.
     pub fn paint(&self, surface: &SurfacePoint) -> Option<[(u32, f64); 3]> {
         let Body::Mesh(mesh) = &*self.body else { return None };

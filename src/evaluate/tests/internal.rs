@@ -95,4 +95,11 @@ facts! {
          #declare U = union { sphere { 0, 1 } inverse } V(trace(U, 10*x, -x, N)) V(N)
          #declare O = object { S inverse } V(trace(O, -10*z, z, N)) V(N)"
         => "<0.00,0.00,-1.00> <0.00,0.00,1.00> <1.00,0.00,0.00> <-1.00,0.00,0.00> <1.00,0.00,0.00> <-1.00,0.00,0.00> <0.00,0.00,-1.00> <0.00,0.00,-1.00>";
+    the_normal_of_a_mesh_is_as_its_corners_turn_also_where_it_has_an_inside:
+        "#declare N = 0; #declare A = <0.25,0.25,0>; #declare F = mesh { triangle { 0, x, y } }
+         #declare M = mesh { triangle { 0, x, y } triangle { 0, x, z } triangle { 0, y, z }
+                             triangle { x, y, z } inside_vector <1, 2, 3> }
+         V(trace(M, A-5*z, z, N)) V(N) V(trace(M, A+5*z, -z, N)) V(N) V(trace(F, A+5*z, -z, N)) V(N)
+         V(trace(object { F scale <1, 1, -1> }, A-5*z, z, N)) V(N)"
+        => "<0.25,0.25,0.00> <0.00,0.00,-1.00> <0.25,0.25,0.50> <-0.58,-0.58,-0.58> <0.25,0.25,0.00> <0.00,0.00,-1.00> <0.25,0.25,0.00> <0.00,0.00,1.00>";
 }
