@@ -156,12 +156,15 @@ impl<'a> Road<'a> {
             return (World::default(), Origins::default());
         }
         let Options { picture, coinciding, ref evaluate, .. } = self.options;
-        let options = LowerOptions { objects: evaluate.limits.objects, picture, coinciding };
+        let objects = evaluate.limits.objects;
+        let lights_known = self.are_lights_known(&scene);
+        let options = LowerOptions { objects, picture, coinciding, lights_known };
         let before = self.diagnostics.len();
-        let unused = scene.unused.clone();
+        let (unused, holds) = (scene.unused.clone(), dark::Holds::of(&scene));
         let lowered = lower(scene, &options, &mut self.diagnostics);
-        self.tell_blind();
-        self.tell_dark(&unused);
+        self.drop_doubtful(before);
+        self.tell_blind(holds);
+        self.tell_dark(&unused, holds);
         self.tell_empty();
         self.silence(before);
         lowered

@@ -11,12 +11,12 @@ mod switch;
 mod unit;
 mod version;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::suggest::closest;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::scene::{ObjectId, ObjectKind, Unused};
-use crate::source::{Site, Span};
+use crate::source::{FileId, Site, Span};
 use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
 use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 
@@ -39,9 +39,9 @@ impl Evaluator<'_> {
         self.lint_redeclared(main);
     }
 
-    /// As [`Self::lint_declarations`], of a scene with mistakes: objects whose name nothing but their declaration
-    /// has, nor any message.
-    pub(super) fn lint_lone_objects(&mut self, main: &Unit) {
+    /// As [`Self::lint_declarations`], of a scene with mistakes: names that nothing but their declaration has, nor
+    /// any message.
+    pub(super) fn lint_lone_names(&mut self, main: &Unit) {
         let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
         let mut own: Vec<String> = own.skip(1).map(|(_, source)| source.text.clone()).collect();
         for one in self.diagnostics.iter() {
@@ -52,11 +52,20 @@ impl Evaluator<'_> {
             let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
             own.iter().any(|text| text.split(|c| !is_part(c)).any(|word| word == name))
         };
-        self.tell_unused(main, |name| !has(name));
+        // It may be meant by what is not declared.
+        let lacking = self.diagnostics.iter().filter(|one| one.code == Code::UndeclaredName);
+        let lacking = lacking.filter_map(|one| Some(self.sources.text(one.primary()?.span)));
+        let lacking: Vec<String> = lacking.map(str::to_owned).collect();
+        let is_near = |name: &str| closest(name, lacking.iter().map(String::as_str)).is_some();
+        self.tell_unused(main, |name| !has(name) && !is_near(name));
     }
 
     fn tell_unused(&mut self, main: &Unit, is_meant: impl Fn(&str) -> bool) {
         let has_errors = self.diagnostics.has_errors();
+        let is_error = |told: &&Diagnostic| told.code.severity() == Severity::Error;
+        let faults = self.diagnostics.iter().filter(is_error);
+        let faulty = faults.flat_map(|told| told.labels.iter().map(|label| label.span));
+        let faulty: BTreeSet<(FileId, usize)> = faulty.map(|span| self.line_of(span)).collect();
         let mut unused: Vec<(Unused, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
             if declared.used {
@@ -71,9 +80,13 @@ impl Evaluator<'_> {
             if !theirs || name.starts_with('_') || !is_meant(name) {
                 continue;
             }
-            let is_object = matches!(value, Some(Value::Object(_)));
             let is_light = matches!(value, Some(&Value::Object(object)) if self.is_light(object));
-            if has_errors && !(is_object && self.is_only_declared(name, main)) {
+            if has_errors && !self.is_only_declared(name, main) {
+                continue;
+            }
+            // What is wrong on its line comes first.
+            let is_object = matches!(value, Some(Value::Object(_)));
+            if !is_object && faulty.contains(&self.line_of(declared.site.span)) {
                 continue;
             }
             // A word of the language cannot be declared; that has been told.
@@ -116,6 +129,10 @@ impl Evaluator<'_> {
             self.scene.unused.push(one);
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    fn line_of(&self, span: Span) -> (FileId, usize) {
+        (span.file, self.sources.get(span.file).position(span.start as usize).line)
     }
 
     fn is_light(&self, mut object: ObjectId) -> bool {

@@ -387,7 +387,8 @@ impl<'a> Evaluator<'a> {
                 self.warn_of_old_version(&here.unit, says);
             }
             if !self.halted && !self.lacks_file() {
-                self.lint_lone_objects(&here.unit);
+                self.lint_lone_names(&here.unit);
+                self.lint_options(&here.unit);
             }
         }
     }

@@ -32,8 +32,12 @@ impl Lowering<'_, '_> {
             let object = &world.objects[solid as usize];
             object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
         };
+        // A mistake may have kept a part of a solid from being read.
+        let is_certain =
+            |solid: u32| self.is_sound || world.objects[solid as usize].whole.is_none();
         let is_around = |solid: u32| {
-            world.parts(solid).iter().all(is_dim)
+            is_certain(solid)
+                && world.parts(solid).iter().all(is_dim)
                 && (bounds(world, solid).is_some() || is_plane(solid))
                 && self.is_shut(solid)
                 && self.holds(solid, world.camera.location)

@@ -1,7 +1,8 @@
 //! What lowering has to say about the scene as a whole.
 //!
 //! **Invariant:** only what is certain: after a fault of another object that is what each is by itself, and
-//! nothing about the whole; after one of the camera all but what it sees.
+//! nothing about the whole; after one of the camera all but what it sees; of a scene that was read with
+//! mistakes, what nothing that is missing could change.
 
 use super::{Fault, Lowering};
 use crate::color::Rgb;
@@ -22,6 +23,10 @@ impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
         // What a mistake kept from being read may be what is missing.
         if !self.is_sound {
+            let is_lit = self.options.lights_known && !self.world.lights.is_empty();
+            if is_lit && !self.is_blind && !self.lacks_parts() {
+                self.lint_inside();
+            }
             return;
         }
         let is_error = |told: &&Diagnostic| told.code.severity() == Severity::Error;
@@ -40,6 +45,13 @@ impl Lowering<'_, '_> {
         } else {
             self.lint_pigment();
         }
+    }
+
+    /// Whether a mistake may have left one part of several, which is then taken for the whole.
+    fn lacks_parts(&self) -> bool {
+        self.scene.objects.iter().any(
+            |object| matches!(&object.kind, ObjectKind::Csg { children, .. } if children.len() < 2),
+        )
     }
 
     /// What all that is there comes to.

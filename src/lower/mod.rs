@@ -50,11 +50,13 @@ pub struct LowerOptions {
     pub picture: Option<(u32, u32)>,
     /// Coinciding faces are looked for, though nobody may be told.
     pub coinciding: bool,
+    /// Though the scene was read with mistakes, no light of it is missing.
+    pub lights_known: bool,
 }
 
 impl Default for LowerOptions {
     fn default() -> Self {
-        Self { objects: 5_000_000, picture: None, coinciding: false }
+        Self { objects: 5_000_000, picture: None, coinciding: false, lights_known: false }
     }
 }
 

@@ -4,11 +4,14 @@
 //! **Invariant:** a scene whose text, or an include of it, has any word of light is said nothing of, and so is
 //! one that is not whole; likewise of a camera.
 
+use std::ops::Range;
+
 use super::Road;
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::lower::unlit::tell_unlit;
-use crate::scene::Unused;
+use crate::scene::{Dialect, ObjectKind, Scene, Unused};
+use crate::source::Span;
 use crate::vocabulary::{Family, Word, is_standard_source, standard_include_of};
 
 /// Parts of the words by which a scene, or its author's macros, give light.
@@ -27,6 +30,42 @@ const OF_LIGHT: &[&str] = &[
 /// Whether a text is a scene: without these it is rather a part of one.
 pub(super) fn is_whole(main: &str) -> bool {
     main.contains("camera") && (main.contains("global_settings") || main.contains("#version"))
+}
+
+/// What a scene holds though it has mistakes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Holds {
+    camera: bool,
+    light: bool,
+    solid: bool,
+}
+
+impl Holds {
+    pub(super) fn of(scene: &Scene) -> Self {
+        let is_light = |root: &crate::scene::Root| {
+            matches!(scene.objects[root.object.index()].kind, ObjectKind::LightSource(_))
+        };
+        Self {
+            camera: !scene.cameras.is_empty(),
+            light: scene.roots.iter().any(is_light),
+            solid: scene.roots.iter().any(|root| !is_light(root)),
+        }
+    }
+}
+
+/// From a word to the end of its block, about: a brace in a comment counts.
+fn block_behind(text: &str, word: Span) -> Range<u32> {
+    let mut depth = 0;
+    let behind = text.get(word.end as usize..).unwrap_or("");
+    let end = behind.char_indices().find(|(_, c)| {
+        depth += match c {
+            '{' => 1,
+            '}' => -1,
+            _ => 0,
+        };
+        *c == '}' && depth <= 0
+    });
+    word.start..end.map_or(text.len() as u32, |(at, _)| word.end + at as u32)
 }
 
 /// A light that is commented out gives none.
@@ -94,8 +133,57 @@ impl Road<'_> {
         own.map(|(_, (_, source))| source.text.to_string()).collect()
     }
 
+    /// Whether of a scene with mistakes each light was read: as many as its text has, which has no other word
+    /// of a light.
+    pub(super) fn are_lights_known(&self, scene: &Scene) -> bool {
+        let may_hold = |one: &Diagnostic| {
+            matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile)
+                || self.is_cut_off(one)
+        };
+        if !self.diagnostics.has_errors() || self.diagnostics.iter().any(may_hold) {
+            return false;
+        }
+        let (light, texts) = (Word::LightSource.name(), self.own_texts());
+        // A surface that glows lights nothing else.
+        let is_other = |word: &&str| {
+            let glows = ["ambient", "emission", "background", "sky_sphere"].contains(word);
+            *word != light && !glows && is_of_light(word)
+        };
+        if texts.iter().any(|text| words(text).any(|word| is_other(&word))) {
+            return false;
+        }
+        let written = texts.iter().flat_map(|text| words(text)).filter(|word| *word == light);
+        let is_light = |kind: &ObjectKind| matches!(kind, ObjectKind::LightSource(_));
+        written.count() == scene.objects.iter().filter(|object| is_light(&object.kind)).count()
+    }
+
+    /// Takes back that a camera is in the dark where a mistake in its block, or in the object's, was read over: it
+    /// may stand elsewhere.
+    pub(super) fn drop_doubtful(&mut self, before: usize) {
+        let is_error = |one: &&Diagnostic| one.code.severity() == Severity::Error;
+        let faults = self.diagnostics.iter().filter(is_error);
+        let faults: Vec<Span> = faults.filter_map(|one| Some(one.primary()?.span)).collect();
+        if faults.is_empty() {
+            return;
+        }
+        let sources = &self.sources;
+        let is_faulty = |opener: Span| {
+            let block = block_behind(&sources.get(opener.file).text, opener);
+            faults.iter().any(|fault| fault.file == opener.file && block.contains(&fault.start))
+        };
+        self.diagnostics.retain_after(before, |told| {
+            told.code != Code::NothingInView
+                || !told.labels.iter().any(|label| is_faulty(label.span))
+        });
+    }
+
+    /// Whether a scene is ours, and what `holds` says was read of it.
+    fn is_scene(&self, holds: bool) -> bool {
+        holds && self.options.evaluate.dialect == Dialect::Scene
+    }
+
     /// That a scene with lights, `global_settings` and mistakes has no camera; of one without mistakes `lower` tells it.
-    pub(super) fn tell_blind(&mut self) {
+    pub(super) fn tell_blind(&mut self, holds: Holds) {
         let lacking = |one: &Diagnostic| {
             matches!(
                 one.code,
@@ -116,6 +204,7 @@ impl Road<'_> {
         let whole = texts
             .first()
             .is_some_and(|main| main.contains("global_settings") && main.contains("light_source"));
+        let whole = whole || self.is_scene(holds.light && holds.solid);
         if whole && !texts.iter().any(|text| misspelt(text)) {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
@@ -150,7 +239,7 @@ impl Road<'_> {
     }
 
     /// That a scene with mistakes has no light; `unused` are the names that nothing uses.
-    pub(super) fn tell_dark(&mut self, unused: &[Unused]) {
+    pub(super) fn tell_dark(&mut self, unused: &[Unused], holds: Holds) {
         let lacking = |one: &Diagnostic| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::NoLight)
                 || self.is_cut_off(one)
@@ -159,7 +248,8 @@ impl Road<'_> {
             return;
         }
         let texts = self.own_texts();
-        let whole = texts.first().is_some_and(|main| is_whole(main));
+        let whole = texts.first().is_some_and(|main| is_whole(main))
+            || self.is_scene(holds.camera && holds.solid);
         let has_light = |text: &str| {
             let unplaced = unplaced_lights(text);
             let is_dim = has_dim_ambient(text);
