@@ -124,6 +124,7 @@ impl Evaluator<'_> {
         let end = behind.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
         let is_part = match &behind[..end.unwrap_or(behind.len())] {
             "" => behind.starts_with(['<', '-', '+', '.', '(']),
+            "rgb" | "srgb" | "rgbf" | "rgbt" | "rgbft" | "color" | "colour" => true,
             name => Word::from_name(name)
                 .is_none_or(|word| word.role() != Role::Statement || word == Word::Function),
         };

@@ -2,8 +2,8 @@
 //!
 //! **In:** a text without comments. **Out:** the same text with blanks in their place.
 //! **Invariant:** a line is a sentence only outside of all braces, where it has several words of everyday
-//! speech, or its punctuation, and no sign that a scene is made of; one message for lines that follow each
-//! other.
+//! speech, or its punctuation, and no sign that a scene is made of, or behind the sign of another language's
+//! comment any words; one message for lines that follow each other.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -122,8 +122,23 @@ pub(super) fn blank<'a>(
     if sentences.is_empty() {
         return text;
     }
-    for lines in sentences.chunk_by(|a, b| text[a.end..b.start].trim().is_empty()) {
+    let sign = |line: &Range<usize>| comment_sign(&text[line.clone()]);
+    let together = |a: &Range<usize>, b: &Range<usize>| {
+        text[a.end..b.start].trim().is_empty() && sign(a) == sign(b)
+    };
+    for lines in sentences.chunk_by(together) {
         let [first, ..] = lines else { continue };
+        if let Some(theirs) = sign(first) {
+            let place =
+                |line: &Range<usize>| Span::new(file, line.start, line.start + theirs.len());
+            let message = format!("`{theirs}` begins a comment in other languages only");
+            let told = Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(place(first), "expected `//`")
+                .help("a comment begins with `//`");
+            let told = lines.iter().fold(told, |told, line| told.fix(place(line), "//"));
+            diagnostics.push(told);
+            continue;
+        }
         let span = |range: &Range<usize>| Span::new(file, range.start, range.end);
         let told = Diagnostic::new(
             Code::UnexpectedCharacter,
@@ -149,7 +164,8 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
         let words = line.trim();
         let follows =
             found.last().is_some_and(|last: &Range<usize>| text[last.end..start].trim().is_empty());
-        if depth == 0 && !quoted && is_sentence(words, follows) {
+        let is_prose = is_sentence(words, follows) || comment_sign(words).is_some();
+        if depth == 0 && !quoted && is_prose {
             let from = start + (line.len() - line.trim_start().len());
             found.push(from..from + words.len());
         } else {
@@ -167,6 +183,22 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
         start += line.len();
     }
     found
+}
+
+/// The sign of another language before a line of words: `-- like this`.
+fn comment_sign(line: &str) -> Option<&str> {
+    const SIGNS: [&str; 6] = ["--", ";", "%", "'", "REM ", "rem "];
+    let sign = SIGNS.into_iter().find(|sign| line.starts_with(sign))?;
+    let words = line.strip_prefix(sign)?.trim_start_matches(sign);
+    let (sign, _) = line.split_at(line.len() - words.len());
+    let is_word = |word: &str| {
+        word.starts_with(|c: char| c.is_alphanumeric() || c == '(')
+            && word.chars().all(|c| c.is_alphanumeric() || "()'’-_.,:!?…".contains(c))
+    };
+    let is_text = words.trim_start().starts_with(char::is_alphabetic)
+        && words.split_whitespace().count() >= 2
+        && words.split_whitespace().all(is_word);
+    is_text.then_some(sign.trim_end())
 }
 
 /// `follows`: a sentence stands before it.
@@ -222,6 +254,16 @@ mod tests {
             "rgb A 1, 2, 3,",
         ] {
             assert!(!is_sentence(line, false), "{line}");
+        }
+    }
+
+    #[test]
+    fn comments_of_other_languages_are_told_by_their_signs() {
+        let signs =
+            ["-- a comment", ";;; a comment", "% a comment", "' a comment", "REM a comment"];
+        assert_eq!(signs.map(comment_sign), ["--", ";;;", "%", "'", "REM"].map(Some));
+        for line in ["-- b - c", "; sphere { a, 1 }", "--B", "; x", "- a comment", "'a' + b"] {
+            assert_eq!(comment_sign(line), None, "{line}");
         }
     }
 

@@ -177,6 +177,9 @@ impl Evaluator<'_> {
         wanted: &str,
     ) -> Option<Reported> {
         let TokenKind::Block(_) = next.kind else { return None };
+        if let Some(told) = self.braced_macro(next.span) {
+            return Some(self.report(&next.here, told));
+        }
         let name = match after.kind {
             TokenKind::Word(word) if !opens_value(word) => word.name(),
             _ => return None,

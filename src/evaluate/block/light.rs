@@ -93,6 +93,7 @@ impl Evaluator<'_> {
             return (self.color_before_place(opener), None);
         }
         let kind = self.light_place(opener);
+        self.semicolon_for_comma();
         let late = self.late_color(opener);
         let color = match late {
             // It is told where it comes, or that it never does.

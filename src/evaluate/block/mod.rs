@@ -286,6 +286,18 @@ impl Evaluator<'_> {
         reported
     }
 
+    /// `background rgb <0, 0, 1>`: what stands on the line belongs in braces.
+    fn braces_around_line(&self, from: Span, name: &str, told: Diagnostic) -> Diagnostic {
+        let rest = self.sources.get(from.file).text.get(from.start as usize..).unwrap_or("");
+        let line = rest.lines().next().unwrap_or("").trim_end();
+        if line.contains(['{', '}', '/', ';', '#']) {
+            return told.help(self.form_of(Word::Background));
+        }
+        let text = format!("{{ {line} }}");
+        let end = from.start + line.len() as u32;
+        told.help(format!("write `{name} {text}`")).fix(Span { end, ..from }, text)
+    }
+
     /// Enters the block after `token`.
     pub(in crate::evaluate) fn block<T>(
         &mut self,
@@ -310,6 +322,11 @@ impl Evaluator<'_> {
                     {
                         let text = format!("{{ {} }}", self.sources.text(span));
                         diagnostic.help(format!("write `{name} {text}`")).fix(span, text)
+                    }
+                    Some(Token { kind: TokenKind::Word(_), span, .. })
+                        if word == Word::Background =>
+                    {
+                        self.braces_around_line(span, name, diagnostic)
                     }
                     Some(Token { kind: TokenKind::Expression(id), here, .. })
                         if matches!(

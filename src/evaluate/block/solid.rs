@@ -151,6 +151,7 @@ impl Evaluator<'_> {
         let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cylinder", &base, &cap)?;
         let radius = radius?;
+        self.lint_lone_height(&base, &cap);
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");

@@ -125,20 +125,17 @@ impl Evaluator<'_> {
                 self.unexpected_value(token, &value, place);
             }
             TokenKind::Block(contents) => {
-                let diagnostic = if self.is_braced_macro(token.span) {
-                    let message =
-                        "the body of `#macro` stands without braces, and ends with `#end`";
-                    let closer = Span { start: token.span.end - 1, ..token.span };
-                    Diagnostic::new(Code::ExtraPart, message)
-                        .at(opener(token.span), "the braces of another language")
-                        .help("leave them out")
-                        .fix(opener(token.span), "")
-                        .fix(closer, "")
-                } else {
-                    let message =
-                        format!("a block without a word before it has no meaning {}", place.name());
-                    Diagnostic::new(Code::ExtraPart, message)
-                        .at(opener(token.span), "expected a word before this")
+                let diagnostic = match self.braced_macro(token.span) {
+                    Some(told) => told,
+                    None => {
+                        let message = format!(
+                            "a block without a word before it has no meaning {}",
+                            place.name()
+                        );
+                        let told = Diagnostic::new(Code::ExtraPart, message)
+                            .at(opener(token.span), "expected a word before this");
+                        self.braced_colors(token.span, told)
+                    }
                 };
                 self.report(&token.here, diagnostic);
                 self.inside_block(&token.here, *contents, token.span, Self::run_items);
@@ -296,14 +293,49 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// `#macro M(A) { … }`
-    fn is_braced_macro(&self, block: Span) -> bool {
+    /// `#macro M(A) { … }`: what is said of the braces.
+    pub(super) fn braced_macro(&self, block: Span) -> Option<Diagnostic> {
         let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
         let before = before.trim_end();
         let line = before.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
-        line.starts_with("#macro")
+        let is_meant = line.starts_with("#macro")
             && before.ends_with(')')
-            && self.sources.text(block).ends_with('}')
+            && self.sources.text(block).ends_with('}');
+        let message = "the body of `#macro` stands without braces, and ends with `#end`";
+        let closer = Span { start: block.end - 1, ..block };
+        is_meant.then(|| {
+            Diagnostic::new(Code::ExtraPart, message)
+                .at(opener(block), "the braces of another language")
+                .help("leave them out")
+                .fix(opener(block), "")
+                .fix(closer, "")
+        })
+    }
+
+    /// `checker { rgb 1 rgb 0 }`, `gradient y { [0 rgb 1] [1 rgb 0] }`: the colours of a pattern.
+    fn braced_colors(&self, block: Span, told: Diagnostic) -> Diagnostic {
+        let text = self.sources.text(block);
+        let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
+        let mut words = before.trim_end().rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let is_pattern = |word: Option<&str>| {
+            let word = word.and_then(Word::from_name);
+            word.is_some_and(|word| word.family() == Family::Pattern)
+        };
+        let last = words.next();
+        let lists = matches!(last, Some("checker" | "hexagon" | "brick" | "square" | "triangular"));
+        if lists && !text.contains('[') && text.ends_with('}') {
+            let closer = Span { start: block.end - 1, ..block };
+            return told
+                .help(format!("the colours of `{}` stand without braces", last.unwrap_or("")))
+                .fix(opener(block), "")
+                .fix(closer, "");
+        }
+        if text.contains('[') && (is_pattern(last) || is_pattern(words.next())) {
+            return told
+                .help("entries of colours stand in a `color_map { … }`")
+                .fix(Span { end: block.start, ..block }, "color_map ");
+        }
+        told
     }
 
     /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where

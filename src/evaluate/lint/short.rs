@@ -140,6 +140,28 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
+    /// `cylinder { <0, 0, 0>, 2, 0.5 }`, typed: a height, where the other end is wanted.
+    pub(in crate::evaluate) fn lint_lone_height(
+        &mut self,
+        base: &Given<Vector>,
+        cap: &Given<Vector>,
+    ) {
+        let text = self.sources.text(cap.span);
+        // `-1, 1` is a diagonal.
+        let is_diagonal = is_literal(self.sources.text(base.span)) && base.value != Vector::ZERO;
+        if !is_literal(text) || is_diagonal || cap.value == Vector::ZERO {
+            return;
+        }
+        let ([x, y, z], height) = (base.value.to_array(), cap.value.y);
+        let right = format!("<{x}, {}, {z}>", y + height);
+        let message = "the other end of a cylinder is a place, and a number is on all three axes";
+        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+            .at(cap.span, format!("this is <{height}, {height}, {height}>"))
+            .help(format!("for a height of {text} write `{right}`"))
+            .fix(cap.span, right);
+        self.report(&cap.here, diagnostic);
+    }
+
     /// `right 16/9`, typed: a side of the picture is a vector.
     pub(in crate::evaluate) fn lint_lone_side(
         &mut self,
