@@ -34,8 +34,10 @@ impl Repair<'_> {
                     None => {}
                 }
             }
-            // Nothing else ends more than the innermost, but for what stands beside several.
-            if !begins && !self.stands_beside(self.open[level].token, at) {
+            // Nothing else ends more than the innermost, but for what stands beside several; around one that has
+            // ended before, these have, too.
+            let ended = known.is_some_and(|outside| outside.certain);
+            if !begins && (ended || !self.stands_beside(self.open[level].token, at)) {
                 break;
             }
         }
