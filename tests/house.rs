@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Role, Word};
 
+#[path = "house/adding.rs"]
+mod adding;
 #[path = "house/numbers.rs"]
 mod numbers;
 

@@ -5,7 +5,7 @@ use super::transform::{Affine, exact};
 use crate::math::double::{Double, DoubleVector};
 use crate::math::{Vector, reciprocal_power_of_two};
 use crate::scene::sweep::{Kind, Sweep};
-use crate::shape::sweep::Segment;
+use crate::shape::sphere_sweep::Segment;
 use crate::shape::{Body, SphereSweep};
 
 /// What each of the control points adds to each coefficient.

@@ -143,3 +143,10 @@ impl Local for Text {
         self.is_flat
     }
 }
+
+#[cfg(test)]
+impl Text {
+    pub(super) fn outlines(&self) -> impl Iterator<Item = &Outline> {
+        self.letters.iter().map(|letter| &letter.prism.outline)
+    }
+}

@@ -162,7 +162,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/sphere.rs", "let close", "relative: of the height to the radius, squared"),
     ("shape/sphere.rs", "size / 1_048_576.0", "relative: of the distance and the radius"),
     ("shape/superellipsoid.rs", "const MOST", "a gauge so large is as good as any larger"),
-    ("shape/sweep/mod.rs", "const STRETCHES", "stretches of a segment, counted"),
+    ("shape/sphere_sweep/mod.rs", "const STRETCHES", "stretches of a segment, counted"),
     ("shape/torus.rs", "let slope", "keeps 0/0 from the middle, where the slope is not asked"),
     ("trace/refraction.rs", "CRITICAL", "relative: of a sine, which is at most 1"),
     ("trace/sharpness.rs", "let is_sharp", "roundings of a direction, whose length is 1"),

@@ -1,5 +1,8 @@
 //! A ray that goes on from a surface does not meet it there again.
 
+use super::box_::{point_of, random_box};
+use super::ellipsoid::random_ellipsoid;
+use super::plane::random_plane;
 use super::*;
 
 /// The ways a ray may go on from a surface: anywhere, nearly along it, straight up.

@@ -16,7 +16,7 @@ use lucarne::shape::isosurface::{Cells, Container};
 use lucarne::shape::julia_fractal::Algebra;
 use lucarne::shape::{
     Algebraic, Blob, Body, Isosurface, JuliaFractal, Lathe, Ovus, Prism, Sor, SphereSweep,
-    Superellipsoid, blob, sor, sweep,
+    Superellipsoid, blob, sor, sphere_sweep,
 };
 
 use crate::bodies::Form;
@@ -460,7 +460,7 @@ impl Field for Bone {
             let [(a, r), (b, s)] = [pair[0], pair[1]];
             let [a, b] = [a, b].map(Vector::from_array);
             let zero = Vector::ZERO;
-            sweep::Segment { centre: [a, b - a, zero, zero], radius: [r, s - r, 0.0, 0.0] }
+            sphere_sweep::Segment { centre: [a, b - a, zero, zero], radius: [r, s - r, 0.0, 0.0] }
         };
         SphereSweep::new(JOINTS.windows(2).map(segment).collect()).map(Body::SphereSweep)
     }

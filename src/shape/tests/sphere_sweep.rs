@@ -4,7 +4,7 @@ use super::placed::{assert_crossed_where_it_is, assert_left_into_the_open, place
 use super::*;
 use crate::shape::body::Local;
 use crate::shape::exact::Triple;
-use crate::shape::sweep::Segment;
+use crate::shape::sphere_sweep::Segment;
 use crate::shape::{Body, SphereSweep};
 
 fn inside(body: &Body, point: Triple) -> Double {

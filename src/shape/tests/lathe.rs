@@ -1,12 +1,18 @@
 //! Lathes against twice the digits.
 
-use super::super::placed::{
+use super::outline::{
+    along_outline, goes_along, in_a_line, is_clear, loop_of, number, planar, ray_through,
+};
+use super::placed::{
     assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, placed,
     ray_at_placed,
 };
 use super::*;
+use crate::math::random::tries_in;
+use crate::shape::curve::Point;
+use crate::shape::exact::Triple;
 
-fn lathe(body: &Body, [x, y, z]: Triple) -> Double {
+fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Lathe(lathe) = body else { panic!("{body:?}") };
     planar(lathe.outline(), [(x * x + y * y).sqrt(), z])
 }
@@ -48,9 +54,9 @@ fn a_lathe_is_crossed_where_exact_arithmetic_crosses_it() {
         let placed = placed(&mut random, body);
         for _ in 0..3 {
             let ray = ray_at_placed(&mut random, &placed);
-            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
             if is_clear(&placed, &ray, false) {
-                assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+                assert_left_into_the_open(&mut random, &placed, &ray, inside);
             }
         }
     }
@@ -83,19 +89,19 @@ fn a_lathe_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis()
         };
         let placed = placed(&mut random, Body::Lathe(body));
         let Some((ray, near)) = ray_through(&mut random, &placed, through, way) else { continue };
-        if goes_along(&placed, &ray, lathe) {
+        if goes_along(&placed, &ray, inside) {
             assert_eq!(placed.crossings(&ray).len() % 2, 0);
             continue;
         }
         // Where walls touch, what is between them may be too little to be told.
         if !is_clear(&placed, &ray, true) {
-            assert_inside_where_it_says(&mut random, &placed, &ray, lathe);
+            assert_inside_where_it_says(&mut random, &placed, &ray, inside);
             continue;
         }
-        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, lathe);
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
         // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
         if near && is_clear(&placed, &ray, false) {
-            assert_left_into_the_open(&mut random, &placed, &ray, lathe);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");

@@ -1,11 +1,16 @@
 //! Surfaces of revolution against twice the digits.
 
-use super::super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed,
+use super::outline::{goes_along, number, one, ray_through};
+use super::placed::{
+    assert_crossed_where_it_is, assert_left_into_the_open, greater, placed, ray_at_placed,
 };
 use super::*;
+use crate::math::random::tries_in;
+use crate::shape::body::Local;
+use crate::shape::exact::Triple;
+use crate::shape::sor::Segment;
 
-fn sor(body: &Body, [x, y, z]: Triple) -> Double {
+fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Sor(sor) = body else { panic!("{body:?}") };
     let segments = sor.segments();
     let number = segments.partition_point(|segment| segment.high < z.0);
@@ -49,8 +54,8 @@ fn a_sor_is_crossed_where_exact_arithmetic_crosses_it() {
         let placed = placed(&mut random, body);
         for _ in 0..4 {
             let ray = ray_at_placed(&mut random, &placed);
-            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, sor);
-            assert_left_into_the_open(&mut random, &placed, &ray, sor);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
         }
     }
     assert!(crossed > tries_in(30), "{crossed}");
@@ -77,14 +82,14 @@ fn a_sor_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
         };
         let placed = placed(&mut random, Body::Sor(body));
         let Some((ray, near)) = ray_through(&mut random, &placed, through, way) else { continue };
-        if goes_along(&placed, &ray, sor) {
+        if goes_along(&placed, &ray, inside) {
             assert_eq!(placed.crossings(&ray).len() % 2, 0);
             continue;
         }
-        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, sor);
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
         // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
         if near {
-            assert_left_into_the_open(&mut random, &placed, &ray, sor);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");

@@ -1,23 +1,16 @@
 //! What prisms, lathes and surfaces of revolution share in their tests against twice the digits.
 
-use super::placed::{Inside, blur, greater, local_at};
+use super::lathe::any_lathe;
+use super::placed::{Inside, blur, local_at};
+use super::prism::any_prism;
+use super::sor::any_sor;
 use super::*;
 use crate::math::random::tries_in;
 use crate::shape::body::Local;
 use crate::shape::curve::{Outline, Piece, Point, Run};
-use crate::shape::exact::Triple;
-use crate::shape::sor::Segment;
-use crate::shape::{Body, Lathe, Placed, Prism, Sor};
+use crate::shape::{Body, Placed, Prism};
 
-mod lathe;
-mod prism;
-mod sor;
-
-use lathe::any_lathe;
-use prism::any_prism;
-use sor::any_sor;
-
-fn one() -> Double {
+pub(super) fn one() -> Double {
     Double::of(1.0)
 }
 
@@ -60,7 +53,7 @@ fn level(piece: &Piece, height: Double) -> Double {
 }
 
 /// Negative inside of an outline; the size is about the distance.
-fn planar(outline: &Outline, [x, y]: [Double; 2]) -> Double {
+pub(super) fn planar(outline: &Outline, [x, y]: [Double; 2]) -> Double {
     let mut odd = false;
     let mut distance = f64::INFINITY;
     for piece in &outline.pieces {
@@ -80,13 +73,13 @@ fn planar(outline: &Outline, [x, y]: [Double; 2]) -> Double {
 }
 
 /// Numbers that meet: few digits, or many.
-fn number(random: &mut Random, low: f64, high: f64) -> f64 {
+pub(super) fn number(random: &mut Random, low: f64, high: f64) -> f64 {
     let any = random.number(low, high);
     if random.below(2) == 0 { any } else { (any * 8.0).round() / 8.0 }
 }
 
 /// Pieces of a degree through points, which closes.
-fn loop_of(random: &mut Random, points: &[Point], degree: usize) -> Vec<Piece> {
+pub(super) fn loop_of(random: &mut Random, points: &[Point], degree: usize) -> Vec<Piece> {
     let count = points.len();
     let lean = |random: &mut Random, at: Point| {
         let size = [0.0, 0.2, 0.6][random.below(3)];
@@ -103,13 +96,13 @@ fn loop_of(random: &mut Random, points: &[Point], degree: usize) -> Vec<Piece> {
     (0..count).map(|i| piece(i, random)).collect()
 }
 
-fn in_a_line(points: &[Point]) -> bool {
+pub(super) fn in_a_line(points: &[Point]) -> bool {
     let [a, b] = points[0];
     let turn = |p: &[Point]| (p[0][0] - a) * (p[1][1] - b) - (p[0][1] - b) * (p[1][0] - a);
     points.windows(2).all(|pair| turn(pair).abs() < 1e-12)
 }
 
-fn any_outline(random: &mut Random) -> Outline {
+pub(super) fn any_outline(random: &mut Random) -> Outline {
     let mut outline = Outline::default();
     while outline.pieces.is_empty() {
         for _ in 0..1 + random.below(2) {
@@ -133,7 +126,7 @@ fn any_outline(random: &mut Random) -> Outline {
 }
 
 /// A line through a joint or another place of an outline, along its tangent, or nearly.
-fn along_outline(random: &mut Random, outline: &Outline) -> (Point, Point) {
+pub(super) fn along_outline(random: &mut Random, outline: &Outline) -> (Point, Point) {
     let piece = outline.pieces[random.below(outline.pieces.len())];
     let u = [0.0, 1.0, random.number(0.0, 1.0)][random.below(3)];
     let (at, speed) = piece.at(u);
@@ -143,7 +136,7 @@ fn along_outline(random: &mut Random, outline: &Outline) -> (Point, Point) {
 }
 
 /// From near or far, through a local point; and whether from near.
-fn ray_through(
+pub(super) fn ray_through(
     random: &mut Random,
     placed: &Placed,
     through: Vector,
@@ -158,7 +151,7 @@ fn ray_through(
 
 /// Where it is crossed, there is only one wall; or two at their joint, if those count as one. Not so where an
 /// outline touches itself.
-fn is_clear(placed: &Placed, ray: &Ray, joints: bool) -> bool {
+pub(super) fn is_clear(placed: &Placed, ray: &Ray, joints: bool) -> bool {
     let speed = placed.placement.local_direction(ray.direction).length();
     let clear = |outline: &Outline, place: Point, off: f64| {
         let near = |i: &usize| {
@@ -191,13 +184,14 @@ fn is_clear(placed: &Placed, ray: &Ray, joints: bool) -> bool {
                 let x = (x * x + y * y).sqrt();
                 (joints || x > 1e-9 + off) && clear(lathe.outline(), [x, z], off)
             }
+            Body::Text(text) => text.outlines().all(|outline| clear(outline, [x, y], off)),
             _ => true,
         }
     })
 }
 
 /// On a part of its way, rounding does not tell on which side of the surface it is.
-fn goes_along(placed: &Placed, ray: &Ray, inside: Inside) -> bool {
+pub(super) fn goes_along(placed: &Placed, ray: &Ray, inside: Inside) -> bool {
     let near = placed.placement.local_point(ray.origin);
     let step = placed.placement.local_direction(ray.direction);
     let middle = -near.dot(step) / step.length_squared();

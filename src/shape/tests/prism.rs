@@ -1,12 +1,15 @@
 //! Prisms against twice the digits.
 
-use super::super::placed::{
-    assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, placed,
-    ray_at_placed,
+use super::outline::{along_outline, any_outline, goes_along, is_clear, one, planar, ray_through};
+use super::placed::{
+    assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, greater,
+    placed, ray_at_placed,
 };
 use super::*;
+use crate::math::random::tries_in;
+use crate::shape::exact::Triple;
 
-fn prism(body: &Body, [x, y, z]: Triple) -> Double {
+fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Prism(Prism { outline, conic, heights: [low, high], .. }) = body else {
         panic!("{body:?}")
     };
@@ -38,9 +41,9 @@ fn a_prism_is_crossed_where_exact_arithmetic_crosses_it() {
         let placed = placed(&mut random, body);
         for _ in 0..3 {
             let ray = ray_at_placed(&mut random, &placed);
-            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, prism);
+            crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
             if is_clear(&placed, &ray, false) {
-                assert_left_into_the_open(&mut random, &placed, &ray, prism);
+                assert_left_into_the_open(&mut random, &placed, &ray, inside);
             }
         }
     }
@@ -67,19 +70,19 @@ fn a_prism_is_crossed_where_a_ray_meets_its_edges_goes_along_its_walls_or_throug
         };
         let placed = placed(&mut random, Body::Prism(body));
         let Some((ray, near)) = ray_through(&mut random, &placed, through, way) else { continue };
-        if goes_along(&placed, &ray, prism) {
+        if goes_along(&placed, &ray, inside) {
             assert_eq!(placed.crossings(&ray).len() % 2, 0);
             continue;
         }
         // Where walls touch, what is between them may be too little to be told.
         if !is_clear(&placed, &ray, true) {
-            assert_inside_where_it_says(&mut random, &placed, &ray, prism);
+            assert_inside_where_it_says(&mut random, &placed, &ray, inside);
             continue;
         }
-        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, prism);
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
         // From afar, a place on an edge may lie beyond it, by as much as the line is blurred.
         if near && is_clear(&placed, &ray, false) {
-            assert_left_into_the_open(&mut random, &placed, &ray, prism);
+            assert_left_into_the_open(&mut random, &placed, &ray, inside);
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");
