@@ -49,8 +49,8 @@ impl Spline {
     }
 
     /// The closed curves of a prism, each with its control points: a curve ends where its first point stands
-    /// again. The last of a linear spline may lack that point. An error is the number of the first point of
-    /// a curve that never ends.
+    /// again. The last of a linear spline may lack that point. An error is where the points begin of a curve
+    /// that never ends.
     ///
     /// **Source:** manual, section 3.4.5.1.11 ("Prism").
     pub fn contours(self, points: &[Point]) -> Result<Vec<Range<usize>>, usize> {
@@ -66,10 +66,10 @@ impl Spline {
             let to = match end {
                 Some(end) => end + 1 + behind,
                 None if self == Self::Linear => points.len(),
-                None => return Err(first.min(points.len() - 1)),
+                None => return Err(from),
             };
             if to > points.len() {
-                return Err(first);
+                return Err(from);
             }
             found.push(from..to);
             from = to;

@@ -50,21 +50,14 @@ impl Evaluator<'_> {
                 .also(low.span, "it begins here");
             self.nothing(token, &high.here, diagnostic)?;
         }
-        let points = self.points(token, Word::Prism, spline)?;
-        if let Err(never_ends) = spline.contours(&values(&points)) {
-            let (first, last) = (&points[never_ends], &points[points.len() - 1]);
-            let [x, z] = first.value;
-            let (_, behind) = spline.controls();
-            let then = if behind > 0 { ", then the point that tells its slope there" } else { "" };
-            let diagnostic =
-                Diagnostic::new(Code::MissingPart, "a curve of this prism is not closed")
-                    .at(last.span, format!("expected <{x}, {z}> again before the points end"))
-                    .also(first.span, "the curve begins here")
-                    .help(format!("a curve ends with the point it began with{then}"));
-            return Err(self.report(&last.here, diagnostic));
+        let mut points = self.points(token, Word::Prism, spline)?;
+        match spline.contours(&values(&points)) {
+            Ok(_) => {}
+            Err(from) if from > 0 && from + 1 == points.len() => self.stray_point(&mut points)?,
+            Err(from) => self.unclosed_curve(token, spline, &mut points, from)?,
         }
         match spline {
-            Spline::Bezier => self.pieces_meet(&points)?,
+            Spline::Bezier => self.pieces_meet(token, &mut points)?,
             // Where one more point follows, that is what is told.
             Spline::Linear if !self.goes_on() => self.lint_open_prism(&points),
             Spline::Linear | Spline::Quadratic | Spline::Cubic => {}
@@ -79,6 +72,50 @@ impl Evaluator<'_> {
             open,
         };
         Ok(solid)
+    }
+
+    /// One point behind a closed curve: POV-Ray passes over it.
+    fn stray_point(&mut self, points: &mut Points) -> Outcome<()> {
+        let Some(stray) = points.pop() else { return Ok(()) };
+        let code = match self.options.dialect {
+            Dialect::Scene => Code::ExtraPart,
+            Dialect::Pov => Code::OpenOutline,
+        };
+        let mut diagnostic = Diagnostic::new(code, "the curve of this prism is closed before its last point")
+            .at(stray.span, "this point is one too many")
+            .help("the point that tells the slope at its end comes once; leave this one out, and count one less");
+        if let Some(last) = points.last() {
+            diagnostic = diagnostic.also(last.span, "the curve ends here");
+        }
+        let reported = self.report(&stray.here, diagnostic);
+        if code == Code::OpenOutline { Ok(()) } else { Err(reported) }
+    }
+
+    /// A curve that does not come back to where it began. Of Bézier pieces, POV-Ray leaves the prism out; of
+    /// others, it ends.
+    fn unclosed_curve(
+        &mut self,
+        token: &Token,
+        spline: Spline,
+        points: &mut Points,
+        from: usize,
+    ) -> Outcome<()> {
+        let (before, behind) = spline.controls();
+        let (first, last) = (&points[(from + before).min(points.len() - 1)], &points[points.len() - 1]);
+        let [x, z] = first.value;
+        let then = if behind > 0 { ", then the point that tells its slope there" } else { "" };
+        let is_left_out = spline == Spline::Bezier;
+        let code = if is_left_out { self.undrawn(Code::MissingPart) } else { Code::MissingPart };
+        let diagnostic = Diagnostic::new(code, "a curve of this prism is not closed")
+            .at(last.span, format!("expected <{x}, {z}> again before the points end"))
+            .also(first.span, "the curve begins here")
+            .help(format!("a curve ends with the point it began with{then}"));
+        let here = last.here.clone();
+        if !is_left_out {
+            return Err(self.report(&here, diagnostic));
+        }
+        points.clear();
+        self.nothing(token, &here, diagnostic)
     }
 
     /// Whether a value comes next, or a comma before one.
@@ -121,21 +158,23 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// The pieces of a closed curve meet end to end.
-    fn pieces_meet(&mut self, points: &Points) -> Outcome<()> {
+    /// The pieces of a closed curve meet end to end; where they do not, POV-Ray leaves the prism out.
+    fn pieces_meet(&mut self, token: &Token, points: &mut Points) -> Outcome<()> {
         let all = values(points);
         let same = sameness(&all);
         let contours = Spline::Bezier.contours(&all).unwrap_or_default();
         for joint in contours.iter().flat_map(|run| (run.start + 4..run.end).step_by(4)) {
             if !same(all[joint - 1], all[joint]) {
                 let message = "two pieces of this prism's curve do not meet";
-                let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                let diagnostic = Diagnostic::new(self.undrawn(Code::OutOfRange), message)
                     .at(points[joint].span, "a piece begins here")
                     .also(points[joint - 1].span, "the one before ends here")
                     .help(
                         "of a closed curve of Bézier pieces, each begins where the one before ends",
                     );
-                return Err(self.report(&points[joint].here, diagnostic));
+                let here = points[joint].here.clone();
+                points.clear();
+                return self.nothing(token, &here, diagnostic);
             }
         }
         Ok(())

@@ -63,15 +63,15 @@ impl Evaluator<'_> {
             polygon.lines.push(line);
         }
         self.stored += points * size_of::<Vector>() as u64;
-        self.check_flat(token, &polygon, &last)?;
+        self.check_flat(token, &mut polygon, &last)?;
         Ok(Solid::Polygon { polygon })
     }
 
-    /// A polygon in a line is nothing; one that is not flat is an error, which POV-Ray overlooks.
+    /// A polygon in a line is nothing; of one that is not flat POV-Ray draws nothing.
     fn check_flat(
         &mut self,
         token: &Token,
-        polygon: &Polygon,
+        polygon: &mut Polygon,
         last: &Given<Vector>,
     ) -> Outcome<()> {
         let Some(plane) = polygon.plane() else {
@@ -87,15 +87,11 @@ impl Evaluator<'_> {
         };
         let point = crate::math::vector::written(*point);
         let message = format!("this polygon is not flat: {point} lies beside the plane of others");
-        let code = match self.sizeless() {
-            Code::DegenerateShape => Code::DegenerateShape,
-            _ => Code::OutOfRange,
-        };
-        let diagnostic = Diagnostic::new(code, message)
+        let diagnostic = Diagnostic::new(self.undrawn(Code::OutOfRange), message)
             .at(token.span, "all points must lie in one plane")
             .help("a `mesh` may be bent");
-        let reported = self.report(&token.here, diagnostic);
-        if code == Code::DegenerateShape { Ok(()) } else { Err(reported) }
+        polygon.lines.clear();
+        self.nothing(token, &token.here, diagnostic)
     }
 
     /// `bicubic_patch { type 0 u_steps 3 v_steps 3 flatness 0 <…> }`, 16 points in four rows. The patch is

@@ -50,8 +50,13 @@ impl Evaluator<'_> {
     /// What a shape without size is: POV-Ray draws a scene that has one, as films do whose shapes grow from
     /// nothing.
     pub(super) fn sizeless(&self) -> Code {
+        self.undrawn(Code::ZeroSize)
+    }
+
+    /// What a shape is of which POV-Ray draws nothing, where here it is a mistake.
+    pub(super) fn undrawn(&self, mistake: Code) -> Code {
         match self.options.dialect {
-            Dialect::Scene => Code::ZeroSize,
+            Dialect::Scene => mistake,
             Dialect::Pov => Code::DegenerateShape,
         }
     }
@@ -265,6 +270,14 @@ impl Evaluator<'_> {
             self.nothing(token, &minor.here, diagnostic)?;
         }
         self.lint_spindle(&major, &minor);
+        // Asked by pictures of POV-Ray 3.7: of a negative minor radius it draws nothing.
+        if minor.value < 0.0 && self.options.dialect == Dialect::Pov {
+            let message = "POV-Ray draws nothing of a torus whose minor radius is negative";
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
+                .at(minor.span, "expected a number more than 0");
+            self.nothing(token, &minor.here, diagnostic)?;
+            return Ok(Solid::Torus { major: major.value, minor: 0.0 });
+        }
         for radius in [&major, &minor].into_iter().filter(|radius| radius.value < 0.0) {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
