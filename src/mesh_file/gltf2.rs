@@ -13,6 +13,8 @@ use gltf::json::validation::Checked;
 use gltf::json::{Index, Material, Node, Root};
 
 use super::build::{Builder, Corner};
+use super::json::Step::{Entry, Key};
+use super::json::Text;
 use super::{Beside, Fault, Place, data_uri};
 use crate::math::{Matrix, Vector};
 
@@ -24,17 +26,17 @@ const UNDERSTOOD: [&str; 3] =
     ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> Result<(), Fault> {
-    let (text, held, start) = match bytes.strip_prefix(b"glTF") {
-        None => (bytes, None, None),
+    let (text, held) = match bytes.strip_prefix(b"glTF") {
+        None => (Text { bytes, start: None }, None),
         Some(_) => {
-            let (text, held) = parts(bytes)?;
-            (text, held, Some(GLB_HEAD))
+            let (bytes, held) = parts(bytes)?;
+            (Text { bytes, start: Some(GLB_HEAD) }, held)
         }
     };
-    let root: Root = gltf::json::deserialize::from_slice(text).map_err(|error| {
-        let place = match start {
+    let root: Root = gltf::json::deserialize::from_slice(text.bytes).map_err(|error| {
+        let place = match text.start {
             None => Place::Line(error.line().max(1)),
-            Some(start) => Place::Byte(start + offset(text, error.line(), error.column())),
+            Some(_) => text.place(offset(text.bytes, error.line(), error.column())),
         };
         let said = error.to_string();
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
@@ -42,16 +44,19 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
     })?;
     if !root.asset.version.starts_with("2.") {
         let version = &root.asset.version;
-        return Err(Fault::new(format!("it is glTF {version}, and 2.0 is read")));
+        let fault = Fault::new(format!("it is glTF {version}, and 2.0 is read"));
+        return Err(text.fault_at(fault, &[Key("asset"), Key("version")]));
     }
     let asks = |name: &&String| {
         !UNDERSTOOD.contains(&name.as_str()) && !name.starts_with("KHR_materials_")
     };
-    if let Some(name) = root.extensions_required.iter().find(asks) {
-        return Err(Fault::new(format!("it requires `{name}`, which is not read")));
+    if let Some(number) = root.extensions_required.iter().position(|name| asks(&name)) {
+        let name = &root.extensions_required[number];
+        let fault = Fault::new(format!("it requires `{name}`, which is not read"));
+        return Err(text.fault_at(fault, &[Key("extensionsRequired"), Entry(number)]));
     }
-    let buffers = buffers(&root, held, beside)?;
-    let mut document = Document { root: &root, buffers, builder };
+    let buffers = buffers(&root, held, beside, text)?;
+    let mut document = Document { root: &root, text, buffers, builder };
     document.nodes()
 }
 
@@ -80,11 +85,16 @@ fn buffers(
     root: &Root,
     mut held: Option<Vec<u8>>,
     beside: &mut Beside,
+    text: Text,
 ) -> Result<Vec<Vec<u8>>, Fault> {
+    let fault = |number, why: &str| {
+        let fault = Fault::new(format!("buffer {number}{why}"));
+        text.fault_at(fault, &[Key("buffers"), Entry(number)])
+    };
     let buffers = root.buffers.iter().enumerate().map(|(number, buffer)| match &buffer.uri {
-        None => held.take().ok_or_else(|| Fault::new(format!("buffer {number} is nowhere"))),
+        None => held.take().ok_or_else(|| fault(number, " is nowhere")),
         Some(uri) => match data_uri::held(uri) {
-            Some(held) => held.map_err(|why| Fault::new(format!("buffer {number}: {why}"))),
+            Some(held) => held.map_err(|why| fault(number, &format!(": {why}"))),
             None => {
                 let name = data_uri::name(uri);
                 beside(&name).map_err(|why| Fault::new(why).in_file(&name))
@@ -96,6 +106,7 @@ fn buffers(
 
 struct Document<'d, 'b> {
     root: &'d Root,
+    text: Text<'d>,
     buffers: Vec<Vec<u8>>,
     builder: &'b mut Builder,
 }
@@ -149,14 +160,21 @@ impl Document<'_, '_> {
     fn nodes(&mut self) -> Result<(), Fault> {
         let root = self.root;
         let nothing = |what: &str| Fault::new(format!("{what} is not there"));
-        let scene = match root.scene {
-            Some(scene) => Some(root.get(scene).ok_or_else(|| nothing("its scene"))?),
-            None => root.scenes.first(),
+        let text = self.text;
+        let (scene, of_scene) = match root.scene {
+            Some(scene) => {
+                let fault = || text.fault_at(nothing("its scene"), &[Key("scene")]);
+                (Some(root.get(scene).ok_or_else(fault)?), scene.value())
+            }
+            None => (root.scenes.first(), 0),
         };
+        let in_node = |fault, number| text.fault_at(fault, &[Key("nodes"), Entry(number)]);
         let mut is_child = vec![false; root.nodes.len()];
-        for child in root.nodes.iter().flat_map(|node| node.children.iter().flatten()) {
-            let slot = is_child.get_mut(child.value());
-            *slot.ok_or_else(|| nothing("the child of a node"))? = true;
+        for (number, node) in root.nodes.iter().enumerate() {
+            for child in node.children.iter().flatten() {
+                let slot = is_child.get_mut(child.value());
+                *slot.ok_or_else(|| in_node(nothing("the child of a node"), number))? = true;
+            }
         }
         let mut waiting: Vec<(usize, Map)> = match scene {
             Some(scene) => scene.nodes.iter().map(|node| (node.value(), Map::IDENTITY)).collect(),
@@ -169,19 +187,25 @@ impl Document<'_, '_> {
         waiting.reverse();
         let mut seen = vec![false; root.nodes.len()];
         while let Some((number, above)) = waiting.pop() {
-            let node = root.nodes.get(number).ok_or_else(|| nothing("a node of its scene"))?;
+            let node = root.nodes.get(number).ok_or_else(|| {
+                let path = [Key("scenes"), Entry(of_scene)];
+                text.fault_at(nothing("a node of its scene"), &path)
+            })?;
             if std::mem::replace(&mut seen[number], true) {
-                return Err(Fault::new(format!("node {number} has two parents")));
+                let fault = Fault::new(format!("node {number} has two parents"));
+                return Err(in_node(fault, number));
             }
             let map = above.after(Map::of(node));
             if let Some(mesh) = node.mesh {
-                let mesh = root.get(mesh).ok_or_else(|| nothing("the mesh of a node"))?;
-                for primitive in &mesh.primitives {
-                    let place = |fault: Fault| Fault {
-                        reason: format!("node {number}: {}", fault.reason),
-                        ..fault
-                    };
-                    self.primitive(primitive, &map).map_err(place)?;
+                let of_mesh = mesh.value();
+                let mesh = root.get(mesh);
+                let mesh = mesh.ok_or_else(|| in_node(nothing("the mesh of a node"), number))?;
+                for (i, primitive) in mesh.primitives.iter().enumerate() {
+                    self.primitive(primitive, &map).map_err(|fault| {
+                        let reason = format!("node {number}: {}", fault.reason);
+                        let path = [Key("meshes"), Entry(of_mesh), Key("primitives"), Entry(i)];
+                        text.fault_at(Fault { reason, ..fault }, &path)
+                    })?;
                 }
             }
             let children = node.children.iter().flatten().rev();
@@ -293,7 +317,10 @@ impl Document<'_, '_> {
         index: Index<Accessor>,
         widths: &[usize],
     ) -> Result<(usize, Vec<f64>), Fault> {
-        let fault = |what: &str| Fault::new(format!("accessor {}: {what}", index.value()));
+        let fault = |what: &str| {
+            let fault = Fault::new(format!("accessor {}: {what}", index.value()));
+            self.text.fault_at(fault, &[Key("accessors"), Entry(index.value())])
+        };
         let accessor = self.root.get(index).ok_or_else(|| fault("it is not there"))?;
         let Checked::Valid(component) = accessor.component_type else {
             return Err(fault("its numbers are of no known type"));

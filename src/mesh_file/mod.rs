@@ -8,6 +8,7 @@
 mod build;
 mod data_uri;
 mod gltf2;
+mod json;
 mod material;
 mod obj;
 mod ply;
@@ -37,6 +38,7 @@ pub struct Model {
 pub struct Fault {
     /// The name of another file, where that is at fault.
     pub file: Option<String>,
+    /// `None` of what is larger than the limit, and of a file that is not there.
     pub place: Option<Place>,
     /// `a vertex has three numbers`.
     pub reason: String,
@@ -78,6 +80,11 @@ impl Fault {
     fn in_file(self, name: &str) -> Self {
         Self { file: Some(name.to_owned()), ..self }
     }
+}
+
+/// The line of a byte, from 1.
+fn line_at(bytes: &[u8], at: usize) -> usize {
+    1 + bytes[..at.min(bytes.len())].iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// Who has the files that lie beside one; the error is a reason, such as `it is not found`.

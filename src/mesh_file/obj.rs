@@ -23,6 +23,16 @@ struct Reader<'b, 'f> {
     /// Of the material in use.
     color: Option<u32>,
     corners: Vec<Corner>,
+    /// The line that is read.
+    line: usize,
+    /// What names vertices, normals or places that come later: an index counts from the file's first.
+    ahead: Vec<Polygon>,
+}
+
+/// A polygon whose indices may be of nothing.
+struct Polygon {
+    line: usize,
+    corners: Vec<Corner>,
 }
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> Result<(), Fault> {
@@ -34,9 +44,12 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
         colors: Vec::new(),
         color: None,
         corners: Vec::new(),
+        line: 0,
+        ahead: Vec::new(),
     };
     let mut begun = String::new();
     for (number, line) in text.lines().enumerate() {
+        reader.line = number + 1;
         let line = line.split('#').next().unwrap_or("").trim();
         // A line goes on where it ends with a backslash.
         if let Some(part) = line.strip_suffix('\\') {
@@ -56,7 +69,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
             None => fault.at(super::Place::Line(number + 1)),
         })?;
     }
-    Ok(())
+    reader.polygons_ahead()
 }
 
 impl Reader<'_, '_> {
@@ -109,10 +122,48 @@ impl Reader<'_, '_> {
             };
             let (vertex, uv, normal) = (index(0)?, index(2)?, index(1)?);
             let vertex = vertex.ok_or_else(|| Fault::new("a corner has no vertex"))?;
-            let color = self.colors.get(vertex as usize).copied().flatten().or(self.color);
-            self.corners.push(Corner { vertex, normal, color, uv });
+            self.corners.push(Corner { vertex, normal, color: self.color, uv });
         }
-        self.builder.polygon(&self.corners);
+        match self.missing(&self.corners) {
+            None => {
+                let mut corners = std::mem::take(&mut self.corners);
+                self.polygon(&mut corners);
+                self.corners = corners;
+            }
+            Some(_) => {
+                self.ahead.push(Polygon { line: self.line, corners: self.corners.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// The colours of vertices go before the material's.
+    fn polygon(&mut self, corners: &mut [Corner]) {
+        for corner in &mut *corners {
+            let own = self.colors.get(corner.vertex as usize).copied().flatten();
+            corner.color = own.or(corner.color);
+        }
+        self.builder.polygon(corners);
+    }
+
+    /// The first index that is of nothing so far.
+    fn missing(&self, corners: &[Corner]) -> Option<Fault> {
+        let counts = self.builder.counts();
+        let indices = |corner: &Corner| [Some(corner.vertex), corner.normal, corner.uv];
+        let mut all = corners.iter().flat_map(|corner| indices(corner).into_iter().enumerate());
+        all.find_map(|(which, index)| {
+            let index = index.filter(|&index| index as usize >= counts[which])?;
+            Some(of_nothing(i64::from(index) + 1, counts[which], which))
+        })
+    }
+
+    fn polygons_ahead(&mut self) -> Result<(), Fault> {
+        for Polygon { line, mut corners } in std::mem::take(&mut self.ahead) {
+            if let Some(fault) = self.missing(&corners) {
+                return Err(fault.at(super::Place::Line(line)));
+            }
+            self.polygon(&mut corners);
+        }
         Ok(())
     }
 
@@ -156,14 +207,17 @@ fn numbers(text: &str, wanted: &str) -> Result<[f64; 3], Fault> {
     }
 }
 
-/// An index counts from 1, or backward from the last entry so far.
+/// An index counts from 1, maybe to what comes later; or backward from the last entry so far.
 fn index(text: &str, count: usize, which: usize) -> Result<u32, Fault> {
-    let what = ["vertices", "normals", "places in a texture"][which];
     let number: i64 = text.parse().map_err(|_| Fault::new(format!("`{text}` is no index")))?;
     let from_zero =
         if number < 0 { number.checked_add(count as i64) } else { number.checked_sub(1) };
     let index = from_zero.and_then(|index| u32::try_from(index).ok());
-    index.filter(|&index| (index as usize) < count).ok_or_else(|| {
-        Fault::new(format!("index {number} is of nothing: there are {count} {what} before it"))
-    })
+    index.ok_or_else(|| of_nothing(number, count, which))
+}
+
+fn of_nothing(number: i64, count: usize, which: usize) -> Fault {
+    let what = ["vertices", "normals", "places in a texture"][which];
+    let before = if number < 0 { " before it" } else { "" };
+    Fault::new(format!("index {number} is of nothing: there are {count} {what}{before}"))
 }

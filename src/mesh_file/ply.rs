@@ -7,7 +7,7 @@
 //! **Source:** G. Turk, "The PLY Polygon File Format", 1994.
 
 use std::borrow::Cow;
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
@@ -24,36 +24,41 @@ type Bytes<'b> = Reader<Cursor<&'b [u8]>>;
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let bytes = &*with_plain_head(bytes);
     let mut reader = Reader::new(Cursor::new(bytes));
-    let header = Parser::<Unread>::new().read_header(&mut reader).map_err(|e| told(&e))?;
+    let header = Parser::<Unread>::new().read_header(&mut reader).map_err(|error| {
+        // Of what is missing, where it ends.
+        told(&error).at(Place::Line(reader.line().saturating_sub(1).max(1)))
+    })?;
+    let declared = |name: &str| Place::Line(line_of(bytes, &format!("element {name}")));
     let mut colors = Vec::new();
     let mut has = Has { normals: false, uvs: false };
     let mut has_faces = false;
     for element in header.elements.values() {
-        check_count(element, &header, bytes.len() - reader.get_ref().position() as usize)?;
+        check_count(element, &header, bytes.len() - reader.get_ref().position() as usize)
+            .map_err(|fault| fault.at(declared(&element.name)))?;
         match element.name.as_str() {
             "vertex" => {
                 let gives = |names: &[&str]| {
                     names.iter().all(|name| element.properties.contains_key(*name))
                 };
                 if !gives(&["x", "y", "z"]) {
-                    return Err(Fault::new("its vertices have no x, y and z"));
+                    let fault = Fault::new("its vertices have no x, y and z");
+                    return Err(fault.at(declared(&element.name)));
                 }
                 has.normals = gives(&["nx", "ny", "nz"]);
                 has.uvs =
                     [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]].iter().any(|n| gives(n));
                 let vertices = elements::<Vertex>(&mut reader, element, &header)?;
-                for (number, vertex) in vertices.iter().enumerate() {
-                    colors.push(
-                        vertex.add(has, builder).map_err(|f| in_element("vertex", number, f))?,
-                    );
+                for (number, (place, vertex)) in vertices.iter().enumerate() {
+                    let added = vertex.add(has, builder);
+                    colors.push(added.map_err(|f| in_element("vertex", number, *place, f))?);
                 }
             }
             "face" => {
                 has_faces = true;
                 let polygons = elements::<Polygon>(&mut reader, element, &header)?;
-                for (number, polygon) in polygons.iter().enumerate() {
+                for (number, (place, polygon)) in polygons.iter().enumerate() {
                     let added = polygon.add(&colors, has, builder);
-                    added.map_err(|fault| in_element("face", number, fault))?;
+                    added.map_err(|fault| in_element("face", number, *place, fault))?;
                 }
             }
             _ => drop(elements::<Unread>(&mut reader, element, &header)?),
@@ -61,12 +66,25 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     }
     match has_faces {
         true => Ok(()),
-        false => Err(Fault::new("it has no `face` elements: points alone, or strips of triangles")),
+        false => Err(Fault::line(
+            line_of(bytes, "end_header"),
+            "it has no `face` elements: points alone, or strips of triangles",
+        )),
     }
 }
 
-fn in_element(what: &str, number: usize, fault: Fault) -> Fault {
-    Fault { reason: format!("{what} {number}: {}", fault.reason), ..fault }
+fn in_element(what: &str, number: usize, place: Place, fault: Fault) -> Fault {
+    Fault { reason: format!("{what} {number}: {}", fault.reason), ..fault }.at(place)
+}
+
+/// The line of the head that begins with these words.
+fn line_of(bytes: &[u8], words: &str) -> usize {
+    let mut lines = bytes.split(|byte| *byte == b'\n');
+    let begins = |line: &[u8]| {
+        let mut found = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        words.split(' ').all(|word| found.next() == Some(word.as_bytes()))
+    };
+    lines.position(begins).map_or(1, |number| number + 1)
 }
 
 /// Comments may be of any encoding; the crate reads UTF-8.
@@ -109,19 +127,43 @@ fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(),
     }
 }
 
+/// The elements of a kind, each with where it begins.
 fn elements<E: PropertyAccess>(
     reader: &mut Bytes,
     element: &ElementDef,
     header: &Header,
-) -> Result<Vec<E>, Fault> {
-    let read = Parser::<E>::new().read_payload_for_element(reader, element, header);
-    read.map_err(|error| match header.encoding {
-        Encoding::Ascii => told(&error),
-        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => {
-            let place = Place::Byte(reader.get_ref().position() as usize);
-            Fault { place: Some(place), ..told(&error) }
-        }
-    })
+) -> Result<Vec<(Place, E)>, Fault> {
+    let parser = Parser::<E>::new();
+    if header.encoding == Encoding::Ascii {
+        let first = reader.line();
+        let read = parser.read_payload_for_element(reader, element, header);
+        let read = read.map_err(|error| told(&error).at(Place::Line(reader.line())))?;
+        // A line each.
+        return Ok(read
+            .into_iter()
+            .enumerate()
+            .map(|(i, e)| (Place::Line(first + i), e))
+            .collect());
+    }
+    let bytes = reader.get_mut();
+    let mut read = Vec::new();
+    for number in 0..element.count {
+        let at = bytes.position() as usize;
+        let one = match header.encoding {
+            Encoding::BinaryBigEndian => parser.read_big_endian_element(bytes, element),
+            _ => parser.read_little_endian_element(bytes, element),
+        };
+        let one = one.map_err(|error| match error.kind() {
+            ErrorKind::UnexpectedEof => {
+                let ElementDef { name, count, .. } = element;
+                let reason = format!("the file ends in the middle of {name} {number} of {count}");
+                Fault::new(reason).at(Place::Byte(bytes.position() as usize))
+            }
+            _ => Fault { place: Some(Place::Byte(at)), ..told(&error) },
+        })?;
+        read.push((Place::Byte(at), one));
+    }
+    Ok(read)
 }
 
 /// The first line of what the crate says.

@@ -11,7 +11,7 @@ use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use stl_io::{Triangle, create_stl_reader};
 
 use super::build::{Builder, Corner};
-use super::{Fault, Place};
+use super::{Fault, Place, line_at};
 
 /// A title and a count of 4 bytes, then 50 for each triangle.
 const HEAD: usize = 84;
@@ -48,11 +48,6 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
         outcome.map_err(|fault| fault.at(Place::Line(line_at(bytes, at.saturating_sub(1)))))?;
     }
     Ok(())
-}
-
-/// The line of a byte, from 1.
-fn line_at(bytes: &[u8], at: usize) -> usize {
-    1 + bytes[..at].iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// How long a binary file is by what it says.

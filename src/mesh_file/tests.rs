@@ -7,6 +7,8 @@ use crate::color::srgb_decode;
 use crate::math::Vector;
 
 const MOST: u64 = 1 << 24;
+/// What stands before the document of a binary glTF.
+const GLB_HEAD: usize = 20;
 
 fn read_alone(name: &str, bytes: &[u8]) -> Result<Model, Fault> {
     read(name, bytes, &mut |_| Err("which is not found".to_owned()), MOST)
@@ -102,16 +104,65 @@ fn a_broken_ply_is_told_at_its_line_or_byte() {
     let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     let (place, reason) = at(&format!("{three}{faces}0 0 0\n1 0\n0 1 0\n3 0 1 2\n"));
     assert_eq!(place, Some(Place::Line(11)), "{reason}");
-    let (_, reason) = at(&format!("{three}{faces}0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"));
-    assert_eq!(reason, "face 0: index 3 is of nothing: there are 3 vertices");
     let (place, _) = at("element vertex 3\nproperty floot x\nend_header\n");
     assert_eq!(place, Some(Place::Line(4)));
     let mut short = binary_ply(false);
     short.truncate(short.len() - 2);
     let (place, reason) = fault("a.ply", &short);
     assert_eq!(place, Some(Place::Byte(short.len())), "{reason}");
+    // In binary, what a face says is told at its first byte.
+    for big in [false, true] {
+        let mut stray = binary_ply(big);
+        let (face, end) = (stray.len() - 17, stray.len());
+        stray[if big { end - 1 } else { end - 4 }] = 9;
+        let told = (
+            Some(Place::Byte(face)),
+            "face 0: index 9 is of nothing: there are 4 vertices".to_owned(),
+        );
+        assert_eq!(fault("a.ply", &stray), told, "{big}");
+        let mut wrong = binary_ply(big);
+        let second = face - 3 * 15;
+        wrong[second..second + 4].fill(255);
+        let told = (Some(Place::Byte(second)), "vertex 1: a vertex is not finite".to_owned());
+        assert_eq!(fault("a.ply", &wrong), told, "{big}");
+    }
+}
+
+#[test]
+fn each_fault_of_a_ply_has_its_line() {
+    let head = "ply\nformat ascii 1.0\n";
+    let three = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let places = "0 0 0\n1 0 0\n0 1 0\n";
+    for (text, line, part) in [
+        (String::new(), 1, "magic number"),
+        ("plx\n".to_owned(), 1, "magic number"),
+        ("ply\nformat ascii 1.0\n".to_owned(), 3, "missing 'end_header'"),
+        ("ply\ncomment none\nend_header\n".to_owned(), 3, "No format line"),
+        (format!("{head}element vertex 1\nproperty float x\nend_header\n0\n"), 3, "no x, y and z"),
+        (format!("{head}{three}end_header\n{places}"), 7, "no `face` elements"),
+        (
+            format!("{head}comment many\nelement vertex 99999999999999\nend_header\n"),
+            4,
+            "it is too short for 99999999999999 `vertex` elements",
+        ),
+        (format!("{head}{three}{faces}0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"), 11, ""),
+        (
+            format!("{head}{three}{faces}0 0 0\n1 0 1e99\n0 1 0\n3 0 1 2\n"),
+            11,
+            "vertex 1: a vertex",
+        ),
+        (format!("{head}{three}{faces}{places}3 0 1 3\n"), 13, "face 0: index 3 is of nothing"),
+        (format!("{head}{three}{faces}{places}3 0 1 -1\n"), 13, "face 0: index -1 is of nothing"),
+        (format!("{head}{three}{faces}{places}3 0 1\n"), 13, ""),
+        (format!("{head}{three}{faces}{places}"), 13, "end of file"),
+    ] {
+        let (place, reason) = fault("a.ply", &text);
+        assert_eq!(place, Some(Place::Line(line)), "{text}: {reason}");
+        assert!(reason.contains(part), "{text}: {reason}");
+    }
     let many = "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\nend_header\n";
-    assert!(fault("a.ply", many).1.contains("too short"));
+    assert_eq!(fault("a.ply", many).0, Some(Place::Line(3)));
 }
 
 const OBJ: &str = "# a square\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5 0.25\nvn 0 0 1\n\
@@ -163,11 +214,31 @@ fn a_broken_obj_is_told_at_its_line() {
         ("v 0 0 0\nf 1/-9223372036854775808 1 1\n", 2, "is of nothing"),
         ("v 0 0 0\nf 1 a 1\n", 2, "`a` is no index"),
         ("v 0 0 0\nf / 1 1\n", 2, "no vertex"),
+        ("v 0 0 0\nvn 0 0\n", 2, "a normal has three numbers"),
+        ("v 0 0 0\nvt a\n", 2, "a place in a texture has one number or more"),
+        ("v 0 0 0\nf 1//1 1 1\n\nv 1 0 0\n", 2, "index 1 is of nothing: there are 0 normals"),
+        ("f 1/2 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0\n", 1, "there are 1 places in a texture"),
     ] {
         let (place, reason) = fault("a.obj", text);
         assert_eq!(place, Some(Place::Line(line)), "{text}: {reason}");
         assert!(reason.contains(part), "{text}: {reason}");
     }
+}
+
+/// An index counts from the file's first entry: it may be of one that comes later. One that counts backward
+/// may not.
+#[test]
+fn an_obj_may_name_what_comes_later() {
+    let late = "f 1/1/1 2/2/1 3/1/1\nv 0 0 0 1 0 0\nv 1 0 0\nf -2 -1 3\nv 1 1 0\nvt 0 1\nvt 1 0\nvn 0 0 1\n";
+    let read = model("a.obj", late);
+    assert_eq!(corners(&read), [[O, XY, X], [O, XY, X]]);
+    let first = read.triangles.faces.iter().find(|face| face.uvs.is_some()).expect("with places");
+    assert_eq!((first.uvs, first.normals), (Some([0, 0, 1]), Some([0; 3])));
+    // And it has the colours of its vertices.
+    assert_eq!(colors(&read)[1], [[1.0; 3]; 3]);
+    let early = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 1\nvt 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\n";
+    let late = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/1/1 2/2/1 3/1/1\nvt 0 1\nvt 1 0\nvn 0 0 1\n";
+    assert_eq!(model("a.obj", late), model("a.obj", early));
 }
 
 #[test]
@@ -294,25 +365,75 @@ fn a_broken_gltf_is_told_and_where_it_can_be() {
     assert_eq!(place, Some(Place::Line(2)), "{reason}");
     let (place, reason) = fault("a.glb", glb("{\"nodes\":7}", &[]));
     assert_eq!(place, Some(Place::Byte(29)), "{reason}");
-    assert!(fault("a.gltf", gltf("")).1.contains("buffer 0 is nowhere"));
     let held = gltf_bytes();
-    for (was, is, part) in [
-        (r#""indices":1"#, r#""indices":9"#, "accessor 9: it is not there"),
-        (r#""byteLength":36"#, r#""byteLength":99"#, "accessor 0: its bytes are not there"),
-        (r#""count":3,"type":"VEC3""#, r#""count":9,"type":"VEC3""#, "longer than its bytes"),
-        (r#""children":[0]"#, r#""children":[1]"#, "node 1 has two parents"),
-        (r#""nodes":[1]"#, r#""nodes":[5]"#, "is not there"),
-        (r#""version":"2.0""#, r#""version":"1.0""#, "it is glTF 1.0"),
-        (r#""scene":0"#, r#""scene":0,"extensionsRequired":["X_y"]"#, "`X_y`"),
+    let beside = |_: &str| -> Result<Vec<u8>, String> { Ok(gltf_bytes()) };
+    // What is wrong, why, and where it is told.
+    for (was, is, part, at) in [
+        (r#""indices":1"#, r#""indices":9"#, "accessor 9: it is not there", "{\"attributes\""),
+        (
+            r#""byteLength":36"#,
+            r#""byteLength":99"#,
+            "accessor 0: its bytes are not there",
+            "{\"bufferView\":0",
+        ),
+        (
+            r#""count":3,"type":"VEC3""#,
+            r#""count":9,"type":"VEC3""#,
+            "longer than its bytes",
+            "{\"bufferView\":0",
+        ),
+        (r#""type":"SCALAR""#, r#""type":"VEC2""#, "another length", "{\"bufferView\":1"),
+        (r#"5121,"normalized""#, r#"5,"normalized""#, "of no known type", "{\"bufferView\":2"),
+        (
+            r#""count":3,"type":"VEC4""#,
+            r#""count":2,"type":"VEC4""#,
+            "more or fewer normals",
+            "{\"attributes\"",
+        ),
+        (r#""material":0"#, r#""material":3"#, "its material is not there", "{\"attributes\""),
+        (r#""mesh":0"#, r#""mesh":4"#, "the mesh of a node is not there", "{\"mesh\":4"),
+        (r#""children":[0]"#, r#""children":[1]"#, "node 1 has two parents", "{\"children\""),
+        (
+            r#""children":[0]"#,
+            r#""children":[7]"#,
+            "the child of a node is not there",
+            "{\"children\"",
+        ),
+        (r#""nodes":[1]"#, r#""nodes":[5]"#, "a node of its scene is not there", "{\"nodes\":[5]"),
+        (r#""scene":0"#, r#""scene":2"#, "its scene is not there", "2,\"scenes\""),
+        (r#""version":"2.0""#, r#""version":"1.0""#, "it is glTF 1.0", "\"1.0\""),
+        (
+            r#""scene":0"#,
+            r#""scene":0,"extensionsRequired":["KHR_mesh_quantization","X_y"]"#,
+            "`X_y`",
+            "\"X_y\"",
+        ),
     ] {
         let text = gltf("").replacen(was, is, 1);
-        let (_, reason) = fault("a.glb", glb(&text, &held));
+        let byte = text.find(at).unwrap_or_else(|| panic!("{at} in {text}"));
+        let (place, reason) = fault("a.glb", glb(&text, &held));
         assert!(reason.contains(part), "{is}: {reason}");
+        assert_eq!(place, Some(Place::Byte(GLB_HEAD + byte)), "{is}: {reason}");
+        let text = gltf(r#","uri":"a.bin""#).replacen(was, is, 1);
+        let line = line_at(text.as_bytes(), text.find(at).expect("as before"));
+        let told = read("a.gltf", text.as_bytes(), &mut { beside }, MOST).expect_err("broken");
+        assert_eq!(told.place, Some(Place::Line(line)), "{is}: {}", told.reason);
+    }
+    let nowhere = (Some(Place::Line(6)), "buffer 0 is nowhere".to_owned());
+    assert_eq!(fault("a.gltf", gltf("")), nowhere);
+    let (place, reason) = fault("a.gltf", gltf(r#","uri":"data:;base64,!""#));
+    assert_eq!(place, Some(Place::Line(6)), "{reason}");
+    for (bytes, at) in
+        [(&b"glTF\x02\0\0\0\x03\0\0\0"[..], 8), (&b"glTF\x02\0\0\0\x40\0\0\0"[..], 12)]
+    {
+        assert_eq!(fault("a.glb", bytes).0, Some(Place::Byte(at)));
     }
     let stray =
         gltf_bytes().into_iter().enumerate().map(|(i, byte)| if i == 36 { 7 } else { byte });
-    let (_, reason) = fault("a.glb", glb(&gltf(""), &stray.collect::<Vec<u8>>()));
+    let (place, reason) = fault("a.glb", glb(&gltf(""), &stray.collect::<Vec<u8>>()));
     assert!(reason.contains("index 7 is of nothing"), "{reason}");
+    let primitive = gltf("").find("{\"attributes\"").map(|at| Place::Byte(GLB_HEAD + at));
+    assert_eq!(place, primitive, "{reason}");
 }
 
 #[test]
