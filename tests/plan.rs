@@ -269,3 +269,85 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         assert!(json["precision"] == if words.contains("single") { "single" } else { "double" });
     }
 }
+
+/// Shapes as they are written without their last brace, and what the plan says of each: what is nearly
+/// degenerate, or nearly flattens space. Flat is what some shapes are.
+const THIN: &[(&str, &[&str])] = &[
+    ("sphere { 0, 1e-300", &[]),
+    ("sphere { 0, 1 scale <1, 1e-7, 1>", &[]),
+    ("sphere { 0, 1 scale <1, 1e-15, 1>", &["stretched sphere", "scale <1, 1e-15, 1>"]),
+    ("box { 0, <1, 0, 1>", &[]),
+    ("box { 0, <1, 1e-9, 1>", &["box"]),
+    ("cylinder { 0, y, 1e-12", &["cylinder"]),
+    ("cylinder { 0, 1e-12*y, 1", &["cylinder"]),
+    ("cone { 0, 1e-12, y, 0", &["cone"]),
+    ("torus { 1, 1e-12", &["torus"]),
+    ("disc { 0, y, 1", &[]),
+    ("disc { 0, y, 1, 0.5", &[]),
+    ("disc { 0, y, 1, 0.9999999999", &["disc"]),
+    ("triangle { 0, x, y", &[]),
+    ("triangle { 0, x, <0.5, 1e-12, 0>", &["triangle of a mesh"]),
+    ("mesh { triangle { 0, x, y } triangle { 0, x, z }", &[]),
+    ("polygon { 4, 0, x, y, 0", &[]),
+    ("polygon { 4, 0, <1, 2, 3>, <3, 1, 1>, 0", &[]),
+    ("polygon { 5, <1, 1, 0>, <2, 2, 0>, <2, 2, 1>, <1, 1, 1>, <1, 1, 0>", &[]),
+    ("polygon { 4, 0, <1, 1, 1>, <0.5, 0.5, 0.500000000001>, 0", &["polygon"]),
+    ("polygon { 4, 0, x, y, 0 scale <1, 1e-15, 1>", &["polygon", "scale <1, 1e-15, 1>"]),
+    ("polygon { 4, 0, x, y, 0 scale <1, 1, 1e-15>", &["scale <1, 1, 1e-15>"]),
+    ("prism { 0, 1e-12, 4, <0, 0>, <1, 0>, <0, 1>, <0, 0>", &["prism"]),
+    ("prism { 0, 1, 4, <0, 0>, <1, 1>, <0.5, 0.500000000001>, <0, 0>", &["prism"]),
+    ("prism { 0, 1, 5, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 0> rotate 45*y", &[]),
+    ("lathe { linear_spline 3, <1e-12, 0>, <1e-12, 1>, <1e-12, 2>", &["lathe"]),
+    ("sor { 5, <1e-12, -1>, <1e-12, 0>, <1e-12, 1>, <1e-12, 2>, <1e-12, 3>", &["sor"]),
+    ("sphere_sweep { linear_spline 2, 0, 1e-12, <1, 1, 1>, 1e-12", &["sphere_sweep"]),
+    ("sphere_sweep { linear_spline 2, 0, 0, <1, 1, 1>, 0.1", &[]),
+    ("superellipsoid { <1e-12, 1>", &[]),
+    ("blob { threshold 0.5 sphere { 0, 1, 1 }", &[]),
+    ("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3 LEVEL", &[]),
+    ("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3 LEVEL rotate <30, 40, 50>", &[]),
+    ("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3 SLANTED", &[]),
+    ("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3 NEEDLE", &["bicubic_patch"]),
+    ("text { \"a\" 0, 0", &[]),
+    ("text { \"a\" 1e-12, 0", &["text"]),
+    ("ovus { 1, 0.5", &[]),
+    ("height_field { function 4, 4 { 0.5 }", &[]),
+    ("height_field { function 4, 4 { x } scale <1, 1e-15, 1>", &["scale <1, 1e-15, 1>"]),
+    ("parametric { function { u } function { v } function { 0 } <0, 0>, <1, 1>", &[]),
+    ("plane { y, 0 scale <1, 1e-15, 1>", &["scale <1, 1e-15, 1>"]),
+];
+
+#[test]
+fn what_is_flat_by_its_nature_is_not_degenerate_and_what_is_a_line_is() {
+    let patch = |place: fn(i32, i32) -> String| {
+        let places = (0..16).map(|i| place(i % 4, i / 4));
+        places.collect::<Vec<_>>().join(", ")
+    };
+    let level = patch(|i, j| format!("<{i}, {j}, 0>"));
+    let slanted = patch(|i, j| format!("<{i}, {j}, {}>", i + 2 * j));
+    let needle = patch(|i, j| format!("<{i}, {}, {}>", 2 * i, f64::from(i) + f64::from(j) * 1e-12));
+    let mut scene = String::from("light_source { 9, 1 }\n");
+    for (shape, _) in THIN {
+        let shape = shape.replace("LEVEL", &level).replace("SLANTED", &slanted);
+        scene += &format!("{} pigment {{ rgb 1 }} }}\n", shape.replace("NEEDLE", &needle));
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("thin.scene");
+    std::fs::write(&file, scene).expect("written");
+    let said = plan(&format!("{} --json --size 8x6", file.display()));
+    let said: Value = serde_json::from_str(&said).expect("JSON");
+    let mut found: Vec<Vec<String>> = vec![Vec::new(); THIN.len()];
+    let mut note = |row: &Value, what: &str| {
+        // The light is in the first line.
+        let line = row["place"]["line"].as_u64().expect("a line") as usize;
+        found[line - 2].push(what.to_owned());
+    };
+    for row in list(&said["numerics"]["thin"]) {
+        note(row, text(&row["what"]));
+    }
+    for row in list(&said["numerics"]["near_singular"]) {
+        note(row, text(&row["place"]["text"]));
+    }
+    for ((shape, wanted), found) in THIN.iter().zip(found) {
+        assert_eq!(found, *wanted, "{shape}");
+    }
+}

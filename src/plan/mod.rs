@@ -8,6 +8,7 @@
 
 mod dropped;
 mod effects;
+mod extent;
 mod kernel;
 mod kinds;
 mod numerics;

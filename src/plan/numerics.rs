@@ -7,11 +7,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::extent::Extent;
 use super::kinds::word_and_cost;
-use crate::math::singular::singular_values;
-use crate::math::{Matrix, Vector};
-use crate::shape::body::Local;
-use crate::shape::{Body, Placed, Shape};
+use crate::math::Vector;
+use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Coinciding, NearSingular, Origins, World};
 
@@ -35,12 +34,13 @@ pub struct Numerics {
     pub coinciding: Vec<Coinciding>,
 }
 
-/// A solid that is nearly a line or a point in some direction, and not in others.
+/// A solid that is nearly a sheet, a line or a point; a sheet that is nearly a line or a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thin {
     /// What is thin: `torus`, `triangle of a mesh`.
     pub what: &'static str,
-    /// Its length in thicknesses: of a torus R/r; of a triangle its longest side over its height there.
+    /// Its length in thicknesses: of a torus R/r; of a triangle its longest side over its height there; of a
+    /// flat ring its radius over half of its width.
     pub slenderness: f64,
     pub site: Option<Site>,
 }
@@ -77,19 +77,20 @@ pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
     for (i, object) in world.objects.iter().enumerate() {
         let site = origins.objects.get(i).copied();
         let (word, _) = word_and_cost(world, object.shape);
-        let Some((centre, least, greatest)) = extent(world, object.shape) else {
+        let Some(extent) = Extent::of(world, object.shape) else {
             if found.endless.iter().all(|(known, _)| *known != word) {
                 found.endless.push((word, site));
             }
             continue;
         };
+        let Extent { centre, least, greatest, slenderness } = extent;
         // Of what is smaller than numbers can say, no less than the greatest number.
         let distance = (length(centre - world.camera.location) / least).min(f64::MAX);
         keep(&mut found.smallest, least, site, |new, old| new < old);
         keep(&mut found.largest, greatest, site, |new, old| new > old);
         keep(&mut found.farthest, distance, site, |new, old| new > old);
         let (what, slenderness) =
-            triangles.thinnest(world, object.shape).unwrap_or((word, greatest / least));
+            triangles.thinnest(world, object.shape).unwrap_or((word, slenderness));
         if slenderness >= THIN {
             found.thin.push(Thin { what, slenderness, site });
         }
@@ -121,47 +122,6 @@ fn keep(
 ) {
     if best.is_none_or(|old| better(value, old.value)) {
         *best = Some(Measured { value, site });
-    }
-}
-
-/// Centre, least and greatest half width; `None` for what has no end.
-fn extent(world: &World, shape: Shape) -> Option<(Vector, f64, f64)> {
-    match shape {
-        Shape::Sphere(at) => {
-            let sphere = &world.spheres[at as usize];
-            Some((sphere.centre, sphere.radius, sphere.radius))
-        }
-        Shape::Ellipsoid(at) => {
-            let placement = &world.ellipsoids[at as usize].placement;
-            let [greatest, _, least] = singular_values(placement.world_from_local);
-            Some((placement.centre, least, greatest))
-        }
-        Shape::Box(at) => {
-            let solid = &world.boxes[at as usize];
-            // A flat box has two sides that count.
-            let sides = solid.half_widths.into_iter().filter(|&side| side > 0.0);
-            let least = sides.clone().fold(f64::INFINITY, f64::min);
-            Some((solid.centre, least, sides.fold(0.0, f64::max)))
-        }
-        Shape::Placed(at) => {
-            let Placed { body, placement, .. } = &world.placed[at as usize];
-            let extents = [Vector::X, Vector::Y, Vector::Z].map(|axis| body.extent(axis));
-            let half = |(low, high): (f64, f64)| 0.5 * high - 0.5 * low;
-            // What is beyond its plane is the room for rounding that its extent has.
-            let is_flat = |axis: usize| axis == 2 && matches!(&**body, Body::Disc(_));
-            let half_along = |axis: usize| if is_flat(axis) { 0.0 } else { half(extents[axis]) };
-            let middle = extents.map(|(low, high)| 0.5 * low + 0.5 * high);
-            if !extents.into_iter().all(|extent| half(extent).is_finite()) {
-                return None;
-            }
-            let [x, y, z] = [0, 1, 2].map(|i| placement.world_from_local.col(i) * half_along(i));
-            let centre = placement.centre + placement.world_from_local * Vector::from_array(middle);
-            // A flat one has two that count.
-            let half_widths = singular_values(Matrix::from_cols(x, y, z));
-            let least = half_widths.into_iter().rfind(|&half| half > 0.0)?;
-            Some((centre, least, half_widths[0]))
-        }
-        Shape::Plane(_) => None,
     }
 }
 

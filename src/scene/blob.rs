@@ -24,6 +24,9 @@ pub struct Component {
     pub transforms: Vec<TransformId>,
 }
 
+/// Of more components, none is held against each other.
+const MOST: usize = 1000;
+
 impl Blob {
     /// How many bytes it holds.
     pub fn bytes(&self) -> u64 {
@@ -32,9 +35,31 @@ impl Blob {
         lists + size_of_val(&self.components[..]) as u64
     }
 
-    /// Nowhere could its field be as strong as the threshold.
+    /// Nowhere could its field be as strong as the threshold: where a component is, there are those that
+    /// reach into it.
     pub fn is_weak(&self) -> bool {
-        let strengths = self.components.iter().map(|component| component.strength.max(0.0));
-        strengths.sum::<f64>() <= self.threshold
+        let sum = |reaching: &dyn Fn(&Component) -> bool| {
+            let all = self.components.iter().filter(|other| reaching(other));
+            all.map(|component| component.strength.max(0.0)).sum::<f64>()
+        };
+        sum(&|_| true) <= self.threshold
+            || self.components.len() <= MOST
+                && self.components.iter().all(|one| sum(&|it| one.reaches(it)) <= self.threshold)
+    }
+}
+
+impl Component {
+    /// Whether the balls around two of them meet; whatever was transformed may.
+    fn reaches(&self, other: &Self) -> bool {
+        if !(self.transforms.is_empty() && other.transforms.is_empty()) {
+            return true;
+        }
+        let ball = |one: &Self| {
+            let [a, b] = one.ends;
+            ((a + b) * 0.5, (b - a).length() * 0.5 + one.radius.abs())
+        };
+        let ((a, wide), (b, tall)) = (ball(self), ball(other));
+        let apart = (b - a).length() * (1.0 - 8.0 * f64::EPSILON);
+        apart.is_nan() || apart <= wide + tall
     }
 }

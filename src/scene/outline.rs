@@ -84,3 +84,16 @@ pub fn sameness(points: &[Point]) -> impl Fn(Point, Point) -> bool {
     let off = size(0).max(size(1)) * (64.0 * f64::EPSILON);
     move |a, b| (a[0] - b[0]).abs() <= off && (a[1] - b[1]).abs() <= off
 }
+
+/// Whether points lie in a line, or in one place, as far as rounding tells.
+pub fn are_in_line(points: &[Point]) -> bool {
+    let Some(&first) = points.first() else { return true };
+    let ways = || points.iter().map(|point| [point[0] - first[0], point[1] - first[1]]);
+    let size = |way: &Point| way[0].abs().max(way[1].abs());
+    let Some(far) = ways().max_by(|a, b| size(a).total_cmp(&size(b))) else { return true };
+    let scale = size(&far);
+    let off = 8.0 * f64::EPSILON;
+    let turn =
+        |way: Point| (far[0] / scale) * (way[1] / scale) - (far[1] / scale) * (way[0] / scale);
+    scale == 0.0 || ways().all(|way| turn(way).abs() <= off)
+}

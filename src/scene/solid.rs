@@ -7,7 +7,7 @@ use super::blob::Blob;
 use super::height_field::HeightField;
 use super::julia_fractal::JuliaFractal;
 use super::mesh::Triangles;
-use super::outline::{Point, Spline};
+use super::outline::{Point, Spline, are_in_line};
 use super::polygon::Polygon;
 use super::sweep::Sweep;
 use super::text::Text;
@@ -211,8 +211,9 @@ impl Solid {
 
     /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
     /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a
-    /// prism without height, a curve that is a point, a polynomial that is a number, points in a line, a text
-    /// that shows nothing, a landscape under water.
+    /// prism without height or whose outline is a line, a curve that is a point or lies in its axis,
+    /// a polynomial that is a number, points in a line, a text that shows nothing, a
+    /// landscape under water.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::BicubicPatch { points } => {
@@ -237,11 +238,15 @@ impl Solid {
             }
             Self::Text { text } => text.is_nothing(),
             Self::Torus { minor, .. } => *minor == 0.0,
-            Self::Lathe { points, .. } => points.iter().all(|point| *point == points[0]),
-            Self::Prism { heights: [low, high], points, .. } => {
-                low == high || points.iter().all(|point| *point == points[0])
+            Self::Lathe { points, .. } => {
+                points.iter().all(|[radius, _]| *radius == 0.0)
+                    || points.iter().all(|point| *point == points[0])
             }
-            Self::Sor { .. } => false,
+            Self::Prism { heights: [low, high], points, .. } => low == high || are_in_line(points),
+            Self::Sor { points, .. } => {
+                // The first and the last tell slopes.
+                points[1..points.len() - 1].iter().all(|[radius, _]| *radius == 0.0)
+            }
             Self::Polynomial { terms, .. } => {
                 terms.split_last().is_none_or(|(_, terms)| terms.iter().all(|term| *term == 0.0))
             }

@@ -12,7 +12,7 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::Place;
+use super::{Given, Place};
 
 /// What stands behind the function of an `isosurface`.
 const OF_ISOSURFACE: &[Word] = &[
@@ -133,13 +133,22 @@ impl Evaluator<'_> {
         if failed {
             return Err(Reported);
         }
-        Ok(Solid::Parametric { functions, corners: [first, second], container })
+        if first.value[0] == second.value[0] || first.value[1] == second.value[1] {
+            let which = if first.value[0] == second.value[0] { "u" } else { "v" };
+            let message = format!("a parametric surface of one {which} is a line, and is nothing");
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(second.span, format!("expected another {which}"))
+                .also(first.span, "the first corner");
+            self.nothing(token, &second.here, diagnostic)?;
+        }
+        let corners = [first.value, second.value];
+        Ok(Solid::Parametric { functions, corners, container })
     }
 
-    fn corner(&mut self, token: &Token, wanted: &str) -> Outcome<[f64; 2]> {
+    fn corner(&mut self, token: &Token, wanted: &str) -> Outcome<Given<[f64; 2]>> {
         let given = self.given(token, wanted)?;
         match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
-            Some([u, v]) => Ok([*u, *v]),
+            Some([u, v]) => Ok(given.with([*u, *v])),
             _ => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
         }
     }
@@ -192,10 +201,23 @@ impl Evaluator<'_> {
             })?;
             match solid {
                 Solid::Sphere { centre, radius } => Ok(Container::Sphere { centre, radius }),
-                Solid::Box { corners } => Ok(Container::Box { corners }),
+                Solid::Box { corners } => evaluator.container(&inner, corners),
                 _ => Err(Reported),
             }
         })
+    }
+}
+
+impl Evaluator<'_> {
+    /// A box that has a size along each axis: a flat one holds nothing. One along less than two was told.
+    fn container(&mut self, box_: &Token, corners: [Vector; 2]) -> Outcome<Container> {
+        let sides = (corners[1] - corners[0]).to_array();
+        if sides.iter().filter(|side| **side == 0.0).count() == 1 {
+            let diagnostic = Diagnostic::new(self.sizeless(), "a flat container holds nothing")
+                .at(box_.span, "its corners are equal along one axis");
+            self.nothing(box_, &box_.here, diagnostic)?;
+        }
+        Ok(Container::Box { corners })
     }
 }
 

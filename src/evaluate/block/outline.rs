@@ -4,7 +4,7 @@
 //! of a `sor` rise.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::outline::{Point, Spline, sameness};
+use crate::scene::outline::{Point, Spline, are_in_line, sameness};
 use crate::scene::{Dialect, Solid};
 use crate::source::Span;
 use crate::vocabulary::Word;
@@ -29,10 +29,19 @@ impl Evaluator<'_> {
         let last = &points[points.len() - 1];
         let solid = Solid::Lathe { spline, points: values(&points).into() };
         if solid.is_sizeless() {
-            let message = "a lathe whose points are all in one place is nothing";
+            let is_point = points.iter().all(|point| point.value == last.value);
+            let where_ = if is_point { "are all in one place" } else { "all lie on its axis" };
+            let message = format!("a lathe whose points {where_} is nothing");
             let diagnostic =
                 Diagnostic::new(self.sizeless(), message).at(last.span, "expected another place");
             self.nothing(token, &last.here, diagnostic)?;
+        } else if points.iter().all(|point| point.value[1] == last.value[1]) {
+            // POV-Ray draws a flat ring: it is not left out without a word.
+            let message = "a lathe whose points have one height is flat, and has no size";
+            let diagnostic = Diagnostic::new(Code::ZeroSize, message)
+                .at(last.span, "expected another height")
+                .help("a flat ring is a `disc { <centre>, <normal>, radius, hole }`");
+            return Err(self.report(&last.here, diagnostic));
         }
         Ok(solid)
     }
@@ -61,6 +70,12 @@ impl Evaluator<'_> {
             // Where one more point follows, that is what is told.
             Spline::Linear if !self.goes_on() => self.lint_open_prism(&points),
             Spline::Linear | Spline::Quadratic | Spline::Cubic => {}
+        }
+        if let Some(last) = points.last().filter(|_| are_in_line(&values(&points))) {
+            let message = "a prism whose points lie in a line is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(last.span, "expected a point beside the line through the others");
+            self.nothing(token, &last.here, diagnostic)?;
         }
         let open = self.take_word(Word::Open).is_some();
         let points: Vec<Point> = values(&points);
@@ -101,7 +116,8 @@ impl Evaluator<'_> {
         from: usize,
     ) -> Outcome<()> {
         let (before, behind) = spline.controls();
-        let (first, last) = (&points[(from + before).min(points.len() - 1)], &points[points.len() - 1]);
+        let (first, last) =
+            (&points[(from + before).min(points.len() - 1)], &points[points.len() - 1]);
         let [x, z] = first.value;
         let then = if behind > 0 { ", then the point that tells its slope there" } else { "" };
         let is_left_out = spline == Spline::Bezier;
@@ -212,6 +228,14 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
                 .at(point.span, "expected a radius of 0 or more");
             return Err(self.report(&point.here, diagnostic));
+        }
+        let solid = Solid::Sor { points: values(&points).into(), open: false };
+        if solid.is_sizeless() {
+            let last = &points[points.len() - 2];
+            let message = "a sor whose radii are all 0 is nothing";
+            let diagnostic = Diagnostic::new(self.sizeless(), message)
+                .at(last.span, "expected a radius of more than 0");
+            self.nothing(token, &last.here, diagnostic)?;
         }
         let open = self.take_word(Word::Open).is_some();
         let points: Vec<Point> = values(&points);

@@ -65,6 +65,9 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(self.sizeless(), "a text of no letters is nothing")
                 .at(given.span, "expected what is to be written");
             self.nothing(token, &given.here, diagnostic)?;
+        } else if text.is_nothing() {
+            // A blank need not be told: loops set letter by letter.
+            self.scene.sizeless.push((Word::Text.name(), token.here.site(token.span)));
         }
         Ok(Solid::Text { text: Arc::new(text) })
     }

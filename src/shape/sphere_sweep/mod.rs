@@ -140,6 +140,14 @@ impl SphereSweep {
         let reach = segments.iter().map(Segment::reach).fold(0.0, f64::max) * (1.0 + 8.0 * U);
         Some(Self { segments, tree, reach })
     }
+
+    /// How far it goes over the radius of its greatest ball.
+    pub fn slenderness(&self) -> f64 {
+        let radii = |one: &Segment| {
+            extremes(one.radius).map(|u| one.radius_at(u).abs()).fold(0.0, f64::max)
+        };
+        self.reach / self.segments.iter().map(radii).fold(0.0, f64::max)
+    }
 }
 
 fn part(segment: usize, u: f64) -> u32 {
