@@ -17,6 +17,7 @@ use nv_flip::{
     DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut,
 };
 
+use super::silhouettes::plain;
 use super::{SCENES, is_installed, listed};
 
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/pictures.list");
@@ -107,6 +108,34 @@ pub(crate) fn outcome(scene: &Path, folder: &Path, name: &str) -> String {
         all.save(file).expect("the folder is there");
     }
     format!("{mean:.2}")
+}
+
+/// A `bounded_by` that cuts is a hint here, so it is what the pictures differ by: the list says so of each that
+/// has one, and without it both are the same to the last pixel.
+#[test]
+fn without_a_bound_that_cuts_not_one_pixel_differs() {
+    if !is_installed("povray-examples", &super::files(SCENES, &["pov"])) || !is_povray_there() {
+        return;
+    }
+    let list = std::fs::read_to_string(LIST).unwrap_or_default();
+    let listed = listed(&list);
+    let cut =
+        listed.iter().filter(|(_, (_, said))| said.is_some_and(|s| s.contains("`bounded_by`")));
+    let mut count = 0;
+    for (name, _) in cut {
+        let original = Path::new(SCENES).join(name);
+        let text = std::fs::read(&original).expect("it is there");
+        let place = tempfile::tempdir().expect("a folder");
+        let scene = place.path().join("unbound.pov");
+        let text = plain(&String::from_utf8_lossy(&text), &[("bound", "bounded_by")]);
+        std::fs::write(&scene, text.expect("it has one")).expect("it is written");
+        let folder = original.parent().expect("below the examples");
+        let [ours, theirs] = both(&scene, folder).unwrap_or_else(|told| panic!("{name}: {told}"));
+        let differ = ours.pixels().zip(theirs.pixels()).filter(|(ours, theirs)| ours != theirs);
+        assert_eq!(differ.count(), 0, "{name}");
+        count += 1;
+    }
+    assert!(count > 0);
 }
 
 /// The examples that are whole, by their path below all of them.

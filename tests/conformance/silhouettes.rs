@@ -64,7 +64,8 @@ fn places<'a>(text: &'a str, word: &'a str) -> impl Iterator<Item = usize> + 'a 
 
 /// The smallest block that this word opens and that holds the place.
 fn block(text: &str, word: &str, place: usize) -> Option<Range<usize>> {
-    let opened = places(&text[..place], word).filter_map(|start| {
+    let begun = places(text, word).take_while(|&start| start <= place);
+    let opened = begun.filter_map(|start| {
         let mut depth = 0;
         let body = start + text[start..].find('{')?;
         let end = text[body..].char_indices().find(|&(_, c)| {
@@ -78,7 +79,7 @@ fn block(text: &str, word: &str, place: usize) -> Option<Range<usize>> {
 }
 
 /// The scene with those items made plain.
-fn plain(text: &str, items: &[(&str, &str)]) -> Result<String, String> {
+pub(crate) fn plain(text: &str, items: &[(&str, &str)]) -> Result<String, String> {
     let mut text = without_comments(text);
     for &(kind, name) in items {
         let (word, plain) = match kind {
@@ -86,6 +87,7 @@ fn plain(text: &str, items: &[(&str, &str)]) -> Result<String, String> {
             "texture" => ("texture", format!("texture {{ {PLAIN} }}")),
             "layer" => ("texture", String::new()),
             "normal" => ("normal", String::new()),
+            "bound" => ("bounded_by", String::new()),
             _ => return Err(format!("`{kind}` is nothing to be made plain")),
         };
         let mut is_found = false;
