@@ -35,6 +35,8 @@ mod mirrors;
 mod other_words;
 #[path = "hard/page.rs"]
 mod page;
+#[path = "hard/poles.rs"]
+mod poles;
 #[path = "hard/round.rs"]
 mod round;
 #[path = "benches/numerics/rows.rs"]

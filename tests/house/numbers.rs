@@ -140,7 +140,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/isosurface/mod.rs", "let is_known", "relative: of a slope"),
     ("shape/isosurface/mod.rs", "1e-9 * steepness", "relative: of the container's size, at a jump"),
     ("shape/julia_fractal/mod.rs", "const FINEST", "relative: of the ball's radius"),
-    ("shape/parametric.rs", "let size", "keeps 0/0 from the origin of u and v"),
+    ("shape/parametric/search.rs", "let size", "keeps 0/0 from the origin of u and v"),
     ("math/roots/bracket.rs", "let finest", "the next number but one"),
     ("scene/blob.rs", "let apart", "roundings of a distance, relative"),
     ("scene/outline.rs", "let off = size(0)", "relative: of the points' largest coordinate"),
