@@ -32,6 +32,12 @@ const PAIRS: &[[&str; 2]] = &[
     ["box { <-1, -1, -1>, <1, 0, 1>", "cylinder { 0, y, 1"],
 ];
 
+/// A closed mesh from y = −1 to 0.
+const MESH: &str = "mesh2 { vertex_vectors { 8, <-1, -1, -1>, <1, -1, -1>, <-1, 0, -1>, <1, 0, -1>,
+     <-1, -1, 1>, <1, -1, 1>, <-1, 0, 1>, <1, 0, 1> }
+     face_indices { 12, <0, 1, 2>, <1, 2, 3>, <4, 5, 6>, <5, 6, 7>, <0, 1, 4>, <1, 4, 5>,
+     <2, 3, 6>, <3, 6, 7>, <0, 2, 4>, <2, 4, 6>, <1, 3, 5>, <3, 5, 7> } inside_vector <0.1, 0.9, 0.3> }";
+
 const MAPS: &[&str] = &[
     "translate 0",
     "translate <0.1, 0.3, 0.7>",
@@ -84,6 +90,67 @@ fn nothing_is_in_two_solids_that_touch() {
             let both = format!("intersection {{ {below} }} {above} }} {PAINT} {map} }}");
             let [middle, next] = rows(&both, map);
             assert!(!middle.contains(&true) && !next.contains(&true), "{both}");
+        }
+    }
+}
+
+/// Where the middle row of a picture, and those above and below, show the front of a thing, its back, or nothing.
+fn three_rows(thing: &str, map: &str, away: f64) -> [Vec<char>; 3] {
+    let film = rendered(
+        &format!(
+            "#declare Way = function {{ transform {{ {map} }} }}
+             #declare Middle = Way(0, 0, 0);
+             #declare From = Way(0.0123, 0, -{away});
+             camera {{ location From direction Middle - From
+                      right {away}*0.55*(Way(1, 0, 0) - Middle) up {away}*0.4*(Way(0, 1, 0) - Middle) }}
+             background {{ rgb <1, 0, 0> }}
+             {thing} pigment {{ gradient z scale 4 translate -2*z
+                                color_map {{ [0.5 rgb <0, 1, 0>] [0.5 rgb <0, 0, 1>] }} }}
+             finish {{ emission 1 }} {map} }}"
+        ),
+        (81, 61),
+    );
+    [29, 30, 31].map(|y| {
+        let told = |x| {
+            let colour = film.radiance[film.index(x, y)];
+            if colour.red > 0.5 {
+                ' '
+            } else if colour.green > 0.5 {
+                'f'
+            } else {
+                'b'
+            }
+        };
+        (0..81).map(told).collect()
+    })
+}
+
+#[test]
+fn a_camera_in_the_plane_of_a_face_of_a_mesh_sees_what_is_seen_from_beside_it() {
+    for parts in [
+        "union { MESH",
+        "difference { MESH cylinder { <0.1, -0.3, -2>, <0.1, -0.3, 2>, 0.45 }",
+        "intersection { MESH box { <-0.6, -2, -0.7>, <0.7, 2, 0.6> }",
+        "difference { MESH sphere { <0, 0, -1>, 0.5 }",
+    ] {
+        let thing = parts.replace("MESH", MESH);
+        for map in MAPS {
+            for away in [1.3, 5.0] {
+                let [above, middle, below] = three_rows(&thing, map, away);
+                assert!(middle == above || middle == below, "{parts} {map} {away}\n{middle:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_ray_slips_through_between_a_mesh_and_another_solid_that_touch() {
+    let prism = "prism { 0, 1, 4, <-1, -1>, <1, -1>, <1, 1>, <-1, 1>";
+    for above in ["box { <-1, 0, -1>, <1, 1, 1>", prism] {
+        for map in MAPS {
+            let things = format!("union {{ {MESH} {above} }} {PAINT} {map} }}");
+            let [middle, next] = rows(&things, map);
+            assert!(middle == next, "{things}");
         }
     }
 }

@@ -101,8 +101,8 @@ impl Mesh {
         face.corners.map(|i| self.corners[i as usize])
     }
 
-    /// Every face that a line pierces, in no order.
-    fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) {
+    /// Every face that a line pierces, in no order; whether it lies in the plane of one, as far as is told.
+    fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) -> bool {
         let view = View::along(ray, self.reach);
         // What the view rounds corners by, generously.
         let slack = 32.0 * U * (self.reach + ray.nearest.length()) + view.doubt;
@@ -115,6 +115,7 @@ impl Mesh {
                 }
             }
         });
+        view.is_in_a_plane.get()
     }
 
     /// The normal by which a part is lit at a point, of any length; `None` where that is its own.
@@ -151,9 +152,14 @@ impl Flat {
 
 impl Local for Mesh {
     /// A solid's are entered and left in turn, whichever way each face turns. One that is not closed where
-    /// the line leaves it ends right behind the last face.
+    /// the line leaves it ends right behind the last face. A line in the plane of a face goes beside it, as all lines
+    /// to one side of it do.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        self.pierced(ray, |met| found.push(met));
+        let is_in_a_plane = self.pierced(ray, |met| found.push(met));
+        if is_in_a_plane && self.inside.is_some() {
+            found.clear();
+            self.pierced(&pierce::beside(ray, self.reach), |met| found.push(met));
+        }
         found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
         if self.inside.is_none() {
             return;

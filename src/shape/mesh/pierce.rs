@@ -7,7 +7,10 @@
 //! **Source:** S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2 (1), 2013;
 //! H. Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9 (1), 1990.
 
+use std::cell::Cell;
+
 use super::super::body::{InWorld, LocalRay, Met};
+use super::super::slab::nudge;
 use super::super::{Ray, U};
 use super::Flat;
 use crate::math::Vector;
@@ -20,6 +23,8 @@ pub(in super::super) struct View<'a> {
     /// How far a corner may be from where the world has it.
     pub doubt: f64,
     in_world: Option<(&'a Ray, &'a ExactPlacement)>,
+    /// Nothing tells the line from one in the plane of a triangle that was asked about.
+    pub is_in_a_plane: Cell<bool>,
 }
 
 /// What is across a line.
@@ -72,7 +77,7 @@ impl<'a> View<'a> {
             let rounded = reach + placement.condition * size + placement.norm * far;
             2.0 * (blur + turn * reach + 16.0 * U * rounded)
         });
-        Self { across, doubt, in_world }
+        Self { across, doubt, in_world, is_in_a_plane: Cell::new(false) }
     }
 
     /// Whether the line pierces the triangle, and how: true where it goes as the surface faces.
@@ -88,7 +93,12 @@ impl<'a> View<'a> {
             3 => Some(self.across.is_against),
             -3 => Some(!self.across.is_against),
             _ if ca * ab < 0 || ca * bc < 0 => None,
-            _ => self.pierces_exactly(corners),
+            _ => {
+                if ab == 0 && bc == 0 && ca == 0 {
+                    self.is_in_a_plane.set(true);
+                }
+                self.pierces_exactly(corners)
+            }
         }
     }
 
@@ -116,6 +126,19 @@ impl<'a> View<'a> {
         // And room for products that underflow.
         i32::from(turn > off + f64::MIN_POSITIVE) - i32::from(turn < -off - f64::MIN_POSITIVE)
     }
+}
+
+/// A line beside one in the plane of a face, whose crossing might be anywhere along the face: farther off than
+/// rounding is, on the side that [`nudge`] has for all that touches there, of a body that is no larger than
+/// `size`.
+#[cold]
+pub(in super::super) fn beside<'a>(ray: &LocalRay<'a>, size: f64) -> LocalRay<'a> {
+    let LocalRay { nearest, direction, blur, .. } = *ray;
+    let doubt = View::along(ray, size).doubt.max(16.0 * U * (size + nearest.length()));
+    let way = nudge(ray);
+    let aside = (way - direction * way.dot(direction)).normalize_or(Vector::ZERO);
+    let far = 16.0 * doubt;
+    LocalRay { nearest: nearest + aside * far, blur: blur + far, in_world: None, ..*ray }
 }
 
 /// Whether the way from `p` to `q` turns left around the line, exactly; `None` where it does not move.
