@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::Fault;
+use super::quadric;
 use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
 use crate::function::Closed;
@@ -30,10 +31,28 @@ pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Aff
     Ok((Body::Cylinder(Cylinder { open }), frame))
 }
 
-/// The polynomial in lengths of λ, over its greatest coefficient; λ is the power of two at which no term of
-/// lower degree outweighs those of the highest.
+/// The polynomial in lengths of λ, over its greatest coefficient; a quadric about its centre.
 pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault> {
-    let what = "this polynomial";
+    let (mut terms, mut scale) = normalised(degree, terms);
+    let mut centre = DoubleVector::ZERO;
+    if degree == 2
+        && let Some((about, place)) = quadric::about_centre(&terms)
+    {
+        centre = place * Double::from(power_of_two(scale));
+        let (about, again) = normalised(degree, &about);
+        (terms, scale) = (about, scale + again);
+    }
+    let finite = terms.iter().all(|term| term.is_finite()) && centre.is_finite();
+    let surface = Algebraic::new(degree, terms).filter(|_| finite);
+    let surface = surface.ok_or_else(|| Fault::not_finite("this polynomial"))?;
+    let columns =
+        [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(power_of_two(scale))));
+    Ok((Body::Algebraic(surface), Affine::from_columns(columns, centre)))
+}
+
+/// The terms in lengths of λ, over the greatest, and the binary logarithm of λ: at which no term of lower degree
+/// outweighs those of the highest.
+fn normalised(degree: usize, terms: &[f64]) -> (Vec<f64>, i32) {
     let sum = |powers: [usize; 3]| powers.iter().sum::<usize>();
     let degrees: Vec<usize> = exponents(degree).map(sum).collect();
     let mut greatest = vec![0.0_f64; degree + 1];
@@ -47,18 +66,12 @@ pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault>
     let scale = (0..top).filter(|&d| greatest[d] > 0.0).map(share).max().unwrap_or(0);
     let power = |d: usize| binary(greatest[d]) + scale * d as i32;
     let most = (0..=top).filter(|&d| greatest[d] > 0.0).map(power).max().unwrap_or(0);
-    let normalised = terms.iter().zip(&degrees).map(|(term, &d)| {
+    let terms = terms.iter().zip(&degrees).map(|(term, &d)| {
         // In two steps, of which neither overflows.
         let shift = scale * d as i32 - most;
         term * power_of_two(shift / 2) * power_of_two(shift - shift / 2)
     });
-    let normalised: Vec<f64> = normalised.collect();
-    let finite = normalised.iter().all(|term| term.is_finite());
-    let surface = Algebraic::new(degree, normalised).filter(|_| finite);
-    let surface = surface.ok_or_else(|| Fault::not_finite(what))?;
-    let columns =
-        [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(power_of_two(scale))));
-    Ok((Body::Algebraic(surface), Affine::from_columns(columns, DoubleVector::ZERO)))
+    (terms.collect(), scale)
 }
 
 /// The cone whose wider end, at z = −1, has the radius 1; a cylinder where both have.

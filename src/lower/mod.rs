@@ -22,6 +22,7 @@ mod object;
 mod outline;
 mod place;
 mod points;
+mod quadric;
 mod shape;
 mod sweep;
 mod texture;

@@ -61,3 +61,29 @@ fn a_cone_seen_along_its_axis_is_whole_also_where_its_side_would_be_met_twice_as
         assert!(across.into_iter().all(|red| red > 0.5), "{cap}");
     }
 }
+
+#[test]
+fn a_quadric_with_a_tip_is_seen_around_it_however_far_from_the_origin_it_stands() {
+    let tips = ["<0, 0, 0>", "<1.5, 0.25, -3>", "<0.3, 0.7, -0.9>", "<1000.3, 700.7, -300.1>"];
+    for tip in tips {
+        for width in ["1", "1e-4", "1e-6", "1e-8"] {
+            let film = rendered(
+                &format!(
+                    "#declare Tip = {tip}; #declare A = Tip.x; #declare B = Tip.y; #declare C = Tip.z;
+                     camera {{ orthographic location Tip - 5*z direction z right {width}*x up {width}*y }}
+                     background {{ rgb <1, 0, 0> }}
+                     quadric {{ <1, -1, 1>, 0, <-2*A, 2*B, -2*C>, A*A - B*B + C*C
+                               pigment {{ rgb <0, 1, 0> }} finish {{ emission 1 }} }}"
+                ),
+                (31, 31),
+            );
+            for (x, y) in (0..31).flat_map(|x: i32| (0..31).map(move |y: i32| (x, y))) {
+                let (aside, up) = ((x - 15).abs(), (y - 15).abs());
+                if aside != up {
+                    let red = film.radiance[film.index(x as u32, y as u32)].red;
+                    assert_eq!(red < 0.5, aside < up, "{tip} {width} {x} {y}");
+                }
+            }
+        }
+    }
+}
