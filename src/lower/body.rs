@@ -31,23 +31,23 @@ pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Aff
     Ok((Body::Cylinder(Cylinder { open }), frame))
 }
 
-/// The polynomial in lengths of λ, over its greatest coefficient; a quadric about its centre.
+/// The polynomial in lengths of λ, over its greatest coefficient; a cone about its tip.
 pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault> {
     let (mut terms, mut scale) = normalised(degree, terms);
-    let mut centre = DoubleVector::ZERO;
+    let mut tip = DoubleVector::ZERO;
     if degree == 2
-        && let Some((about, place)) = quadric::about_centre(&terms)
+        && let Some((about, place)) = quadric::about_tip(&terms)
     {
-        centre = place * Double::from(power_of_two(scale));
+        tip = place * Double::from(power_of_two(scale));
         let (about, again) = normalised(degree, &about);
         (terms, scale) = (about, scale + again);
     }
-    let finite = terms.iter().all(|term| term.is_finite()) && centre.is_finite();
+    let finite = terms.iter().all(|term| term.is_finite()) && tip.is_finite();
     let surface = Algebraic::new(degree, terms).filter(|_| finite);
     let surface = surface.ok_or_else(|| Fault::not_finite("this polynomial"))?;
     let columns =
         [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(power_of_two(scale))));
-    Ok((Body::Algebraic(surface), Affine::from_columns(columns, centre)))
+    Ok((Body::Algebraic(surface), Affine::from_columns(columns, tip)))
 }
 
 /// The terms in lengths of λ, over the greatest, and the binary logarithm of λ: at which no term of lower degree

@@ -1,22 +1,23 @@
-//! Quadrics about their centres: where the gradient is 0, which of a cone is its tip.
+//! Quadrics that are cones, about their tips.
 //!
-//! Far from it, the few digits that tell the two crossings near a tip apart are lost in the sums that a line's
-//! polynomial is made of; from it they are all that there is.
+//! Far from its tip, the few digits that tell the two crossings near it apart are lost in the sums that a line's
+//! polynomial is made of; about the tip they are all that there is.
 
 use crate::math::double::{Double, DoubleVector};
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
 
-/// How many times as wide one way as another what has a centre may be, squared: others may be meant to have none.
-const MOST_STRETCHED: f64 = 1_048_576.0;
+/// Of its squares, how many times as large one may be as another: with more, the tip is not known.
+const MOST_STRETCHED: f64 = 4_294_967_296.0;
+/// How often what is 0 at the tip may have been rounded, on the way to the terms that the author wrote.
+const ROUNDINGS: f64 = 4.0;
 
-/// The terms x², xy, xz, x, y², yz, y, z², z, 1 about the centre, and the centre; `None` where that is the origin, or
-/// nowhere.
+/// The terms x², xy, xz, x, y², yz, y, z², z, 1 about the tip of a cone, and the tip; `None` where that is the
+/// origin already, or there is none.
 ///
-/// With A the matrix of the squares and l the terms of degree 1, the centre is c = −½·A⁻¹·l, and the value there
-/// l·c/2 + the constant. Where that is no more than the roundings of the terms come to, of what is a cone with 0
-/// there, it is 0.
-pub fn about_centre(terms: &[f64]) -> Option<(Vec<f64>, DoubleVector)> {
+/// The gradient is 0 at c = −½·A⁻¹·l, with A the matrix of the squares and l the terms of degree 1. There the value is
+/// l·c/2 + the constant: of a cone 0, to within what rounding the terms comes to.
+pub fn about_tip(terms: &[f64]) -> Option<(Vec<f64>, DoubleVector)> {
     let &[xx, xy, xz, x, yy, yz, y, zz, z, constant] = terms else { return None };
     let linear = Vector::new(x, y, z);
     if linear == Vector::ZERO {
@@ -32,20 +33,16 @@ pub fn about_centre(terms: &[f64]) -> Option<(Vec<f64>, DoubleVector)> {
     let [a, b, c] = rows.map(DoubleVector::from);
     let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let determinant = a.dot(bc);
-    let [x, y, z] = [x, y, z].map(Double::from);
-    let centre = (bc * x + ca * y + ab * z).map(|sum| -sum / determinant);
-    let half = Double::from(0.5);
-    let mut value =
-        (DoubleVector::from(linear).dot(centre) * half + Double::from(constant)).round();
-    if !(centre.is_finite() && value.is_finite()) {
+    // An ellipsoid has no cone about its centre: there it is a point.
+    if xx * determinant.round() > 0.0 && 4.0 * xx * yy > xy * xy {
         return None;
     }
-    let far = centre.round().abs();
-    let across = rows.map(|row| row.abs().dot(far));
-    let sizes = 0.5 * Vector::from_array(across).dot(far) + linear.abs().dot(far) + constant.abs();
-    let is_definite = xx * determinant.round() > 0.0 && 4.0 * xx * yy > xy * xy;
-    if !is_definite && value.abs() <= 2.0 * f64::EPSILON * sizes {
-        value = 0.0;
-    }
-    Some((vec![xx, xy, xz, 0.0, yy, yz, 0.0, zz, 0.0, value], centre))
+    let sum = bc * Double::from(x) + ca * Double::from(y) + ab * Double::from(z);
+    let tip = sum.map(|sum| -sum / determinant);
+    let twice = DoubleVector::from(linear).dot(tip) + Double::from(constant) * Double::from(2.0);
+    let far = tip.round().abs();
+    let across = Vector::from_array(rows.map(|row| row.abs().dot(far)));
+    let sizes = across.dot(far) + 2.0 * (linear.abs().dot(far) + constant.abs());
+    let is_tip = twice.round().abs() <= ROUNDINGS * 0.5 * f64::EPSILON * sizes;
+    is_tip.then(|| (vec![xx, xy, xz, 0.0, yy, yz, 0.0, zz, 0.0, 0.0], tip))
 }
