@@ -86,7 +86,7 @@ fn determinant([[a, b], [c, d]]: &[[Interval; 2]; 2]) -> Interval {
     *a * *d - *b * *c
 }
 
-fn along(slopes: &[[Interval; 3]; 2], across: [Vector; 2]) -> [[Interval; 2]; 2] {
+fn slopes_along(slopes: &[[Interval; 3]; 2], across: [Vector; 2]) -> [[Interval; 2]; 2] {
     across.map(|axis| [0, 1].map(|way| dot(&slopes[way], axis)))
 }
 
@@ -189,7 +189,7 @@ impl<'a> Search<'a> {
         }
         let across = self.across(&at_middle);
         let off_at_middle = self.off(&at_middle, across);
-        let slopes = along(&whole.slopes, across);
+        let slopes = slopes_along(&whole.slopes, across);
         let mut off = self.off(&whole, across);
         for (off, (there, slopes)) in off.iter_mut().zip(off_at_middle.iter().zip(&slopes)) {
             let step = |way: usize| slopes[way] * (part[way] - Interval::point(middle(part[way])));
@@ -250,7 +250,7 @@ impl<'a> Search<'a> {
         let slopes = seen.at_middle.slopes;
         let [u, v] = slopes.map(|slopes| Vector::from_array(slopes.map(size)).length());
         let off = (self.ray.turn + 8.0 * U) * u * v;
-        let Interval { low, high } = determinant(&along(&slopes, seen.across));
+        let Interval { low, high } = determinant(&slopes_along(&slopes, seen.across));
         (low > off || high < -off).then_some(low > off)
     }
 
