@@ -88,11 +88,10 @@ impl Evaluator<'_> {
         self.next();
         self.pass(ItemKind::Semicolon);
         let [one, other] = [last, span].map(|span| self.sources.text(span).to_owned());
-        let diagnostic =
-            Diagnostic::new(Code::ExtraPart, "no sign stands between two values")
-                .at(span, format!("expected an operator before `{other}`"))
-                .help(format!("a product is written with `*`: `{one}*{other}`"))
-                .fix(between, "*");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, "no sign stands between two values")
+            .at(span, format!("expected an operator before `{other}`"))
+            .help(format!("a product is written with `*`: `{one}*{other}`"))
+            .fix(between, "*");
         self.report(&here, diagnostic);
         true
     }

@@ -163,7 +163,9 @@ impl Reader<'_> {
         let span = Span { start: before.map_or(here.start, |before| before.start), ..here };
         let text = self.text.get(span.range()).unwrap_or("");
         let narrow = |c: char| match c {
-            '０'..='９' | '．' => char::from_u32(c as u32 - '０' as u32 + '0' as u32).unwrap_or(c),
+            '０'..='９' | '．' => {
+                char::from_u32(c as u32 - '０' as u32 + '0' as u32).unwrap_or(c)
+            }
             c => c,
         };
         let number: String = text.chars().map(narrow).collect();
