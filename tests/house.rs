@@ -121,7 +121,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("serde", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     // Lists that are mostly short, where crossings are found.
-    ("smallvec", &["function/", "geometry/", "math/roots/", "shape/"]),
+    ("rustc_hash", &["lower/texture.rs"]),
+    ("smallvec", &["function/", "geometry/", "lower/texture.rs", "math/roots/", "shape/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
     // How wide what miette draws is.
     ("unicode_width", &["diagnostic/cut.rs"]),

@@ -127,7 +127,7 @@ codes! {
     LowIor "low-ior" sure "an index of refraction is below 1";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
     MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
-    SuspiciousUnit "suspicious-unit" sure "an angle looks like radians where degrees are meant, or the reverse";
+    SuspiciousUnit "suspicious-unit" sure "an angle looks like radians where degrees are meant, or a part like a percentage";
     DeepTrace "deep-trace" warning "rays are to be followed deeper than POV-Ray follows them";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
     ColorRange "color-range" sure "a colour looks as if written as 0 to 255, or is negative";

@@ -298,8 +298,11 @@ impl Evaluator<'_> {
             }
             OperationError::NotNumeric(index) => {
                 let kind = values[index].kind();
-                if let Value::String(_) = values[index]
+                // `strlen(S) + "1"`: a number in quotes is meant as one.
+                let is_sum = matches!(values[1 - index], Value::Number(_));
+                if let Value::String(found) = values[index]
                     && what == "`+`"
+                    && !(is_sum && found.trim().parse::<f64>().is_ok())
                     && let Some(joined) = self.joined_strings(here, span, spans)
                 {
                     return self.report(here, joined);
@@ -313,11 +316,16 @@ impl Evaluator<'_> {
                 let text = self.sources.text(spans[index]);
                 match values[index] {
                     Value::String(found) if found.trim().parse::<f64>().is_ok() => {
-                        let meant = format!("val({text})");
+                        let meant = match text.starts_with('"') {
+                            true => found.trim().to_owned(),
+                            false => format!("val({text})"),
+                        };
                         diagnostic
                             .help(format!("write `{meant}` for the number in it"))
                             .fix(spans[index], meant)
                     }
+                    Value::Array(_) => diagnostic
+                        .help(format!("how many elements it has is `dimension_size({text}, 1)`")),
                     Value::Object(_) if what == "`*`" => diagnostic.help(format!(
                         "an object is scaled in its block: `object {{ {text} scale … }}`"
                     )),

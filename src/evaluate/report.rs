@@ -115,10 +115,23 @@ impl Evaluator<'_> {
             (Value::Vector(_), "a number as condition") => Some(
                 "vectors are compared by a component, as `.x`, or by `vlength(A - B)`".to_owned(),
             ),
+            (Value::String(_), "a number as condition") => {
+                Some(format!("two strings are compared by `strcmp({text}, \"…\") = 0`"))
+            }
             _ => None,
         };
         if let Some(meant) = meant {
             diagnostic = diagnostic.help(meant);
+        }
+        if let Value::String(found) = found
+            && wanted.starts_with("a vector")
+            && text.starts_with('"')
+            && found.split(',').all(|part| part.trim().parse::<f64>().is_ok())
+        {
+            let vector = format!("<{}>", found.trim());
+            diagnostic = diagnostic
+                .help(format!("a vector stands without quotes: `{vector}`"))
+                .fix(span, vector);
         }
         if let Value::String(found) = found
             && wanted.starts_with("a number")

@@ -6,7 +6,7 @@ use crate::source::Span;
 use super::Evaluator;
 
 impl Evaluator<'_> {
-    /// `0.25D+00`, `0.1 to 0.5`.
+    /// `0.25D+00`, `0.1 to 0.5`, `O.5`.
     pub(super) fn of_another_writing(&self, name: &str, span: Span) -> Option<Diagnostic> {
         let text = &self.sources.get(span.file).text;
         let (before, after) = (text.get(..span.range().start)?, text.get(span.range().end..)?);
@@ -24,6 +24,20 @@ impl Evaluator<'_> {
                 Diagnostic::new(Code::MalformedNumber, message)
                     .at(span, "an exponent is written with `e`: `1.5e+00`")
                     .fix(span, format!("e{digits}")),
+            );
+        }
+        let is_fraction = after
+            .strip_prefix('.')
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        if matches!(name, "O" | "o") && is_fraction {
+            let digits = after[1..].find(|c: char| !c.is_ascii_digit()).map(|end| end + 1);
+            let fraction = &after[..digits.unwrap_or(after.len())];
+            let message = format!("`{name}{fraction}` is not a number");
+            return Some(
+                Diagnostic::new(Code::MalformedNumber, message)
+                    .at(span, "this is a letter, and no zero")
+                    .help(format!("write `0{fraction}`"))
+                    .fix(span, "0"),
             );
         }
         let (blank, close) = (before.trim_end(), after.trim_start());

@@ -167,9 +167,21 @@ impl Road<'_> {
             return;
         }
         let sources = &self.sources;
+        // A name on the line of a fault may stand for another value.
+        let doubtful: Vec<&str> = faults
+            .iter()
+            .flat_map(|fault| {
+                let source = sources.get(fault.file);
+                words(source.line(source.position(fault.start as usize).line))
+            })
+            .filter(|word| Word::from_name(word).is_none())
+            .collect();
         let is_faulty = |opener: Span| {
-            let block = block_behind(&sources.get(opener.file).text, opener);
+            let text = &sources.get(opener.file).text;
+            let block = block_behind(text, opener);
+            let inside = text.get(block.start as usize..block.end as usize).unwrap_or("");
             faults.iter().any(|fault| fault.file == opener.file && block.contains(&fault.start))
+                || words(inside).any(|word| doubtful.contains(&word))
         };
         self.diagnostics.retain_after(before, |told| {
             told.code != Code::NothingInView

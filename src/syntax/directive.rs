@@ -150,6 +150,7 @@ impl<'a> Nest<'a> {
         let sign = Span { end: span.start + 1, ..span };
         self.report(match is_remark {
             true => diagnostic.help("if it is a comment, that begins with `//`").fix(sign, "//"),
+            false if word == "end" => diagnostic.help("leave it out, unless one is missing"),
             false => diagnostic,
         });
     }

@@ -105,7 +105,8 @@ fn is_json(text: &str) -> bool {
 fn by_its_lines(text: &str) -> Option<Kind> {
     type Test = fn(&str) -> bool;
     // What is certain at once counts for more.
-    const LANGUAGES: [(Test, usize, &str, &str); 8] = [
+    const LANGUAGES: [(Test, usize, &str, &str); 9] = [
+        (is_pbrt, 2, "a scene for PBRT", "a scene has words and braces: `sphere { 0, 1 }`"),
         (is_obj, 3, "a mesh in Wavefront's OBJ", MESH),
         (imports_from, 1, "a program in Python", PROGRAM),
         (is_python, 2, "a program in Python", PROGRAM),
@@ -151,6 +152,16 @@ fn is_obj(line: &str) -> bool {
     let mut count = 0;
     let number = |word: &str| word.chars().all(|c| c.is_ascii_digit() || "+-./eE".contains(c));
     words.inspect(|_| count += 1).all(number) && (2..=8).contains(&count)
+}
+
+/// `WorldBegin`, `Shape "sphere" "float radius" 1`.
+fn is_pbrt(line: &str) -> bool {
+    const ALONE: [&str; 4] = ["WorldBegin", "WorldEnd", "AttributeBegin", "AttributeEnd"];
+    const WITH_KIND: [&str; 7] =
+        ["Camera", "Film", "Integrator", "LightSource", "Material", "Sampler", "Shape"];
+    let (word, rest) = line.trim().split_once(' ').unwrap_or((line.trim(), ""));
+    ALONE.contains(&word) && rest.is_empty()
+        || WITH_KIND.contains(&word) && rest.trim_start().starts_with('"')
 }
 
 /// `from math import sin`: in Python alone.
@@ -280,6 +291,10 @@ mod tests {
             ("#include <stdio.h>\nint main(void) {\n}\n", "in C"),
             ("from vapory import *\nlight = LightSource([2, 4, 3])\n", "Python"),
             ("camera:\n  location: [0, 1, 5]\nobjects:\n  - sphere: 1\n", "YAML"),
+            ("LookAt 3 4 1  0 0 0  0 0 1\nWorldBegin\n  Shape \"sphere\"\nWorldEnd\n", "PBRT"),
+            ("\u{89}PNG\r\n\u{1a}\n", "PNG"),
+            ("\u{ff}\u{d8}\u{ff}\u{e0}", "JPEG"),
+            ("sphere\0\0\0{", "no text"),
             ("--- a/a.pov\n+++ b/a.pov\n@@ -1 +1 @@\n", "diff"),
             ("; options\nWidth=640\nHeight=480\n", "INI"),
         ];

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
+use crate::vocabulary::Word;
 
 /// Words that sentences are made of, and scenes are not.
 const SPEECH: &[&str] = &[
@@ -195,9 +196,17 @@ fn comment_sign(line: &str) -> Option<&str> {
         word.starts_with(|c: char| c.is_alphanumeric() || c == '(')
             && word.chars().all(|c| c.is_alphanumeric() || "()'’-_.,:!?…".contains(c))
     };
+    // A `;` has a meaning here, too.
+    let is_spoken = || {
+        words.split_whitespace().any(|word| SPEECH.contains(&word))
+            && words.split_whitespace().all(|word| {
+                word.starts_with(char::is_alphabetic) && Word::from_name(word).is_none()
+            })
+    };
     let is_text = words.trim_start().starts_with(char::is_alphabetic)
         && words.split_whitespace().count() >= 2
-        && words.split_whitespace().all(is_word);
+        && words.split_whitespace().all(is_word)
+        && (!sign.starts_with(';') || is_spoken());
     is_text.then_some(sign.trim_end())
 }
 
@@ -262,7 +271,16 @@ mod tests {
         let signs =
             ["-- a comment", ";;; a comment", "% a comment", "' a comment", "REM a comment"];
         assert_eq!(signs.map(comment_sign), ["--", ";;;", "%", "'", "REM"].map(Some));
-        for line in ["-- b - c", "; sphere { a, 1 }", "--B", "; x", "- a comment", "'a' + b"] {
+        for line in [
+            "-- b - c",
+            "; sphere { a, 1 }",
+            "; scale 1 no_shadow",
+            "; A B",
+            "--B",
+            "; x",
+            "- a comment",
+            "'a' + b",
+        ] {
             assert_eq!(comment_sign(line), None, "{line}");
         }
     }

@@ -17,16 +17,25 @@ impl Evaluator<'_> {
     ) -> Diagnostic {
         let message = format!("expected {wanted} after {}", self.describe(after));
         let (code, place) = (Code::MissingPart, self.end_of_parts(after));
-        let diagnostic = match (next, place) {
-            (Some(found), _) => {
+        let lost = place.and_then(|end| self.lost_comma(Span { start: after.span.end, ..end }));
+        let diagnostic = match (next, place, &lost) {
+            (Some(found), _, Some((value, _))) => {
+                let sign = self.sources.text(*value).find(" -").map_or(0, |at| at as u32 + 1);
+                let sign = Span { start: value.start + sign, ..*value };
+                Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
+                    .at(Span { end: sign.start + 1, ..sign }, "is a comma missing before this?")
+                    .also(found.span_head(), format!("expected {wanted}"))
+                    .also(after.span, "for this")
+            }
+            (Some(found), _, None) => {
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
                     .at(found.span_head(), format!("expected {wanted}"))
                     .also(after.span, "for this")
             }
-            (None, Some(end)) => Diagnostic::new(code, message)
+            (None, Some(end), _) => Diagnostic::new(code, message)
                 .at(end, format!("expected {wanted} here"))
                 .also(after.span, "for this"),
-            (None, None) => Diagnostic::new(code, message)
+            (None, None, _) => Diagnostic::new(code, message)
                 .at(after.span, format!("{wanted} is missing after this")),
         };
         let diagnostic = match after.kind {
@@ -52,14 +61,13 @@ impl Evaluator<'_> {
             }
             _ => diagnostic,
         };
-        let diagnostic =
-            match place.and_then(|end| self.lost_comma(Span { start: after.span.end, ..end })) {
-                Some((value, parted)) => diagnostic.help(format!(
-                    "`{}` is one value, and `{parted}` are two: is a comma missing?",
-                    self.sources.text(value)
-                )),
-                None => diagnostic,
-            };
+        let diagnostic = match lost {
+            Some((value, parted)) => diagnostic.help(format!(
+                "`{}` is one value, and `{parted}` are two: is a comma missing?",
+                self.sources.text(value)
+            )),
+            None => diagnostic,
+        };
         self.meant_by_word(diagnostic, next, wanted)
     }
 

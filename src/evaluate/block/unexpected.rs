@@ -390,13 +390,14 @@ fn opener(span: Span) -> Span {
 }
 
 /// Whether a word is one of a block that nothing in this place has, built or not: no part of a light is one of a
-/// camera, none of a texture one of a finish, none of an object one of its interior.
+/// camera, none of a texture one of a finish or a pigment's map, none of an object one of its interior.
 fn is_of_no_part(word: Word, place: Place) -> bool {
     let of_interior = home(word) == Some(Word::Interior);
     match (place.word, word.family()) {
         (Some(Word::LightSource), Family::Camera) | (Some(Word::Texture), Family::FinishItem) => {
             true
         }
+        (Some(Word::Texture), _) if matches!(word, Word::ColorMap | Word::ColourMap) => true,
         (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
             family == Family::FinishItem || of_interior
         }

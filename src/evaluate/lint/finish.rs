@@ -168,7 +168,7 @@ impl Evaluator<'_> {
 fn percentage_of(span: Span, name: &str, value: f64) -> Diagnostic {
     let part = format!("{}", value / 100.0);
     let diagnostic =
-        Diagnostic::new(Code::UnlikelyFinish, format!("this `{name}` looks like a percentage"))
+        Diagnostic::new(Code::SuspiciousUnit, format!("this `{name}` looks like a percentage"))
             .at(span, "expected 0 to 1")
             .help(format!("write `{part}`"))
             .fix(span, part);

@@ -71,8 +71,7 @@ fn a_text_is_crossed_where_exact_arithmetic_is_inside_of_any_letter() {
             }
         }
     }
-    assert!(crossed > tries_in(60), "{crossed}");
-    assert!(again > tries_in(600), "{again}");
+    assert!(crossed > tries_in(300) && again > tries_in(6000), "{crossed} {again}");
 }
 
 #[test]
@@ -100,5 +99,5 @@ fn a_flat_text_is_met_where_exact_arithmetic_is_inside_of_any_letter() {
             missed += usize::from(height > 0.0);
         }
     }
-    assert!(met > tries_in(400) && missed > tries_in(100), "{met} {missed}");
+    assert!(met > tries_in(2000) && missed > tries_in(100), "{met} {missed}");
 }

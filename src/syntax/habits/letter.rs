@@ -148,7 +148,7 @@ impl Reader<'_> {
 
     /// `１２．５`, as a keyboard for Chinese or Japanese writes digits.
     fn wide_number(&mut self, meant: &mut Vec<Token>) -> bool {
-        let is_wide = |text: &str| text.chars().all(|c| matches!(c, '０'..='９' | '．'));
+        let is_wide = |text: &str| text.chars().all(|c| c == '．' || wide_digit(c).is_some());
         if !is_wide(self.slice(0)) {
             return false;
         }
@@ -163,10 +163,8 @@ impl Reader<'_> {
         let span = Span { start: before.map_or(here.start, |before| before.start), ..here };
         let text = self.text.get(span.range()).unwrap_or("");
         let narrow = |c: char| match c {
-            '０'..='９' | '．' => {
-                char::from_u32(c as u32 - '０' as u32 + '0' as u32).unwrap_or(c)
-            }
-            c => c,
+            '．' => '.',
+            c => wide_digit(c).and_then(|digit| char::from_digit(digit, 10)).unwrap_or(c),
         };
         let number: String = text.chars().map(narrow).collect();
         if number.parse::<f64>().is_err() {
@@ -234,6 +232,11 @@ impl Reader<'_> {
         self.at += 1;
         true
     }
+}
+
+/// Of `０` to `９`.
+fn wide_digit(c: char) -> Option<u32> {
+    (c as u32).checked_sub('０' as u32).filter(|digit| *digit < 10)
 }
 
 /// A letter's accent that is a character of its own.
