@@ -334,3 +334,14 @@ fn row_53_an_inverse_undoes_to_within_the_condition_of_its_map() {
         assert!(off <= 8.0 * f64::EPSILON * condition, "{off:e} {condition:e} {placement:?}");
     }
 }
+
+#[test]
+fn a_text_may_be_followed_by_a_negative_thickness_without_a_comma() {
+    let text = |letters: &str| format!("text {{ {letters}, 0 pigment {{ rgb 1 }} }}");
+    let (meant, _) = compiled(&text("\"Pov\", -0.5"));
+    for written in ["\"Pov\" -0.5", "\"Pov\" -1 + 0.5", "\"Pov\" -0.25*2"] {
+        assert_eq!(compiled(&text(written)).0, meant, "{written}");
+    }
+    let (named, _) = compiled(&format!("#declare S = \"Pov\"; {}", text("S -0.5")));
+    assert_eq!(named, meant);
+}

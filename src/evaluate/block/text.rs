@@ -8,6 +8,7 @@ use crate::font::{BUILT_IN, Font, POV_RAYS};
 use crate::scene::Solid;
 use crate::scene::text::Text;
 use crate::source::{FileError, FileId, Span};
+use crate::syntax::ast::{BinaryOperator, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::super::include::missing_file;
@@ -35,7 +36,10 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let is_written = self.is_before_value();
-        let given = self.given(token, wanted);
+        let (given, thickness) = match self.string_and_number()? {
+            Some((string, number)) => (Ok(string), Some(number)),
+            None => (self.given(token, wanted), None),
+        };
         if given.is_err() && is_written && !self.is_before_value() {
             // A mistake in the string hides none behind it.
             self.number_after(token, "a number for the thickness")?;
@@ -46,7 +50,10 @@ impl Evaluator<'_> {
         };
         let string = string.to_string();
         self.names_font(&given, &string)?;
-        let thickness = self.number_after(token, "a number for the thickness")?;
+        let thickness = match thickness {
+            Some(given) => given,
+            None => self.number_after(token, "a number for the thickness")?,
+        };
         let wanted = "a vector for the offset of each letter";
         let offset = self.given(token, wanted)?;
         let offset = self.as_vector(offset, wanted)?.value;
@@ -70,6 +77,46 @@ impl Evaluator<'_> {
             self.scene.sizeless.push((Word::Text.name(), token.here.site(token.span)));
         }
         Ok(Solid::Text { text: Arc::new(text) })
+    }
+
+    /// A string and a signed number without a comma between them, `"Pov" -0.5`, which reads as a difference.
+    fn string_and_number(&mut self) -> Outcome<Option<(Given<Value>, Given<f64>)>> {
+        let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned()
+        else {
+            return Ok(None);
+        };
+        let mut first = id;
+        let mut terms = Vec::new();
+        while let ExpressionKind::Binary(sign, left, right) = here.unit.expression(first).kind {
+            match sign {
+                BinaryOperator::Subtract => terms.push((-1.0, right)),
+                BinaryOperator::Add => terms.push((1.0, right)),
+                _ => return Ok(None),
+            }
+            first = left;
+        }
+        // What begins with `+` is more of the string to those who wrote it.
+        let is_number = terms.last().is_some_and(|(sign, _)| *sign < 0.0);
+        let value = match here.unit.expression(first).kind {
+            ExpressionKind::String if is_number => self.expression(&here, first)?,
+            ExpressionKind::Name(_) if is_number => match self.named(&here, first) {
+                Some(value @ Value::String(_)) => value,
+                _ => return Ok(None),
+            },
+            _ => return Ok(None),
+        };
+        self.next();
+        let written = here.unit.expression(first).span;
+        let string = Given { value, span: written, here: here.clone(), expression: Some(first) };
+        let span = Span { start: written.end, ..span };
+        let mut number = 0.0;
+        for (sign, term) in terms.into_iter().rev() {
+            let value = self.expression(&here, term)?;
+            let wanted = "a number for the thickness";
+            number +=
+                sign * self.as_number(&here, here.unit.expression(term).span, &value, wanted)?;
+        }
+        Ok(Some((string, Given { value: number, span, here, expression: None })))
     }
 
     /// `text { "timrom.ttf" "string" … }`: the file of a font, without `ttf` before it.
