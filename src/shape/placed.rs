@@ -22,21 +22,30 @@ pub struct Placed {
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
-        self.found(ray, 0.0, |seen, found| self.body.crossings(&seen.line, found))
+        self.found(ray, self.edges_moved(), |seen, found| self.body.crossings(&seen.line, found))
     }
 
     /// The same of a part of a solid: their errors count that its centre was rounded, so that faces that
     /// two parts share are one, however far off they stand.
     pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
+        self.found(ray, self.moved(), |seen, found| self.body.crossings(&seen.line, found))
+    }
+
+    /// How far it stands from where it was meant, as its centre was rounded.
+    fn moved(&self) -> f64 {
         let Placement { centre, local_from_world, .. } = self.placement;
-        let moved = U * (local_from_world.abs() * centre.abs()).length();
-        self.found(ray, moved, |seen, found| self.body.crossings(&seen.line, found))
+        U * (local_from_world.abs() * centre.abs()).length()
+    }
+
+    /// The same, of sheets alone: their edges are others', too, and nothing may show between.
+    fn edges_moved(&self) -> f64 {
+        if self.exact.is_none() && self.body.is_sheet() { self.moved() } else { 0.0 }
     }
 
     /// In order, those ahead of the ray's start and not beyond `limit`, at least the first that is seen.
     #[inline(never)]
     pub fn first_crossings(&self, ray: &Ray, limit: f64) -> Crossings {
-        self.found(ray, 0.0, |seen, found| {
+        self.found(ray, self.edges_moved(), |seen, found| {
             let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
             self.body.first_crossings(&seen.line, between, found);
         })

@@ -76,3 +76,26 @@ fn height_fields_side_by_side_have_no_hole_between_them() {
     }
     assert_eq!(holes("location <0.1, 3, -2> look_at <0.1, 0, 0.3>", &things), 0);
 }
+
+#[test]
+fn a_polygon_and_a_triangle_that_share_an_edge_far_off_leave_nothing_between_them() {
+    let map =
+        "rotate <166.37, -98.733, -133> scale 3 translate <-466993.556792, -0.19609, 2307.463616>";
+    for edge in [
+        "triangle { 0, x, -y } polygon { 4, <0, 0>, <-1, 0>, <0, -1>, <0, 0> }",
+        "polygon { 4, <0, 0>, <1, 0>, <0, -1>, <0, 0> } triangle { 0, -x, -y }",
+        "triangle { -x, x, -y } polygon { 4, <0, 0>, <-1, 0>, <0, -1>, <0, 0> }",
+    ] {
+        let camera = "location Way(0, -0.5, 5) direction Way(0, 0, -1) - Middle
+                      right 0.01*(Way(1, 0, 0) - Middle) up 0.15*(Way(0, 1, 0) - Middle)";
+        let text = format!(
+            "#declare Way = function {{ transform {{ {map} }} }}
+             #declare Middle = Way(0, 0, 0);
+             camera {{ {camera} }} background {{ rgb <1, 0, 0> }}
+             union {{ {edge} pigment {{ rgb 0 }} {map} }}"
+        );
+        let film = rendered(&text, (3, 401));
+        let holes = (0..401).filter(|y| film.radiance[film.index(1, *y)].red > 0.5).count();
+        assert_eq!(holes, 0, "{edge}");
+    }
+}
