@@ -144,6 +144,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/julia_fractal/mod.rs", "const FINEST", "relative: of the ball's radius"),
     ("shape/parametric/mod.rs", "EPSILON.sqrt()", "of a part of the rectangle of u and v"),
     ("shape/parametric/search.rs", "let size", "keeps 0/0 from the origin of u and v"),
+    ("shape/julia_fractal/mod.rs", "const ANYTHING", "stands for no bound"),
+    ("shape/parametric.rs", "let size", "keeps 0/0 from the origin of u and v"),
     ("math/roots/bracket.rs", "let finest", "the next number but one"),
     ("scene/blob.rs", "let apart", "roundings of a distance, relative"),
     ("scene/outline.rs", "let off = size(0)", "relative: of the points' largest coordinate"),

@@ -87,6 +87,8 @@ pub struct Search<F> {
     found: Changes,
     /// Where it was looked at last.
     end: Option<End>,
+    /// What is not searched yet, the nearest last.
+    left: SmallVec<[(End, End); 64]>,
 }
 
 /// The changes of sign of a function from one place to another.
@@ -104,7 +106,7 @@ pub fn changes(
 impl<F: Fn(Interval) -> Bounds> Search<F> {
     pub fn new(function: F, fineness: Fineness) -> Self {
         let found = Changes { first: None, last: None, all: SmallVec::new() };
-        Self { function, fineness, cells: 0, found, end: None }
+        Self { function, fineness, cells: 0, found, end: None, left: SmallVec::new() }
     }
 
     pub fn found(&self) -> &Changes {
@@ -113,12 +115,35 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
 
     /// Looks from one place to another.
     pub fn through(&mut self, from: f64, to: f64) {
+        self.begin(from, to);
+        while self.goes_on() {}
+    }
+
+    /// Is to look from one place to another, as far as [`Search::goes_on`] is asked to.
+    pub fn begin(&mut self, from: f64, to: f64) {
         let first = self.look_again(from);
         let last = self.look(to);
         self.note(from, first.sign());
-        self.interval(first, last);
         self.end = Some(last);
-        self.note(to, last.sign());
+        self.left.push((first, last));
+    }
+
+    /// Looks on, to the next change; `false` where there is none.
+    pub fn goes_on(&mut self) -> bool {
+        let told = self.found.all.len();
+        while let Some((a, b)) = self.left.pop() {
+            match self.part(a, b) {
+                Some(([left, right], cut)) => {
+                    self.left.push((cut, right));
+                    self.left.push((left, cut));
+                }
+                None => self.note(b.s, b.sign()),
+            }
+            if self.found.all.len() > told {
+                return true;
+            }
+        }
+        false
     }
 
     /// The same, where the function is known to rise or to fall throughout.
@@ -126,7 +151,8 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         let first = self.look_again(from);
         let last = self.look(to);
         if first.sign().is_none() || last.sign().is_none() {
-            self.interval(first, last);
+            self.left.push((first, last));
+            while self.goes_on() {}
         }
         self.note(from, first.sign());
         self.end = Some(last);
@@ -157,20 +183,6 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         }
         self.found.first.get_or_insert((s, negative));
         self.found.last = Some((s, negative));
-    }
-
-    fn interval(&mut self, first: End, last: End) {
-        let mut stack: SmallVec<[(End, End); 64]> = SmallVec::new();
-        stack.push((first, last));
-        while let Some((a, b)) = stack.pop() {
-            match self.part(a, b) {
-                Some(([left, right], cut)) => {
-                    stack.push((cut, right));
-                    stack.push((left, cut));
-                }
-                None => self.note(b.s, b.sign()),
-            }
-        }
     }
 
     /// What is left of an interval, and where it is cut; `None` where it need not be.
@@ -276,6 +288,25 @@ mod tests {
             }
             assert!(changes.all.iter().enumerate().all(|(i, c)| c.rising == (i % 2 == 0)));
         }
+    }
+
+    #[test]
+    fn who_wants_one_change_looks_no_farther() {
+        let looks = std::cell::Cell::new(0);
+        let roots = polynomial(&[-0.9, 0.1, 0.100_01, 0.100_02, 0.9]);
+        let counted = |x: Interval| {
+            looks.set(looks.get() + 1);
+            roots(x)
+        };
+        let mut search = Search::new(counted, FINE);
+        search.begin(-2.0, 3.0);
+        assert!(search.goes_on());
+        let first = looks.get();
+        assert_eq!(search.found().all.len(), 1);
+        while search.goes_on() {}
+        let roots = polynomial(&[-0.9, 0.1, 0.100_01, 0.100_02, 0.9]);
+        assert_eq!(search.found(), &changes(&roots, -2.0, 3.0, FINE));
+        assert!(3 * first < looks.get(), "{first} {}", looks.get());
     }
 
     #[test]

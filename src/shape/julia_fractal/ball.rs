@@ -68,7 +68,11 @@ impl<const N: usize> Ball<N> {
 
     /// The square of the norm.
     pub fn squared(&self) -> Interval {
-        let size = self.size();
+        self.squared_of(self.size())
+    }
+
+    /// The same, where the middle's norm is known.
+    pub fn squared_of(&self, size: f64) -> Interval {
         let low = (size * (1.0 - 16.0 * U) - self.radius).max(0.0);
         let high = size + self.radius;
         Interval { low: low * low * (1.0 - 4.0 * U), high: high * high * (1.0 + 4.0 * U) }
@@ -99,6 +103,13 @@ impl<const N: usize> Ball<N> {
         Self { middle: times(&a.middle, &b.middle), radius: 2.0 * radius * (1.0 + 8.0 * U) }
     }
 
+    /// The sum, whose middle's norm is no more than `size`.
+    pub fn plus(&self, other: &Self, size: f64) -> Self {
+        let middle = std::array::from_fn(|i| self.middle[i] + other.middle[i]);
+        let radius = (self.radius + other.radius + 2.0 * U * size) * (1.0 + 4.0 * U);
+        Self { middle, radius }
+    }
+
     pub fn times_number(self, by: f64) -> Self {
         let middle = self.middle.map(|component| by * component);
         Self { middle, radius: (by.abs() * self.radius + 2.0 * U * by.abs() * self.size()) }
@@ -113,9 +124,7 @@ impl<const N: usize> Add for Ball<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let middle: [f64; N] = std::array::from_fn(|i| self.middle[i] + other.middle[i]);
-        let sum = Self { middle, radius: 0.0 };
-        let radius = (self.radius + other.radius + 2.0 * U * sum.size()) * (1.0 + 4.0 * U);
-        Self { middle, radius }
+        self.plus(&other, Self::point(middle).size())
     }
 }
 

@@ -50,7 +50,10 @@ impl Function {
                 let square = z * z;
                 (square * z, square.times_number(3.0))
             }
-            Self::Exp => (power(z), power(z)),
+            Self::Exp => {
+                let power = power(z);
+                (power, power)
+            }
             Self::Reciprocal => {
                 let over = over(z);
                 (over, minus(over * over))

@@ -28,8 +28,9 @@ use orbit::{Hypercomplex, Orbit, Quaternion};
 const FINEST: f64 = 1.0 / 4096.0;
 /// How far a crossing may be from where it is found in those, at most: of the ball's radius.
 const FAR: f64 = 1.0 / (1 << 30) as f64;
-/// A line to its first crossing is searched in so many parts.
-const PARTS: u32 = 8;
+
+/// A bound that tells nothing, of what is cut as fine as what has one.
+const ANYTHING: f64 = f64::MAX;
 
 /// What is repeated, and of which numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,7 +89,7 @@ impl JuliaFractal {
         let parameter = Ball::point(self.parameter);
         match self.algebra {
             Algebra::Quaternion { is_cube } => {
-                self.farthest(Quaternion { h, slopes, parameter, is_cube })
+                self.farthest(Quaternion::new(h, slopes, parameter, is_cube))
             }
             Algebra::Hypercomplex(function) => {
                 self.farthest(Hypercomplex::new(h, slopes, parameter, function))
@@ -110,6 +111,11 @@ impl JuliaFractal {
             let here = (scaled(squared) - one, slopes.map(scaled));
             if here.0.low > 0.0 {
                 return here;
+            }
+            // Nothing more is told of a ball that holds the origin and what escapes.
+            if orbit.grows() && squared.low == 0.0 && here.0.high > 0.0 {
+                let low = farthest.map_or(-1.0, |(known, _)| known.low);
+                return (Interval { low, high: ANYTHING }, [Interval::EVERYTHING; K]);
             }
             farthest = Some(match farthest {
                 Some(known) if known.0.low > here.0.high => known,
@@ -143,8 +149,10 @@ impl JuliaFractal {
     /// What a search asks: the slope only where the values tell no sign.
     fn looked_at(&self, ray: &LocalRay, s: Interval) -> Bounds {
         let bounds = self.bounds(ray, s, false);
-        let is_certain = bounds.value.low > 0.0 || bounds.value.high < 0.0;
-        match is_certain || s.single().is_some() {
+        let Interval { low, high } = bounds.value;
+        // No slope tells more where the values may be anything.
+        let is_told = low > 0.0 || high < 0.0 || high >= ANYTHING;
+        match is_told || s.single().is_some() {
             true => bounds,
             false => self.bounds(ray, s, true),
         }
@@ -183,22 +191,16 @@ impl JuliaFractal {
         let mut search = Search::new(|s| self.looked_at(ray, s), fineness);
         // With what lies around the place from which on it is searched.
         let begin = (from - 64.0 * least).max(-reach);
-        let parts = if all { 1 } else { PARTS };
-        let place = |part: u32| begin + (reach - begin) * f64::from(part) / f64::from(parts);
-        let mut told = 0;
-        for part in 0..parts {
-            search.through(place(part), place(part + 1));
-            for change in &search.found().all[told..] {
-                let (outside, inside) = match change.rising {
-                    true => (change.after, change.before),
-                    false => (change.before, change.after),
-                };
-                let root =
-                    root(|s| self.sample(ray, s), (outside, inside), f64::NAN, ray.tolerance);
-                found.push(Met { t: root.t, error: root.error, leaving: change.rising, part: 0 });
-            }
-            told = search.found().all.len();
-            if !all && found.iter().any(|met| met.t - met.error > from) {
+        search.begin(begin, reach);
+        while search.goes_on() {
+            let Some(change) = search.found().all.last() else { return };
+            let (outside, inside) = match change.rising {
+                true => (change.after, change.before),
+                false => (change.before, change.after),
+            };
+            let root = root(|s| self.sample(ray, s), (outside, inside), f64::NAN, ray.tolerance);
+            found.push(Met { t: root.t, error: root.error, leaving: change.rising, part: 0 });
+            if !all && root.t - root.error > from {
                 return;
             }
         }

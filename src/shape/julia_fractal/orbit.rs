@@ -10,6 +10,9 @@ use crate::shape::U;
 
 /// How many ways from the start are followed: along a line one, for the gradient three.
 pub trait Orbit<const K: usize>: Copy {
+    /// Whether of a ball that holds the origin, and what escapes, every next one does, too.
+    fn grows(&self) -> bool;
+
     /// The square of the norm, and its slopes along the ways; `None` where nothing is known.
     fn squared(&self) -> Option<(Interval, [Interval; K])>;
 
@@ -20,37 +23,52 @@ pub trait Orbit<const K: usize>: Copy {
 /// h² + p or h³ + p of quaternions.
 #[derive(Debug, Clone, Copy)]
 pub struct Quaternion<const K: usize> {
-    pub h: Ball<4>,
-    pub slopes: [Ball<4>; K],
-    pub parameter: Ball<4>,
-    pub is_cube: bool,
+    h: Ball<4>,
+    slopes: [Ball<4>; K],
+    parameter: Ball<4>,
+    is_cube: bool,
+    /// The norms of the middles, not too small.
+    size: f64,
+    parameter_size: f64,
+}
+
+impl<const K: usize> Quaternion<K> {
+    pub fn new(h: Ball<4>, slopes: [Ball<4>; K], parameter: Ball<4>, is_cube: bool) -> Self {
+        let (size, parameter_size) = (h.size(), parameter.size());
+        Self { h, slopes, parameter, is_cube, size, parameter_size }
+    }
 }
 
 impl<const K: usize> Orbit<K> for Quaternion<K> {
+    fn grows(&self) -> bool {
+        true
+    }
+
     fn squared(&self) -> Option<(Interval, [Interval; K])> {
-        let squared = self.h.squared();
+        let squared = self.h.squared_of(self.size);
         let is_known = self.h.radius.is_finite() && squared.is_finite();
         is_known.then(|| (squared, self.slopes.map(|slope| twice(self.h.dot(&slope)))))
     }
 
     fn next(&self) -> Self {
-        let Self { h, slopes, parameter, is_cube } = *self;
-        match is_cube {
+        let Self { h, size, slopes, parameter, parameter_size, is_cube } = *self;
+        let (power, slopes, power_size) = match is_cube {
             false => {
-                let size = h.size();
                 let slopes = slopes
                     .map(|slope| Ball::both_ways((&h, size), (&slope, slope.size()), symmetric));
                 // Twice the square: halving is exact.
                 let twice = Ball::both_ways((&h, size), (&h, size), symmetric);
                 let square = Ball::new(twice.middle.map(|part| 0.5 * part), 0.5 * twice.radius);
-                Self { h: square + parameter, slopes, ..*self }
+                (square, slopes, size * size)
             }
             true => {
                 let square = h * h;
                 let slopes = slopes.map(|slope| square * slope + h * slope * h + slope * square);
-                Self { h: square * h + parameter, slopes, ..*self }
+                (square * h, slopes, size * size * size)
             }
-        }
+        };
+        let h = power.plus(&parameter, (power_size + parameter_size) * (1.0 + 64.0 * U));
+        Self { h, size: h.size(), slopes, ..*self }
     }
 }
 
@@ -91,6 +109,10 @@ fn half(number: Ball<4>, sign: f64) -> Ball<2> {
 }
 
 impl<const K: usize> Orbit<K> for Hypercomplex<K> {
+    fn grows(&self) -> bool {
+        matches!(self.function, Function::Sqr | Function::Cube)
+    }
+
     /// Half the sum of the halves' squares.
     fn squared(&self) -> Option<(Interval, [Interval; K])> {
         let [a, b] = &self.halves;
