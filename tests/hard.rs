@@ -52,6 +52,8 @@ mod seams;
 mod sizes;
 #[path = "hard/solids.rs"]
 mod solids;
+#[path = "hard/specks.rs"]
+mod specks;
 #[path = "hard/steps.rs"]
 mod steps;
 #[path = "benches/numerics/sturm.rs"]

@@ -5,6 +5,7 @@
 //! kernels in `shape/` decide. No allocation per ray, no recursion.
 
 mod balls;
+mod beside;
 mod build;
 pub mod coinciding;
 mod edge;
@@ -30,6 +31,7 @@ use crate::shape::{
 };
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
+use beside::Grain;
 pub use extent::Extent;
 use tree::Tree;
 use whole::Whole;
@@ -43,6 +45,8 @@ const TREE_FROM: usize = 8;
 pub struct Geometry {
     /// The unbounded first, then the leaves in turn.
     entries: Vec<Entry>,
+    /// Of each entry.
+    grains: Vec<Grain>,
     /// How many are unbounded.
     unbounded: usize,
     tree: Option<Tree>,
@@ -145,6 +149,7 @@ impl Geometry {
         };
         let mut geometry = Self {
             entries: Vec::with_capacity(world.objects.len()),
+            grains: Vec::new(),
             unbounded: unbounded.len(),
             tree,
             balls: Vec::new(),
@@ -159,6 +164,7 @@ impl Geometry {
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);
         }
+        geometry.grains = geometry.entries.iter().map(|entry| geometry.grain(entry)).collect();
         if geometry.tree.is_none() {
             let bounded = geometry.entries[geometry.unbounded..].iter();
             let balls: Vec<Ball> = bounded.map(|entry| geometry.ball(world, entry)).collect();

@@ -20,7 +20,7 @@ pub struct Hit {
     pub error: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
-    /// Error bounds could not tell it from a crossing of another object.
+    /// Error bounds could not tell it from a crossing of another object, or of another part of its whole.
     pub contested: bool,
 }
 
@@ -29,6 +29,7 @@ impl Geometry {
     /// tell apart, that of the first-declared object, the opaque before the clear: with U the least
     /// t + 2·error of all, the first of those with t ≤ U. So it does not depend on the order of
     /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
+    /// Where opaque surfaces only touch, that which is nearer all around is seen.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         self.nearest_counted(ray, &mut Work::default())
     }
@@ -58,7 +59,18 @@ impl Geometry {
     fn nearest_in_double(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
         let mut race = Race::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
-        if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() }
+        let limit = race.limit;
+        let hit =
+            if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() }?;
+        Some(if hit.contested { self.as_seen_beside(ray, hit, limit) } else { hit })
+    }
+
+    /// The nearest hit; contested where it cannot be told which that is.
+    pub(super) fn raced(&self, ray: &Ray) -> Option<Hit> {
+        let mut race = Race::new(self, ray, Uncounted);
+        self.search(ray, f64::INFINITY, &mut race);
+        let contested = race.contested();
+        race.winner().map(|hit| Hit { contested: contested || hit.contested, ..hit })
     }
 
     /// The same by definition, with the tightest error bounds.

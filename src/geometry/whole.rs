@@ -82,7 +82,7 @@ impl Geometry {
                 if sheet || met.leaving == inside {
                     // 0 and −0 are one place: what ends there has begun before.
                     let met = Met { t: met.t + 0.0, ..met };
-                    events.push(Event { met, leaf, sheet, last });
+                    events.push(Event { met, leaf, sheet, last, shared: false });
                     (inside, last) = (!met.leaving, Some(met.t));
                 }
             }
@@ -142,7 +142,8 @@ impl Geometry {
             let leaf = leaf(&event);
             let met = event.met;
             let seen = met.is_seen() && leaf.sides.shows(met.leaving) && counts(leaf);
-            seen.then(|| leaf.hit(met.crossing(), met.leaving))
+            let contested = event.shared;
+            seen.then(|| Hit { contested, ..leaf.hit(met.crossing(), met.leaving) })
         })
     }
 
@@ -184,10 +185,9 @@ impl Geometry {
         leaving: bool,
     ) -> Hit {
         let mut all = self.seen_of_whole(whole, ray, |_| true);
-        let object = all.find(|hit| hit.t == crossing.t && hit.leaving == leaving);
-        Hit {
-            object: object.map_or(entry.object, |hit| hit.object),
-            ..entry.hit(crossing, leaving)
-        }
+        let part = all.find(|hit| hit.t == crossing.t && hit.leaving == leaving);
+        let (object, contested) =
+            part.map_or((entry.object, false), |hit| (hit.object, hit.contested));
+        Hit { object, contested, ..entry.hit(crossing, leaving) }
     }
 }

@@ -44,6 +44,8 @@ pub struct Event {
     pub sheet: bool,
     /// Where the same leaf was crossed before; none where it was not.
     pub last: Option<f64>,
+    /// Another leaf is crossed in the same place: told of those that are kept.
+    pub shared: bool,
 }
 
 /// Events in order.
@@ -141,7 +143,7 @@ impl Tree {
         while first < events.len() {
             let end = end_of_place(events, first);
             if let Some(shown) = self.pass(&mut counts, events, first..end, &mut changes) {
-                events[kept] = events[shown];
+                events[kept] = Event { shared: end - first > 1, ..events[shown] };
                 kept += 1;
             }
             first = end;

@@ -397,7 +397,7 @@ fn is_of_no_part(word: Word, place: Place) -> bool {
         (Some(Word::LightSource), Family::Camera) | (Some(Word::Texture), Family::FinishItem) => {
             true
         }
-        (Some(Word::Texture), _) if matches!(word, Word::ColorMap | Word::ColourMap) => true,
+        (Some(Word::Texture), _) if matches!(word, Word::ColorMap) => true,
         (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
             family == Family::FinishItem || of_interior
         }

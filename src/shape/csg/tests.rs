@@ -18,6 +18,7 @@ fn of_two(nodes: &[Node], a: f64, b: (f64, f64)) -> Vec<(u32, f64)> {
         leaf,
         sheet: false,
         last,
+        shared: false,
     };
     let first = [met(0.0, false, A, None), met(a, true, A, Some(0.0))];
     let second = [met(b.0, false, B, None), met(b.1, true, B, Some(b.0))];
@@ -69,7 +70,7 @@ fn what_is_not_there_to_be_seen_hides_nothing_that_lies_in_it() {
     let kept = |nodes: &[Node], hidden: u32| {
         let event = |leaf, t, leaving| {
             let part = if leaf == hidden { Met::UNSEEN } else { 0 };
-            Event { met: Met { t, error: 1e-3, leaving, part }, leaf, sheet: false, last: None }
+            Event { met: Met { t, error: 1e-3, leaving, part }, leaf, sheet: false, last: None, shared: false }
         };
         let mut events: Events =
             [event(A, 0.0, false), event(B, 0.0, false), event(A, 1.0, true), event(B, 1.0, true)]
@@ -131,7 +132,7 @@ fn random_events(random: &mut Random, leaves: u32) -> Events {
         let mut last = None;
         for (number, t) in places.into_iter().enumerate() {
             let met = Met { t, error: 1e-3, leaving: number % 2 == 1, part: 0 };
-            events.push(Event { met, leaf, sheet: false, last });
+            events.push(Event { met, leaf, sheet: false, last, shared: false });
             last = Some(t);
         }
     }
@@ -266,7 +267,7 @@ fn a_hundred_thousand_levels_are_gone_through() {
     let met = |t, leaving| Met { t, error: 1e-9, leaving, part: 0 };
     // The first is the innermost, the last the outermost.
     for (leaf, expected) in [(0, 2), (1, 2), (levels, 0)] {
-        let event = |t, leaving, last| Event { met: met(t, leaving), leaf, sheet: false, last };
+        let event = |t, leaving, last| Event { met: met(t, leaving), leaf, sheet: false, last, shared: false };
         let mut events: Events =
             [event(1.0, false, None), event(2.0, true, Some(1.0))].into_iter().collect();
         tree.keep(&mut events);
