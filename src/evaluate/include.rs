@@ -169,7 +169,8 @@ impl Evaluator<'_> {
         let ast = syntax::parse(self.sources.get(id), id, &options, &mut told);
         let is_scene = self.options.dialect == crate::scene::Dialect::Scene;
         let text = &self.sources.get(id).text;
-        if foreign && is_scene && !ast.is_ascii_but_for_comments(text) {
+        let is_other = told.iter().any(|told| told.code == Code::ForeignFile);
+        if foreign && is_scene && !is_other && !ast.is_ascii_but_for_comments(text) {
             let diagnostic = Diagnostic::new(
                 Code::BadEncoding,
                 format!("`{name}` is not UTF-8, and was read as Latin-1"),

@@ -174,7 +174,9 @@ impl Road<'_> {
                 let source = sources.get(fault.file);
                 words(source.line(source.position(fault.start as usize).line))
             })
-            .filter(|word| Word::from_name(word).is_none())
+            .filter(|word| {
+                word.starts_with(|c: char| !c.is_ascii_digit()) && Word::from_name(word).is_none()
+            })
             .collect();
         let is_faulty = |opener: Span| {
             let text = &sources.get(opener.file).text;

@@ -30,11 +30,11 @@ impl Evaluator<'_> {
             TokenKind::Word(word) if of_poison => {
                 let poison = Poison::new(*word, token.here.site(token.span));
                 match place.holds(*word) {
-                    true => self.pass_not_built(token, *word),
                     // No part of a light that is not built is one of a camera, nor of a texture one of a finish.
-                    false if is_of_no_part(*word, place) => {
+                    _ if is_of_no_part(*word, place) => {
                         self.unexpected_word(token, *word, place);
                     }
+                    true => self.pass_not_built(token, *word),
                     false => self.skip_arguments(*word),
                 }
                 // What a pattern that is not built has goes with it.

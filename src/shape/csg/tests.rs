@@ -70,7 +70,13 @@ fn what_is_not_there_to_be_seen_hides_nothing_that_lies_in_it() {
     let kept = |nodes: &[Node], hidden: u32| {
         let event = |leaf, t, leaving| {
             let part = if leaf == hidden { Met::UNSEEN } else { 0 };
-            Event { met: Met { t, error: 1e-3, leaving, part }, leaf, sheet: false, last: None, shared: false }
+            Event {
+                met: Met { t, error: 1e-3, leaving, part },
+                leaf,
+                sheet: false,
+                last: None,
+                shared: false,
+            }
         };
         let mut events: Events =
             [event(A, 0.0, false), event(B, 0.0, false), event(A, 1.0, true), event(B, 1.0, true)]
@@ -267,7 +273,13 @@ fn a_hundred_thousand_levels_are_gone_through() {
     let met = |t, leaving| Met { t, error: 1e-9, leaving, part: 0 };
     // The first is the innermost, the last the outermost.
     for (leaf, expected) in [(0, 2), (1, 2), (levels, 0)] {
-        let event = |t, leaving, last| Event { met: met(t, leaving), leaf, sheet: false, last, shared: false };
+        let event = |t, leaving, last| Event {
+            met: met(t, leaving),
+            leaf,
+            sheet: false,
+            last,
+            shared: false,
+        };
         let mut events: Events =
             [event(1.0, false, None), event(2.0, true, Some(1.0))].into_iter().collect();
         tree.keep(&mut events);

@@ -154,7 +154,9 @@ impl Reader<'_> {
         }
         let mut end = 1;
         while self.touches(end)
-            && (self.kind(end) == Some(TokenKind::Number) || is_wide(self.slice(end)))
+            && (self.kind(end) == Some(TokenKind::Number)
+                || self.slice(end) == "."
+                || is_wide(self.slice(end)))
         {
             end += 1;
         }
