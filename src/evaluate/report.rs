@@ -126,9 +126,14 @@ impl Evaluator<'_> {
         if let Value::String(found) = found
             && wanted.starts_with("a vector")
             && text.starts_with('"')
-            && found.split(',').all(|part| part.trim().parse::<f64>().is_ok())
+            && let plain = found.trim()
+            && (matches!(plain, "x" | "y" | "z")
+                || plain.split(',').all(|part| part.trim().parse::<f64>().is_ok()))
         {
-            let vector = format!("<{}>", found.trim());
+            let vector = match plain {
+                "x" | "y" | "z" => plain.to_owned(),
+                _ => format!("<{plain}>"),
+            };
             diagnostic = diagnostic
                 .help(format!("a vector stands without quotes: `{vector}`"))
                 .fix(span, vector);

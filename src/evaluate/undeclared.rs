@@ -182,6 +182,10 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("`{name}` comes with `#include \"{include}\"`"));
+            if let Some(own) = suggest::closest(name, self.scopes.visible()) {
+                diagnostic =
+                    diagnostic.help(format!("or did you mean `{own}`, which is declared?"));
+            }
             diagnostic = self.include_before(here, diagnostic, &include);
         } else if let Some(word) = self.item_like(name, span) {
             diagnostic = diagnostic

@@ -5,6 +5,24 @@ use crate::source::Span;
 
 use super::Evaluator;
 
+/// Numbers in words.
+const NUMBERS: [(&str, &str); 14] = [
+    ("zero", "0"),
+    ("one", "1"),
+    ("two", "2"),
+    ("three", "3"),
+    ("four", "4"),
+    ("five", "5"),
+    ("six", "6"),
+    ("ten", "10"),
+    ("twenty", "20"),
+    ("thirty", "30"),
+    ("forty", "40"),
+    ("ninety", "90"),
+    ("hundred", "100"),
+    ("half", "0.5"),
+];
+
 impl Evaluator<'_> {
     /// `0.25D+00`, `0.1 to 0.5`, `O.5`.
     pub(super) fn of_another_writing(&self, name: &str, span: Span) -> Option<Diagnostic> {
@@ -29,6 +47,25 @@ impl Evaluator<'_> {
         let is_fraction = after
             .strip_prefix('.')
             .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        if matches!(name, "O" | "o") && !is_fraction && !after.trim_start().starts_with(['(', '{'])
+        {
+            return Some(
+                Diagnostic::new(
+                    Code::MalformedNumber,
+                    format!("`{name}` is a letter, and no number"),
+                )
+                .at(span, "is the digit `0` meant?")
+                .fix(span, "0"),
+            );
+        }
+        if let Some((_, number)) = NUMBERS.iter().find(|(word, _)| *word == name) {
+            return Some(
+                Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"))
+                    .at(span, "numbers are written with digits")
+                    .help(format!("write `{number}`"))
+                    .fix(span, *number),
+            );
+        }
         if matches!(name, "O" | "o") && is_fraction {
             let digits = after[1..].find(|c: char| !c.is_ascii_digit()).map(|end| end + 1);
             let fraction = &after[..digits.unwrap_or(after.len())];

@@ -12,7 +12,6 @@ use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
 use super::cylinder::{BASE, CAP, between};
-use super::slab::nudge;
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 use ends::{after, before, entered, high, low, reversed};
@@ -144,10 +143,7 @@ impl Side for Ruled<'_> {
                 if outside { value > error } else { value < -error }
             })
         };
-        [true, false]
-            .into_iter()
-            .find(|outside| told(*outside))
-            .or_else(|| self.of_wall_along(piece))
+        [true, false].into_iter().find(|outside| told(*outside))
     }
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
@@ -156,23 +152,6 @@ impl Side for Ruled<'_> {
 }
 
 impl Ruled<'_> {
-    /// The side of a flat wall that the ray cannot be told from one within: that to which a nudge brings it. Of
-    /// two prisms that share the wall then one has the ray.
-    fn of_wall_along(&self, piece: &Piece) -> Option<bool> {
-        if self.conic || !piece.is_straight() {
-            return None;
-        }
-        let across = self.ray.direction.cross(Vector::Z);
-        let ends = [piece.first(), piece.last()];
-        let is_within = ends.iter().all(|point| {
-            let (value, error) = self.value(*point);
-            value.abs() <= 0.5 * error && error.is_finite()
-        });
-        let length = self.gap(ends[1]) - self.gap(ends[0]);
-        let is_long = length.length() * across.length() > LONG * self.value(ends[0]).1;
-        (is_within && is_long).then(|| nudge(self.ray).dot(across) < 0.0)
-    }
-
     /// How the value changes along the two axes.
     fn slope(&self) -> Point {
         let LocalRay { nearest, direction, .. } = *self.ray;
@@ -184,9 +163,6 @@ impl Ruled<'_> {
         }
     }
 }
-
-/// A wall is long that is so many errors.
-const LONG: f64 = 64.0;
 
 /// How far to the side a line goes of which it is asked first whether it meets a wall at all: as it costs
 /// time only, any would do.

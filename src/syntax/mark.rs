@@ -145,10 +145,16 @@ impl<'a> Nest<'a> {
         }
         let text = self.slice(span);
         let message = format!("`{text}` stands only inside parentheses");
+        let help = match text {
+            "=" => {
+                "each name has a `#declare` of its own; a comparison stands in parentheses: `(a = b)`"
+            }
+            _ => "put the whole comparison in parentheses: `(a < b)`",
+        };
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, message)
                 .at(span, "outside, a `<` or `>` would be a vector's")
-                .help("put the whole comparison in parentheses: `(a < b)`"),
+                .help(help),
         );
     }
 

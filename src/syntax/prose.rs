@@ -198,10 +198,11 @@ fn comment_sign(line: &str) -> Option<&str> {
     };
     // A `;` has a meaning here, too.
     let is_spoken = || {
-        words.split_whitespace().any(|word| SPEECH.contains(&word))
-            && words.split_whitespace().all(|word| {
-                word.starts_with(char::is_alphabetic) && Word::from_name(word).is_none()
-            })
+        let is_long = |word: &&str| word.chars().count() > 2;
+        let is_told =
+            |word: &str| word.starts_with(char::is_alphabetic) && Word::from_name(word).is_none();
+        words.split_whitespace().filter(is_long).count() >= 2
+            && words.split_whitespace().all(is_told)
     };
     let is_text = words.trim_start().starts_with(char::is_alphabetic)
         && words.split_whitespace().count() >= 2
@@ -269,7 +270,7 @@ mod tests {
     #[test]
     fn comments_of_other_languages_are_told_by_their_signs() {
         let signs =
-            ["-- a comment", ";;; a comment", "% a comment", "' a comment", "REM a comment"];
+            ["-- a comment", ";;; this comment", "% a comment", "' a comment", "REM a comment"];
         assert_eq!(signs.map(comment_sign), ["--", ";;;", "%", "'", "REM"].map(Some));
         for line in [
             "-- b - c",

@@ -55,10 +55,21 @@ impl<'a> Nest<'a> {
             return;
         }
         let text = self.slice(span).lines().next().unwrap_or("");
-        self.report(
-            Diagnostic::new(Code::ExpectedExpression, format!("expected a name, found `{text}`"))
-                .at(span, "a name starts with a letter or `_`"),
-        );
+        let diagnostic =
+            Diagnostic::new(Code::ExpectedExpression, format!("expected a name, found `{text}`"));
+        // `#declare Mean(A, B) = …`
+        let called = text.split_once('(').map(|(name, rest)| (name.trim_end(), rest));
+        let is_name = |name: &str| {
+            name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+                && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+        };
+        let diagnostic = match called.filter(|(name, _)| is_name(name)) {
+            Some((name, parameters)) => diagnostic
+                .at(span, "parameters stand behind `function`")
+                .help(format!("write `#declare {name} = function({parameters} {{ … }};`")),
+            None => diagnostic.at(span, "a name starts with a letter or `_`"),
+        };
+        self.report(diagnostic);
     }
 
     /// Reports a word of the language where a new name was wanted, and takes it for a name.

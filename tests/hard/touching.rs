@@ -30,10 +30,6 @@ const PAIRS: &[[&str; 2]] = &[
         "difference { box { -1, 1 } cylinder { -2*y, 0, 3 }",
     ],
     ["box { <-1, -1, -1>, <1, 0, 1>", "cylinder { 0, y, 1"],
-    [
-        "prism { -1, 1, 4, <-1, 0>, <1, 0>, <1, 1>, <-1, 1> rotate 90*x",
-        "prism { -1, 1, 4, <-1, 0>, <1, 0>, <1, -1>, <-1, -1> rotate 90*x",
-    ],
 ];
 
 /// A closed mesh from y = −1 to 0.

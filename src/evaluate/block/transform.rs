@@ -183,10 +183,13 @@ impl Evaluator<'_> {
     pub(super) fn transform_block(&mut self, token: &Token) -> Outcome<TransformId> {
         if let Some(Token { kind: TokenKind::Expression(_), .. }) = self.peek() {
             let given = self.given(token, "a transform")?;
-            return match given.value {
-                Value::Transform(id) => Ok(id),
-                other => Err(self.wrong_type(&given.here, given.span, "a transform", &other)),
+            let Value::Transform(id) = given.value else {
+                let help = "`rotate` turns, `translate` moves, `scale` stretches".to_owned();
+                let help = matches!(given.value, Value::Vector(_)).then_some(help);
+                let (here, wanted) = (&given.here, "a transform");
+                return Err(self.wrong_type_with(here, given.span, wanted, &given.value, help));
             };
+            return Ok(id);
         }
         let steps = self.block(token, Word::TransformWord, |evaluator| {
             let mut steps = Vec::new();

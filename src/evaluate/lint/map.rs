@@ -49,7 +49,14 @@ impl Rise {
 
 impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise) {
-        if let Some((before, after, site)) = rise.fall {
+        let within = -BEYOND..=1.0 + BEYOND;
+        let outside = rise.literal.iter().find(|given| !within.contains(&given.value));
+        // What goes down from beyond 1 is out of its range first.
+        let is_high = |before: f64| outside.is_some_and(|given| given.value == before);
+        let fall = rise.fall.filter(|&(before, ..)| !(before > 1.0 && is_high(before)));
+        let code =
+            if fall.is_some() == rise.fall.is_some() { Code::MapRange } else { Code::UnsortedMap };
+        if let Some((before, after, site)) = fall {
             let message =
                 format!("the entries of this `color_map` go down from {before} to {after}");
             let diagnostic = Diagnostic::new(Code::UnsortedMap, message)
@@ -57,13 +64,9 @@ impl Evaluator<'_> {
                 .help("POV-Ray reads such a map otherwise than it is written: put the entries in order");
             self.report_in(site.expansion, diagnostic);
         }
-        let within = -BEYOND..=1.0 + BEYOND;
-        let Some(outside) = rise.literal.iter().find(|given| !within.contains(&given.value)) else {
-            return;
-        };
+        let Some(outside) = outside else { return };
         let message = format!("an entry at {} lies where the pattern has no values", outside.value);
-        let mut diagnostic =
-            Diagnostic::new(Code::MapRange, message).at(outside.span, "expected 0 to 1");
+        let mut diagnostic = Diagnostic::new(code, message).at(outside.span, "expected 0 to 1");
         let whole = |given: &Given<f64>| given.value.fract() == 0.0 && given.value >= 0.0;
         let largest = rise.literal.iter().fold(0.0, |most, given| given.value.max(most));
         diagnostic = match largest == 100.0 && !rise.computed && rise.literal.iter().all(whole) {
