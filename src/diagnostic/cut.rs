@@ -132,6 +132,7 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
 }
 
 #[cfg(test)]
+#[allow(clippy::single_range_in_vec_init, reason = "one label")]
 mod tests {
     use super::*;
 

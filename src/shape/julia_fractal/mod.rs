@@ -151,7 +151,7 @@ impl JuliaFractal {
         let bounds = self.bounds(ray, s, false);
         let Interval { low, high } = bounds.value;
         // No slope tells more where the values may be anything.
-        let is_told = low > 0.0 || high < 0.0 || high >= ANYTHING;
+        let is_told = low > 0.0 || !(0.0..ANYTHING).contains(&high);
         match is_told || s.single().is_some() {
             true => bounds,
             false => self.bounds(ray, s, true),

@@ -213,12 +213,12 @@ impl<'a> Search<'a> {
     }
 
     fn off(&self, image: &Image, across: [Vector; 2]) -> [Interval; 2] {
-        let from_line = self.from_line(image);
+        let off_line = self.off_line(image);
         let wide = Interval { low: -self.blur, high: self.blur };
-        across.map(|way| dot(&from_line, way) + wide)
+        across.map(|way| dot(&off_line, way) + wide)
     }
 
-    fn from_line(&self, image: &Image) -> [Interval; 3] {
+    fn off_line(&self, image: &Image) -> [Interval; 3] {
         std::array::from_fn(|axis| image.point[axis] - Interval::point(self.ray.nearest[axis]))
     }
 
@@ -269,7 +269,7 @@ impl<'a> Search<'a> {
 
     fn keep(&mut self, part: Part, is_sure: bool, leaving: Option<bool>, place: u32) {
         let [image, _] = self.surface.images(part);
-        let along = dot(&self.from_line(&image), self.ray.direction);
+        let along = dot(&self.off_line(&image), self.ray.direction);
         let along = Interval { low: along.low - self.blur, high: along.high + self.blur };
         if self.surface.body.container.contains(self.ray.at(middle(along))) {
             self.left.push(Left { along, leaving, is_sure, place });
