@@ -103,7 +103,10 @@ impl Evaluator<'_> {
         // A word that another tool has is meant as there, whatever it resembles.
         let is_known = suggest::foreign(&name).any(is_built);
         let here = suggest::foreign(&name)
-            .find(|word| *word == "transmit" || words().any(|other| other == *word))
+            .find(|word| {
+                let is_object = *word == "object" && place.word.is_none();
+                is_object || *word == "transmit" || words().any(|other| other == *word)
+            })
             .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
             .or_else(|| suggest::reworded(&name, words()))
             .or_else(|| suggest::abridged(&name, words()))
