@@ -126,7 +126,7 @@ codes! {
     FarAway "far-away" lint "an object is too far from the camera, for its size, to be drawn exactly";
     LowIor "low-ior" sure "an index of refraction is below 1";
     NoPigment "no-pigment" lint "an object has no pigment, and is black";
-    MissingColor "missing-color" lint "a pattern is given fewer colours than it takes";
+    MissingColor "missing-color" sure "a pattern is given fewer colours than it takes";
     SuspiciousUnit "suspicious-unit" sure "an angle looks like radians where degrees are meant, or a part like a percentage";
     DeepTrace "deep-trace" warning "rays are to be followed deeper than POV-Ray follows them";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
@@ -138,7 +138,7 @@ codes! {
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" sure "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
-    OpenOutline "open-outline" lint "the outline of a shape does not end where it began, and is closed";
+    OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
@@ -147,7 +147,7 @@ codes! {
     CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
     ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
-    ReplacedPigment "replaced-pigment" lint "an object has two pigments; the last one is used";
+    ReplacedPigment "replaced-pigment" sure "an object has two pigments; the last one is used";
     RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";
     RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";

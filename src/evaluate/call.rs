@@ -138,6 +138,10 @@ impl Evaluator<'_> {
         let list = here.unit.ast.arguments(arguments);
         match word {
             Word::Defined => {
+                // No word of the language is a name that is declared.
+                if let [Argument::Items(_)] = list {
+                    return Ok(Value::truth(false));
+                }
                 let [Argument::Expression(id)] = list else {
                     return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
                 };
@@ -167,6 +171,16 @@ impl Evaluator<'_> {
             }
             Word::MinExtent | Word::MaxExtent | Word::Inside | Word::Trace => {
                 return self.probe(here, word, word_span, list);
+            }
+            Word::Sum | Word::Prod => {
+                let (name, text) = (word.name(), self.sources.text(span).to_owned());
+                let message = format!("`{name}` stands in a function only");
+                let diagnostic = Diagnostic::new(Code::NotCallable, message)
+                    .at(word_span, "no function is around it")
+                    .help(format!(
+                        "`#declare F = function {{ {text} }}`, then `F(0, 0, 0)`; or a `#for`"
+                    ));
+                return Err(self.report(here, diagnostic));
             }
             Word::Internal => {
                 let message = "`internal(n)` is a whole function, and no number";

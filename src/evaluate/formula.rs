@@ -12,7 +12,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::function::{Binary, Builder, Function, Node, TooLong, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{
-    Argument, Arguments, Callee, Component, ExpressionId, ExpressionKind, UnaryOperator,
+    Argument, Arguments, BinaryOperator, Callee, Component, ExpressionId, ExpressionKind,
+    UnaryOperator,
 };
 use crate::vocabulary::Word;
 
@@ -164,7 +165,8 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// Operations lean to the left as deep as they are long: from the leftmost operand on.
+    /// Operations lean to the left as deep as they are long: from the leftmost operand on. In a function `&` binds
+    /// more than `|` (measured), which elsewhere are alike.
     fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let (mut operations, mut first) = (Vec::new(), id);
         while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
@@ -172,9 +174,15 @@ impl Evaluator<'_> {
             first = left;
         }
         let mut node = self.node(here, formula, first);
+        let mut either = None;
         for (operator, right, span) in operations.into_iter().rev() {
             // Both sides may have something to complain of.
             let right = self.node(here, formula, right);
+            if operator == BinaryOperator::Or {
+                either = Some((self.either(here, formula, either, node), span));
+                node = right;
+                continue;
+            }
             let (Ok(left), Ok(right)) = (node, right) else {
                 node = Err(Reported);
                 continue;
@@ -183,7 +191,20 @@ impl Evaluator<'_> {
             let built = formula.builder.binary(operation, left, right);
             node = self.built(here, span, built);
         }
-        node
+        self.either(here, formula, either, node)
+    }
+
+    /// `last`, or what stands before it in a row of `|`.
+    fn either(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        before: Option<(Outcome<Node>, Span)>,
+        last: Outcome<Node>,
+    ) -> Outcome<Node> {
+        let Some((before, span)) = before else { return last };
+        let built = formula.builder.binary(Binary::Or, before?, last?);
+        self.built(here, span, built)
     }
 
     /// `F(x, y, z).red`; of anything else, a component now.

@@ -72,6 +72,15 @@ impl<'a> Nest<'a> {
         let first = arguments.first().copied();
         match (head, values.as_deref()) {
             (Head::Ifdef | Head::Ifndef, _) => {
+                // No word of the language is a name that is declared.
+                if let (Some(Argument::Items(items)), 1) = (first, arguments.len())
+                    && let [Item { kind: ItemKind::Word(_), .. }] = *self.ast.items(items)
+                {
+                    let answer = f64::from(head == Head::Ifndef);
+                    let test = Test::Condition(self.add(ExpressionKind::Number(answer), at));
+                    let body = Body::If { done: Vec::new(), test: Some((at, test)) };
+                    return self.open(FrameKind::Body(body), at, false);
+                }
                 let target = match (first, arguments.len()) {
                     (Some(Argument::Expression(id)), 1) => self.target(id),
                     (Some(Argument::Items(items)), 1) => self.name_of_items(items).map(named),

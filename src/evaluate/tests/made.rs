@@ -86,9 +86,11 @@ facts! {
         "#declare F = function(a,b) { a=b } P(F(1,1+1e-9)) P(F(1,1)) #declare G = function(a,b) { a<b }
          P(G(1,1+1e-12))"
         => "0.000 1.000 1.000";
-    and_and_or_are_equals:
-        "#declare F = function(a) { 1|0&a } P(F(0)) #declare G = function(a,b) { a & b | 0 } P(G(2,3))"
-        => "0.000 1.000";
+    and_binds_more_than_or_in_a_function_and_as_much_elsewhere:
+        "#declare F = function(a) { 1|0&a } P(F(0)) #declare G = function(a,b) { a & b | 0 } P(G(2,3))
+         #declare H = function(a,b,c) { a|b|c&0 } P(H(1,0,0)) #declare I = function(a,b) { (a|b)&0 } P(I(1,0))
+         #declare J = function(a,b,c) { a>0|b>0&c>0&a<0 } P(J(1,-1,-1)) P((1|0&0))"
+        => "1.000 1.000 1.000 0.000 1.000 0.000";
     select_takes_three_or_four:
         "#declare F = function(a) { select(a,1,2,3) } #declare G = function(a) { select(a,1,2) }
          P(F(-1)) P(F(0)) P(F(1)) P(G(0)) P(G(-0.1))"
