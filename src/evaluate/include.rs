@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::mesh_file;
 use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
 use crate::standard;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
@@ -183,9 +184,14 @@ impl Evaluator<'_> {
             let (expansions, kind) = (&mut self.scene.expansions, ExpansionKind::Include);
             let named = expansions.named(name);
             let included = expansions.add(here.expansion, head.to(span), kind, named);
+            let whole = head.to(span);
+            let mesh = format!("mesh {{ file {} }}", self.sources.text(span));
+            // Where objects stand, it can be placed.
+            let is_mesh = is_scene && self.blocks.is_empty() && mesh_file::is_named(name);
             for told in told.iter().cloned() {
                 self.lacks_include |= told.code == Code::ForeignFile;
-                self.report_in(included, told);
+                let meant = is_mesh && told.code == Code::ForeignFile;
+                self.report_in(included, if meant { told.fix(whole, mesh.clone()) } else { told });
             }
         }
         let unit = self.unit(ast);

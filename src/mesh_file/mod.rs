@@ -116,6 +116,11 @@ impl Format {
     }
 }
 
+/// Whether a file's name ends as that of a mesh.
+pub fn is_named(name: &str) -> bool {
+    Format::of(name).is_some()
+}
+
 /// The mesh that a file is. It and all that is made on the way take about `most` bytes, or less.
 ///
 /// # Errors

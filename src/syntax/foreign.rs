@@ -16,7 +16,7 @@ struct Kind {
     help: &'static str,
 }
 
-const MESH: &str = "a mesh has to be converted to a scene's `mesh2` before it can be included";
+const MESH: &str = "a `.scene` file reads it with `mesh { file \"…\" }`: `#include` is for scenes";
 const PROGRAM: &str = "run it with its own program, and give what it writes";
 
 /// What a text is that is no scene; `None` for one that may be one.
@@ -69,6 +69,9 @@ fn by_its_start(text: &str) -> Option<Kind> {
     if lower.starts_with("<?xml") || lower.starts_with("<!--") || lower.starts_with("<svg") {
         return kind("an XML file", "a scene has words and braces, and no tags");
     }
+    if is_json(text) && text.contains("\"asset\"") && text.contains("\"meshes\"") {
+        return kind("a mesh in glTF", MESH);
+    }
     if is_json(text) {
         return kind("a JSON file", "a scene has words before its braces: `sphere { 0, 1 }`");
     }
@@ -79,7 +82,9 @@ fn by_its_start(text: &str) -> Option<Kind> {
         return kind("a list of changes (diff)", "apply it to the scene that it is about");
     }
     if lower.starts_with("newmtl") {
-        return kind("materials of a mesh in Wavefront's OBJ", MESH);
+        const OF_MESH: &str =
+            "they come with their mesh: `mesh { file \"….obj\" }` in a `.scene` file";
+        return kind("materials of a mesh in Wavefront's OBJ", OF_MESH);
     }
     if lower.starts_with("solid") && lower.contains("facet normal") {
         return kind("a mesh in STL", MESH);
@@ -280,6 +285,7 @@ mod tests {
             ("\n<!DOCTYPE html>\n<p>404</p>", "HTML"),
             ("<?xml version=\"1.0\"?>\n<COLLADA/>", "XML"),
             ("{\n \"asset\": { \"version\": \"2.0\" } }", "JSON"),
+            ("{ \"asset\": { \"version\": \"2.0\" }, \"meshes\": [] }", "glTF"),
             ("[ { \"radius\": 1 } ]", "JSON"),
             ("solid cube\nfacet normal 0 0 1\n", "STL"),
             ("ply\nformat ascii 1.0\n", "PLY"),

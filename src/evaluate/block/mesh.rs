@@ -5,6 +5,7 @@
 mod dress;
 mod file;
 mod flaw;
+mod guess;
 mod lists;
 
 pub(in crate::evaluate) use file::MeshFiles;
@@ -121,6 +122,9 @@ impl Evaluator<'_> {
 
     /// `mesh { triangle { … } smooth_triangle { … } … inside_vector … }`, or `mesh { file "…" … }`.
     pub(super) fn mesh(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.file_unworded(token, Word::Mesh) {
+            return Err(reported);
+        }
         let mut gathered = Gathered::default();
         let mut from_file = None;
         let mut failed = false;

@@ -49,6 +49,9 @@ struct Lists {
 impl Evaluator<'_> {
     /// `mesh2 { vertex_vectors { … } … face_indices { … } … }`.
     pub(in super::super) fn mesh2(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.file_unworded(token, Word::Mesh2) {
+            return Err(reported);
+        }
         let mut lists = Lists::default();
         let mut failed = false;
         while let Some((list, word)) = self.next_part(Word::Mesh2, OF_MESH2) {
