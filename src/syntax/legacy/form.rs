@@ -3,7 +3,9 @@
 use super::Legacy;
 use crate::diagnostic::Fix;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Callee, Expression, ExpressionKind, Item, ItemKind};
+use crate::syntax::ast::{
+    Argument, Arguments, Ast, BinaryOperator, Callee, Expression, ExpressionKind, Item, ItemKind,
+};
 use crate::vocabulary::{Family, Word};
 
 impl Legacy<'_> {
@@ -200,35 +202,71 @@ impl Legacy<'_> {
         }
     }
 
+    /// `3 -10`, typed with a sign that touches the second number: all of it, and where the first one ends.
+    fn difference(&self, node: &Expression) -> Option<(Span, Span)> {
+        let ExpressionKind::Binary(BinaryOperator::Subtract, first, second) = node.kind else {
+            return None;
+        };
+        let [first, second] = [first, second].map(|id| self.ast.expression(id));
+        let is_typed = |one: &Expression| is_literal(self.text(one.span));
+        let between = Span { start: first.span.end, end: second.span.start, ..node.span };
+        let touches =
+            self.text(between).trim_start_matches([' ', '\t']) == "-" && self.text(between) != "-";
+        (touches && is_typed(first) && is_typed(second)).then(|| (node.span, first.span.after()))
+    }
+
     /// `<1 2 3>`: components without commas.
     pub(super) fn vectors(&mut self) {
         let ast = self.ast;
         for node in &ast.expressions {
             let ExpressionKind::Vector(arguments) = node.kind else { continue };
-            let spans: Vec<Span> = ast
-                .arguments(arguments)
-                .iter()
-                .filter_map(|one| match one {
-                    Argument::Expression(id) => Some(ast.expression(*id).span),
-                    Argument::Items(_) => None,
-                })
-                .collect();
+            let spans: Vec<Span> = arguments_of(ast, arguments).map(|one| one.span).collect();
             let gaps = spans.windows(2).filter(|two| {
                 let gap = Span { start: two[0].end, end: two[1].start, ..two[0] };
                 !self.text(gap).contains(',')
             });
-            let ends: Vec<Span> = gaps.map(|two| two[0].after()).collect();
+            let mut ends: Vec<Span> = gaps.map(|two| two[0].after()).collect();
             if ends.is_empty() {
                 continue;
             }
-            let message = "a vector without commas is an old form";
-            self.tell(node.span, message, "write a comma between two components");
+            // `<0 3 -10>`: of three numbers where two are read, the picture is not what was meant.
+            let lost = arguments_of(ast, arguments).filter_map(|one| self.difference(one));
+            let lost: Vec<(Span, Span)> = lost.collect();
+            match lost[..] {
+                [(whole, end)] if spans.len() == 2 => {
+                    let message = format!(
+                        "this vector without commas has two components: `{}` is one number",
+                        self.text(whole)
+                    );
+                    self.tell(node.span, message, "write a comma between two components");
+                    ends.push(end);
+                    ends.sort_by_key(|end| end.start);
+                }
+                _ => {
+                    let message = "a vector without commas is an old form";
+                    self.tell(node.span, message, "write a comma between two components");
+                }
+            }
             if let Some(told) = self.found.last_mut() {
                 let comma = |span| Fix { span, text: ",".to_owned() };
                 told.fixes.extend(ends.into_iter().map(comma));
             }
         }
     }
+}
+
+/// `-1.5`
+fn is_literal(text: &str) -> bool {
+    let digits = text.trim_start_matches(['-', '+', ' ']);
+    digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') && digits.parse::<f64>().is_ok()
+}
+
+/// The expressions among arguments.
+fn arguments_of(ast: &Ast, arguments: Arguments) -> impl Iterator<Item = &Expression> {
+    ast.arguments(arguments).iter().filter_map(|one| match one {
+        Argument::Expression(id) => Some(ast.expression(*id)),
+        Argument::Items(_) => None,
+    })
 }
 
 /// True for what is a part of a colour, and changes the one before it.

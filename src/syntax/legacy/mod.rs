@@ -1,7 +1,8 @@
 //! Old forms of the language, as the tree shows them: what they are called today, and how to write it.
 //!
 //! **In:** the tree of one file. **Out:** a `legacy-form` for each, with a fix where the rewriting is sure.
-//! **Invariant:** a fix changes no picture. Branches that are not run are looked at, too.
+//! **Invariant:** a fix changes no picture, but where a vector without commas has lost a component, which is
+//! said. Branches that are not run are looked at, too.
 //!
 //! **Source:** POV-Ray 3.7 manual: 3.3.1.7 and 3.3.1.7.3 "Color Keywords" (components, `alpha`),
 //! 3.3.2.2.1 "Declaring identifiers" (`;`), 3.4.1.4 "HF_Gray_16", 3.4.5.1.1 "Blob" (`component`),

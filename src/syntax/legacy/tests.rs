@@ -100,6 +100,15 @@ fn vectors_get_their_commas() {
 }
 
 #[test]
+fn a_vector_without_commas_that_lost_a_component_gets_it_back() {
+    let text = format!("{BEFORE}camera {{ location <0 3 -10> }} sphere {{ <1 3 - 2>, 1 }}");
+    let (_, told) = compiled(&text);
+    let (fixed, _) = apply(&text, told.iter().filter(|one| one.code == Code::LegacyForm));
+    assert_eq!(&fixed[BEFORE.len()..], "camera { location <0, 3, -10> } sphere { <1, 3 - 2>, 1 }");
+    assert!(told[0].message.contains("`3 -10` is one number"), "{}", told[0].message);
+}
+
+#[test]
 fn old_words_become_todays() {
     let fixed = |old: &str| {
         let text = format!("{BEFORE}{old}");
