@@ -140,6 +140,7 @@ codes! {
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
+    ComparedSurface "compared-surface" sure "the formula of a surface is an equation, which is 0 or 1";
     UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";

@@ -2,6 +2,7 @@
 
 mod angle;
 mod color;
+mod equation;
 mod finish;
 mod light;
 mod lone;

@@ -75,6 +75,9 @@ impl Evaluator<'_> {
             let wanted = "`function { … }`";
             return Err(self.expected(wanted, next.as_ref(), (&token.here, token.span)));
         };
+        if token.kind == TokenKind::Word(Word::Isosurface) {
+            self.lint_equation();
+        }
         match self.function(&word)? {
             Value::Function(id) => match self.closed(id) {
                 Some(closed) => Ok(Arc::new(closed)),

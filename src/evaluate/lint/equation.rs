@@ -1,0 +1,66 @@
+//! `isosurface { function { y = sin(x) } … }`: an equation, where the difference of its sides is wanted.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::Evaluator;
+use crate::evaluate::enclosure::Contents;
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::syntax::ast::{BinaryOperator, ExpressionKind, ItemKind};
+
+/// Functions that have steps: where they are equal to something may be a solid.
+const STEPS: [&str; 9] = ["floor", "ceil", "int", "mod", "div", "select", "abs", "min", "max"];
+
+impl Evaluator<'_> {
+    /// Looks at the block of an isosurface's function, which comes next.
+    pub(in crate::evaluate) fn lint_equation(&mut self) {
+        let Some(Token { kind: TokenKind::Block(contents), here, .. }) = self.peek() else {
+            return;
+        };
+        let (here, Contents::Items(items)) = (here.clone(), *contents) else { return };
+        let [item] = here.unit.ast.items(items) else { return };
+        let ItemKind::Expression(id) = item.kind else { return };
+        let ExpressionKind::Binary(BinaryOperator::Equal, left, right) =
+            here.unit.expression(id).kind
+        else {
+            return;
+        };
+        let side = |id| here.unit.expression(id);
+        let (left, right) = (side(left), side(right));
+        // `a = b = c` is something else.
+        if let ExpressionKind::Binary(operator, ..) = left.kind
+            && !is_arithmetic(operator)
+        {
+            return;
+        }
+        let span = here.unit.expression(id).span;
+        let has_step =
+            |name: &&str| self.sources.text(span).split(is_no_letter).any(|word| word == *name);
+        if STEPS.iter().any(|name| has_step(&name)) {
+            return;
+        }
+        let (before, behind) = (self.sources.text(left.span), self.sources.text(right.span));
+        let written = match right.kind {
+            ExpressionKind::Number(number) if number == 0.0 => before.to_owned(),
+            ExpressionKind::Binary(BinaryOperator::Add | BinaryOperator::Subtract, ..)
+            | ExpressionKind::Unary(..) => format!("{before} - ({behind})"),
+            ExpressionKind::Binary(operator, ..) if !is_arithmetic(operator) => return,
+            ExpressionKind::Conditional(..) => return,
+            _ => format!("{before} - {behind}"),
+        };
+        let message =
+            "this formula is a comparison: it is 1 where both sides are equal, and 0 elsewhere";
+        let diagnostic = Diagnostic::new(Code::ComparedSurface, message)
+            .at(span, "the surface is where a formula is 0, so that inside it is less")
+            .help(format!("write `{written}`"))
+            .fix(span, written);
+        self.report(&here, diagnostic);
+    }
+}
+
+fn is_no_letter(c: char) -> bool {
+    !(c.is_ascii_alphanumeric() || c == '_')
+}
+
+fn is_arithmetic(operator: BinaryOperator) -> bool {
+    use BinaryOperator::{Add, Divide, Multiply, Subtract};
+    matches!(operator, Add | Subtract | Multiply | Divide)
+}
