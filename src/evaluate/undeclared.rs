@@ -156,6 +156,10 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .also(later, "declared only here: move it up");
+        } else if let Some(include) = self.included_below(here, name, span) {
+            diagnostic = diagnostic
+                .at(span, "not declared up to here")
+                .also(include, "it comes with this include: move it up");
         } else if let Some(call) = self.call_elsewhere(name, span, close.as_deref()) {
             diagnostic =
                 diagnostic.at(span, "not declared, and not a word of the language").help(call.help);

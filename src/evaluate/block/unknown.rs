@@ -220,6 +220,7 @@ impl Evaluator<'_> {
             || self.lacking_include(name).is_some()
             || self.lacking_near(name).is_some()
             || token.here.unit.declaration_of(symbol).is_some()
+            || self.included_below(&token.here, name, token.span).is_some()
             || (here.is_none() && self.scopes.declared(symbol).is_some())
     }
 

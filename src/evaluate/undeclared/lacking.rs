@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, suggest};
 use crate::source::{ExpansionKind, Span};
+use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{standard_include_of, standard_names};
 
 use super::super::{Evaluator, Here};
@@ -9,6 +10,9 @@ use super::MAIN;
 
 /// The include whose names are used most, and misspelt.
 const COLORS: &str = "colors.inc";
+
+/// So many includes are looked into for a name.
+const MOST_READ: usize = 16;
 
 impl Evaluator<'_> {
     /// The standard include that declares `name`, where it was not read.
@@ -32,6 +36,42 @@ impl Evaluator<'_> {
         let near = suggest::closest(name, standard_names(COLORS))?;
         (!suggest::are_of_a_series(name, near) && !self.has_read(COLORS))
             .then(|| (near, COLORS.to_owned()))
+    }
+
+    /// Further down in the same file, the include that declares `name`.
+    pub(in crate::evaluate) fn included_below(
+        &self,
+        here: &Here,
+        name: &str,
+        span: Span,
+    ) -> Option<Span> {
+        let ast = &here.unit.ast;
+        if span.file != ast.file {
+            return None;
+        }
+        let standard = standard_include_of(name);
+        let from = &self.sources.get(ast.file).name;
+        let declares = |file: &str| {
+            let is_standard = file.rsplit(['/', '\\']).next() == standard.as_deref();
+            is_standard
+                || self
+                    .files
+                    .read(file, from)
+                    .is_ok_and(|found| declared_in(&String::from_utf8_lossy(&found.bytes), name))
+        };
+        let includes = ast.items(ast.root).iter().filter_map(|item| {
+            let ItemKind::Directive(id) = item.kind else { return None };
+            match ast.directive(id).kind {
+                DirectiveKind::Include(file) => Some(ast.expression(file)),
+                _ => None,
+            }
+        });
+        let below = includes.filter(|file| file.span.start > span.end);
+        let named = below.filter(|file| matches!(file.kind, ExpressionKind::String));
+        named
+            .map(|file| file.span)
+            .take(MOST_READ)
+            .find(|file| declares(self.sources.text(*file).trim_matches('"')))
     }
 
     /// Where a name is missing in a file that the main file includes, the include belongs before that.
@@ -58,4 +98,16 @@ impl Evaluator<'_> {
             ))
             .fix(before, format!("#include \"{include}\"\n"))
     }
+}
+
+/// Whether a text has `#declare name`, or `#macro name`.
+fn declared_in(text: &str, name: &str) -> bool {
+    text.match_indices('#').any(|(at, _)| {
+        let line = text[..at].rsplit('\n').next().unwrap_or("");
+        let mut words = text[at..].split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+        let mut words = words.by_ref().filter(|word| !word.is_empty());
+        !line.contains("//")
+            && matches!(words.next(), Some("declare" | "macro"))
+            && words.next() == Some(name)
+    })
 }
