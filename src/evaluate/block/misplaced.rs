@@ -129,20 +129,24 @@ impl Evaluator<'_> {
                 None => diagnostic,
             }
         } else {
-            let mut diagnostic = Diagnostic::new(
-                Code::UnknownWord,
-                format!("`{name}` has no meaning {}", place.name()),
-            )
-            .at(token.span, word.sentence().to_owned());
-            if let Some(home) = home(word).filter(|home| Some(*home) != place.word) {
-                diagnostic = diagnostic.help(format!("it belongs in `{} {{ … }}`", home.name()));
-            } else if let Some(home) = place.word {
-                diagnostic = diagnostic.help(home.sentence().to_owned());
-            } else if matches!(word.family(), Family::Transform | Family::Modifier) {
-                diagnostic =
-                    diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"));
+            let own = home(word).filter(|home| Some(*home) != place.word);
+            let label = match (own, place.word) {
+                (Some(own), _) => format!("it belongs in `{} {{ … }}`", own.name()),
+                (None, Some(_)) => "expected a word of this block, or its end".to_owned(),
+                (None, None) => "expected an object, a light, a camera, or settings".to_owned(),
+            };
+            let message = format!("`{name}` has no meaning {}", place.name());
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, label)
+                .help(format!("`{name}`: {}", word.sentence()));
+            match (own, place.word) {
+                (Some(_), _) => diagnostic,
+                (None, Some(home)) => diagnostic.help(home.sentence().to_owned()),
+                (None, None) if matches!(word.family(), Family::Transform | Family::Modifier) => {
+                    diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"))
+                }
+                (None, None) => diagnostic,
             }
-            diagnostic
         };
         let diagnostic = match self.openers.last().copied() {
             Some(span) if has_block => diagnostic.also(span, "inside this block"),
@@ -163,7 +167,25 @@ impl Evaluator<'_> {
                 diagnostic.help(format!("so does what stands behind it: {}", beside.join(", ")))
             }
         };
+        let diagnostic = match own {
+            Some(own @ (Word::Pigment | Word::Finish)) if place.word == Some(Word::Texture) => {
+                self.in_block_of_its_own(token, own, diagnostic)
+            }
+            _ => diagnostic,
+        };
         self.report(&token.here, diagnostic);
+    }
+
+    /// `texture { color Red phong 1 }`: what `token` began and was taken last ends, as the block that it belongs in.
+    fn in_block_of_its_own(&self, token: &Token, own: Word, told: Diagnostic) -> Diagnostic {
+        let whole = self.whole(token);
+        let text = self.sources.text(whole.span);
+        let is_plain = whole.span.start == token.span.start && !text.contains(['#', '/', '{']);
+        if !is_plain || !told.fixes.is_empty() {
+            return told;
+        }
+        let right = format!("{} {{ {text} }}", own.name());
+        told.help(format!("write `{right}`")).fix(whole.span, right)
     }
 
     /// The `#case` right before `token`, where what stands before that is no `#break`.
