@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Unit};
 use crate::scene::Dialect;
 use crate::source::Span;
-use crate::syntax::ast::{Ast, DirectiveKind, ItemKind};
+use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{Word, is_standard_source};
 
 const VERSION: &str = "#version";
@@ -47,7 +47,17 @@ impl Evaluator<'_> {
             (true, false) => "`assumed_gamma`",
             (false, false) => "`#version` and no `assumed_gamma`",
         };
-        let message = format!("the file has no {missing}; it is read as version 3.7 with gamma 1");
+        let preamble = Preamble::of(&main.ast);
+        let old = preamble.old.filter(|_| says.0);
+        let message = match old {
+            Some(old) => format!(
+                "`#version {}` is read as 3.7, and with gamma 1: the file has no {missing}",
+                self.sources.text(old)
+            ),
+            None => {
+                format!("the file has no {missing}; it is read as version 3.7 with gamma 1")
+            }
+        };
         let text = &self.sources.get(file).text;
         let settings = Word::GlobalSettings.name();
         let place = match (says, text.find(settings)) {
@@ -59,7 +69,7 @@ impl Evaluator<'_> {
             .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
         // What is included is not a scene, and says nothing for itself.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
-            let preamble = Preamble::of(&main.ast);
+            diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
             for (at, text) in preamble.completed(says.0, says.1) {
                 diagnostic = diagnostic.fix(Span::new(file, at, at), text);
             }
@@ -73,6 +83,8 @@ impl Evaluator<'_> {
 struct Preamble {
     /// Behind the first `#version …;`.
     version: Option<u32>,
+    /// Its number, typed, where that is less than 3.7.
+    old: Option<Span>,
     /// Behind the brace of the first `global_settings`.
     settings: Option<u32>,
 }
@@ -103,6 +115,9 @@ impl Preamble {
                 (ItemKind::Directive(id), next)
                     if matches!(ast.directive(id).kind, DirectiveKind::Version(_)) =>
                 {
+                    if preamble.version.is_none() {
+                        preamble.old = old_number(ast, &ast.directive(id).kind);
+                    }
                     let ends = next == ItemKind::Semicolon;
                     let last = if ends { two[1].span } else { two[0].span };
                     preamble.version.get_or_insert(last.end);
@@ -115,4 +130,12 @@ impl Preamble {
         }
         preamble
     }
+}
+
+/// The number of a `#version` before 3.7, where it is typed.
+fn old_number(ast: &Ast, kind: &DirectiveKind) -> Option<Span> {
+    let DirectiveKind::Version(number) = *kind else { return None };
+    let number = ast.expression(number);
+    let is_old = matches!(number.kind, ExpressionKind::Number(version) if version < 3.7);
+    is_old.then_some(number.span)
 }

@@ -157,7 +157,7 @@ fn a_file_that_does_not_say_its_version_is_mended_at_the_right_places() {
         ),
         (
             format!("// a\n#version 3.6;\n{sphere}"),
-            format!("// a\n#version 3.6;\nglobal_settings {{ assumed_gamma 1 }}\n{sphere}"),
+            format!("// a\n#version 3.7;\nglobal_settings {{ assumed_gamma 1 }}\n{sphere}"),
         ),
         (
             format!("global_settings {{ max_trace_level 3 }}\n{sphere}"),
