@@ -27,6 +27,9 @@ enum Lints {
     All,
 }
 
+/// Whom a comment that silences speaks to.
+const ADDRESS: &str = "lucarne";
+
 /// The name of all lints.
 const ALL: &str = "all";
 
@@ -91,7 +94,37 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
             }
         }
     }
+    told.extend(unaddressed(text, file));
     (allowed, told)
+}
+
+/// `// Lucarne: allow(no-light)`, `// lucarne allow(no-light)`: a comment that is not addressed as it has to be.
+fn unaddressed(text: &str, file: FileId) -> impl Iterator<Item = Diagnostic> {
+    text.match_indices("allow").filter_map(move |(at, _)| {
+        let line = text[..at].rfind('\n').map_or(0, |end| end + 1);
+        let before = text[line..at].trim_end();
+        let addressed = before.strip_suffix(':').unwrap_or(before).trim_end();
+        let start = addressed.len().checked_sub(ADDRESS.len())?;
+        let address = addressed.get(start..)?;
+        let begins = addressed[..start].trim_end();
+        let is_comment = begins.ends_with("//") || begins.ends_with("/*");
+        let is_right = address == ADDRESS && before.len() == addressed.len() + 1;
+        if !is_comment || is_right || !address.eq_ignore_ascii_case(ADDRESS) {
+            return None;
+        }
+        let list = text[at + "allow".len()..].trim_start().strip_prefix('(')?;
+        let opened = text.len() - list.len();
+        let (list, _) = list.split_once(')')?;
+        list.split(',').any(|name| Lints::named(name.trim()).is_some()).then(|| {
+            let span = Span::new(file, line + start, line + before.len());
+            let right = format!("{ADDRESS}: allow(");
+            let message = "a comment that silences a warning begins with `lucarne:`";
+            Diagnostic::new(Code::UnknownLint, message)
+                .at(span, "this allows nothing")
+                .help(format!("write `// {right}{list})`"))
+                .fix(Span::new(file, line + start, opened), right)
+        })
+    })
 }
 
 /// `deny(no-light)`, `allow no-light`: what stands behind `lucarne:`, unless it is a sentence of the
