@@ -264,6 +264,10 @@ impl Evaluator<'_> {
         let diagnostic = match word {
             Word::Rand => diagnostic
                 .help("it takes a stream: `#declare R = seed(1);` once, and then `rand(R)`"),
+            Word::DimensionSize if found == 1 => diagnostic
+                .help("which dimension comes second: `dimension_size(A, 1)` is how many elements"),
+            Word::Str if found == 1 => diagnostic
+                .help("how wide and how many digits: `str(A, 0, 3)` has three behind the point"),
             _ => diagnostic,
         };
         self.report(here, diagnostic)

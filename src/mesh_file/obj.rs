@@ -210,6 +210,9 @@ fn numbers(text: &str, wanted: &str) -> Result<[f64; 3], Fault> {
 /// An index counts from 1, maybe to what comes later; or backward from the last entry so far.
 fn index(text: &str, count: usize, which: usize) -> Result<u32, Fault> {
     let number: i64 = text.parse().map_err(|_| Fault::new(format!("`{text}` is no index")))?;
+    if number == 0 {
+        return Err(Fault::new("index 0 is of nothing: OBJ counts from 1"));
+    }
     let from_zero =
         if number < 0 { number.checked_add(count as i64) } else { number.checked_sub(1) };
     let index = from_zero.and_then(|index| u32::try_from(index).ok());

@@ -163,6 +163,13 @@ impl Evaluator<'_> {
         let degenerate = Flawed { count: read.degenerate, first: None };
         let flaws = Flaws { degenerate, ..Flaws::default() };
         self.tell_of_flaws(token, Word::Mesh, read.triangles.faces.len(), flaws);
+        if read.triangles.faces.is_empty() && read.degenerate == 0 && self.poison.is_none() {
+            let message = "the file of this mesh has no faces";
+            let told = Diagnostic::new(Code::MissingPart, message)
+                .at(file.span, "expected one at least")
+                .help("points by themselves are not seen: export it with its faces");
+            self.owed = Some((token.here.clone(), told));
+        }
         let triangles = match own.inside {
             None => read.triangles.clone(),
             Some(way) => {

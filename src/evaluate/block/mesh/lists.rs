@@ -7,10 +7,11 @@ use crate::math::Vector;
 use crate::scene::mesh::{Face, Triangles};
 use crate::scene::{Solid, TextureId};
 use crate::source::Span;
+use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
 use super::super::super::lint::is_literal;
-use super::super::super::stream::Token;
+use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::Given;
@@ -207,6 +208,9 @@ impl Evaluator<'_> {
     ) -> Outcome<Vec<[f64; 3]>> {
         let width = if word == Word::UvVectors { 2 } else { 3 };
         self.block(list, word, |evaluator| {
+            if let Some(reported) = evaluator.uncounted(word) {
+                return Err(reported);
+            }
             let count = evaluator.number_after(list, "how many there are")?;
             // No more than memory could hold; a count that is none is told by what is missing.
             let wanted = count.value as u32 as usize;
@@ -253,6 +257,31 @@ impl Evaluator<'_> {
             }
             Ok(entries)
         })
+    }
+
+    /// `vertex_vectors { <0, 0, 0>, <1, 0, 0> }`, without their count.
+    fn uncounted(&mut self, word: Word) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        let TokenKind::Expression(id) = first.kind else { return None };
+        if !matches!(first.here.unit.expression(id).kind, ExpressionKind::Vector(_)) {
+            return None;
+        }
+        let inside = self.sources.text(self.within_block()?.span);
+        // What directives make cannot be counted here, nor what comments hold.
+        let entries = inside.matches('<').count();
+        let is_plain = !inside.contains(['#', '/']);
+        let name = word.name();
+        let told = Diagnostic::new(Code::WrongType, "expected how many there are, found a vector")
+            .at(first.span, format!("`{name}` begins with how many follow"));
+        let told = match is_plain {
+            true => told
+                .help(format!("write `{name} {{ {entries}, …`"))
+                .fix(Span { end: first.span.start, ..first.span }, format!("{entries}, ")),
+            false => told,
+        };
+        let reported = self.report(&first.here, told);
+        self.skip_values();
+        Some(reported)
     }
 
     /// A list goes on behind its last entry.
