@@ -4,12 +4,13 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Argument, ExpressionId, ExpressionKind, Target};
+use crate::syntax::ast::{Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Target};
 use crate::vocabulary::Word;
 
 use super::array::{NoElement, element, element_place};
 use super::report::count;
 use super::scope::Slot;
+use super::stream::FrameKind;
 use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported};
 
@@ -222,7 +223,9 @@ impl Evaluator<'_> {
                     "the array has no element {found}: its indices go from 0 to {}",
                     size - 1
                 );
-                Diagnostic::new(Code::OutOfRange, message).at(index(at), "outside of the array")
+                let told = Diagnostic::new(Code::OutOfRange, message)
+                    .at(index(at), "outside of the array");
+                self.one_too_far(here, indices.get(at).copied(), (found, size), told)
             }
             NoElement::Count { wanted } => {
                 let wanted = match wanted {
@@ -258,6 +261,59 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 }
+
+impl Evaluator<'_> {
+    /// `A[I]` in `#for (I, 0, dimension_size(A, 1))`, `A[frame_number - 1]` in a still: why the index is outside.
+    fn one_too_far(
+        &self,
+        here: &Here,
+        index: Option<ExpressionId>,
+        (found, size): (f64, u32),
+        told: Diagnostic,
+    ) -> Diagnostic {
+        let Some(index) = index.map(|index| here.unit.expression(index)) else { return told };
+        let mentions = |name: &str| {
+            let words =
+                self.sources.text(index.span).split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            words.into_iter().any(|word| word == name)
+        };
+        let frame = self.scopes.symbol("frame_number").and_then(|frame| self.scopes.look(frame));
+        let is_still = frame.and_then(Value::as_number) == Some(0.0);
+        if found < 0.0 && is_still && mentions("frame_number") {
+            return told.help(
+                "`frame_number` is 0 in a still: `-D frame_number=1` gives it another value",
+            );
+        }
+        let ExpressionKind::Name(name) = index.kind else { return told };
+        let symbol = here.symbol(name);
+        let ends = self.frames.iter().rev().take(MOST_LOOPS).find_map(|frame| match frame.kind {
+            FrameKind::For { symbol: counter, directive, to, .. } if counter == symbol => {
+                Some((&frame.here, directive, to))
+            }
+            _ => None,
+        });
+        let Some((there, directive, to)) = ends else { return told };
+        let DirectiveKind::For { to: written, .. } = there.unit.ast.directive(directive).kind
+        else {
+            return told;
+        };
+        if found != f64::from(size) || to != found {
+            return told;
+        }
+        let written = there.unit.expression(written);
+        let text = self.sources.text(written.span);
+        let told = told.help(format!("`#for` includes its end: write `{text} - 1` there"));
+        match written.kind {
+            ExpressionKind::Call(Callee::Word(Word::DimensionSize, _), _) => {
+                told.fix(written.span.after(), " - 1")
+            }
+            _ => told,
+        }
+    }
+}
+
+/// So many loops are looked at.
+const MOST_LOOPS: usize = 64;
 
 /// What is in front of all brackets, and what is in them, in written order.
 fn chain(here: &Here, id: ExpressionId) -> (ExpressionId, Vec<ExpressionId>) {
