@@ -7,6 +7,7 @@ mod finish;
 mod light;
 mod lone;
 mod map;
+mod range;
 mod short;
 mod switch;
 mod unit;

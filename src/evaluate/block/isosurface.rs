@@ -122,6 +122,7 @@ impl Evaluator<'_> {
             [self.function_part(token)?, self.function_part(token)?, self.function_part(token)?];
         let first = self.corner(token, "a vector <u, v> for a corner")?;
         let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
+        self.lint_range(token, [&first, &second]);
         let mut container = Container::DEFAULT;
         let mut failed = false;
         while let Some((item, word)) = self.next_part(Word::Parametric, OF_PARAMETRIC) {

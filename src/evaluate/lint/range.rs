@@ -1,0 +1,93 @@
+//! `parametric { … <0, 0>, <360, 360> }`: what u and v range over, in degrees where radians are meant.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::Evaluator;
+use crate::evaluate::block::Given;
+use crate::evaluate::stream::Token;
+use crate::source::Span;
+use crate::syntax::ast::{Argument, ExpressionKind};
+
+use super::is_literal;
+
+impl Evaluator<'_> {
+    /// Whole turns, and halves, of what the functions ask the sine and the cosine of, and nothing else.
+    pub(in crate::evaluate) fn lint_range(
+        &mut self,
+        opener: &Token,
+        corners: [&Given<[f64; 2]>; 2],
+    ) {
+        let first = corners[0].span;
+        if first.file != opener.span.file || first.start < opener.span.end {
+            return;
+        }
+        let functions =
+            self.sources.text(Span { start: opener.span.end, end: first.start, ..first });
+        for (axis, name) in ["u", "v"].into_iter().enumerate() {
+            let [from, to] = corners.map(|corner| corner.value[axis]);
+            let is_turn = matches!((from, to), (0.0 | -180.0, 180.0) | (0.0 | -360.0, 360.0));
+            if !(is_turn || (from, to) == (-90.0, 90.0)) || !is_an_angle(functions, name) {
+                continue;
+            }
+            let typed = corners.map(|corner| self.typed_component(corner, axis));
+            let [Some(low), Some(high)] = typed else { continue };
+            let [from_text, to_text] = [low, high].map(|span| in_radians(self.sources.text(span)));
+            let message = format!("`sin` and `cos` take radians, and `{name}` looks like degrees");
+            let label = format!("it goes from {from} to {to} radians");
+            let mut diagnostic = Diagnostic::new(Code::SuspiciousUnit, message).at(high, label);
+            diagnostic = diagnostic.help(match from == 0.0 {
+                true => format!("write `{to_text}`"),
+                false => format!("write `{from_text}` and `{to_text}`"),
+            });
+            if from != 0.0 {
+                diagnostic = diagnostic.fix(low, from_text);
+            }
+            self.report(&corners[1].here, diagnostic.fix(high, to_text));
+            return;
+        }
+    }
+
+    /// Where a component of a corner stands, if it is a typed number.
+    fn typed_component(&self, corner: &Given<[f64; 2]>, axis: usize) -> Option<Span> {
+        let unit = &corner.here.unit;
+        let ExpressionKind::Vector(list) = unit.expression(corner.expression?).kind else {
+            return None;
+        };
+        let Argument::Expression(id) = *unit.ast.arguments(list).get(axis)? else { return None };
+        let span = unit.expression(id).span;
+        is_literal(self.sources.text(span)).then_some(span)
+    }
+}
+
+/// Whether all that the functions do with `u` is to take its sine and cosine.
+fn is_an_angle(functions: &str, name: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut found = false;
+    for (at, _) in functions.match_indices(name) {
+        let (before, behind) = (&functions[..at], &functions[at + name.len()..]);
+        if before.ends_with(is_part) || behind.starts_with(is_part) {
+            continue;
+        }
+        let asked = before.trim_end().strip_suffix('(').map_or("", str::trim_end);
+        let is_angle = asked.ends_with("sin") || asked.ends_with("cos");
+        if !is_angle || !behind.trim_start().starts_with(')') {
+            return false;
+        }
+        found = true;
+    }
+    found
+}
+
+/// `180` as it is in radians.
+fn in_radians(degrees: &str) -> String {
+    let (sign, number) = match degrees.strip_prefix('-') {
+        Some(number) => ("-", number.trim_start()),
+        None => ("", degrees),
+    };
+    let radians = match number.parse::<f64>() {
+        Ok(360.0) => "2*pi".to_owned(),
+        Ok(180.0) => "pi".to_owned(),
+        Ok(90.0) => "pi/2".to_owned(),
+        _ => format!("radians({number})"),
+    };
+    format!("{sign}{radians}")
+}
