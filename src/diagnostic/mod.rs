@@ -187,6 +187,18 @@ impl Diagnostics {
         }
     }
 
+    /// Adds a place to the first message that `is_meant` says yes to; `false` where there is none.
+    pub fn join(
+        &mut self,
+        is_meant: impl Fn(&Diagnostic) -> bool,
+        span: Span,
+        text: impl Into<String>,
+    ) -> bool {
+        let Some(one) = self.list.iter_mut().find(|one| is_meant(one)) else { return false };
+        one.labels.push(Label { span, text: text.into(), primary: false });
+        true
+    }
+
     /// Whether a lint is told at all.
     pub fn tells(&self, lint: Code) -> bool {
         self.levels.of(lint) != Some(Level::Allow)

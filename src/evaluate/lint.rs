@@ -25,6 +25,7 @@ use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 use super::scope::Owner;
 pub(in crate::evaluate) use light::Cone;
 pub(in crate::evaluate) use map::Rise;
+pub(in crate::evaluate) use version::version_end;
 
 use super::stream::Token;
 use super::value::Value;

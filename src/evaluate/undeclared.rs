@@ -112,8 +112,7 @@ impl Evaluator<'_> {
         let standard = self.lacking_include(name);
         // What the files that the main file includes lack of another one is one mistake.
         if let Some(include) = &standard
-            && span.file != MAIN
-            && !self.lacking.insert(include.clone())
+            && self.is_told_to_lack(include, here, symbol, span)
         {
             return None;
         }

@@ -132,6 +132,11 @@ impl Preamble {
     }
 }
 
+/// Where the first `#version …;` of a file ends.
+pub(in crate::evaluate) fn version_end(ast: &Ast) -> Option<u32> {
+    Preamble::of(ast).version
+}
+
 /// The number of a `#version` before 3.7, where it is typed.
 fn old_number(ast: &Ast, kind: &DirectiveKind) -> Option<Span> {
     let DirectiveKind::Version(number) = *kind else { return None };

@@ -1,11 +1,12 @@
 //! Names that a standard include declares, which was not read.
 
-use crate::diagnostic::{Diagnostic, suggest};
+use crate::diagnostic::{Code, Diagnostic, Fix, suggest};
 use crate::source::{ExpansionKind, Span};
 use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{standard_include_of, standard_names};
 
-use super::super::{Evaluator, Here};
+use super::super::lint::version_end;
+use super::super::{Evaluator, Here, Symbol};
 use super::MAIN;
 
 /// The include whose names are used most, and misspelt.
@@ -74,6 +75,50 @@ impl Evaluator<'_> {
             .find(|file| declares(self.sources.text(*file).trim_matches('"')))
     }
 
+    /// Whether it was told that `include` is lacking, for another name of it; one of the main file joins what was
+    /// told of a colour.
+    pub(super) fn is_told_to_lack(
+        &mut self,
+        include: &str,
+        here: &Here,
+        symbol: Symbol,
+        span: Span,
+    ) -> bool {
+        if span.file != MAIN {
+            return !self.lacking.insert(include.to_owned());
+        }
+        let name = self.scopes.name(symbol).to_owned();
+        let is_own = self.scopes.declared(symbol).is_some()
+            || here.unit.declaration_of(symbol).is_some()
+            || self.scopes.visible().any(|other| other.eq_ignore_ascii_case(&name));
+        let tells = |one: &Diagnostic| {
+            let adds = |fix: &Fix| fix.span.file == MAIN && fix.text.contains(COLORS);
+            one.code == Code::UndeclaredName && one.fixes.iter().any(adds)
+        };
+        let label = format!("nor is `{name}`");
+        !is_own && include == COLORS && self.diagnostics.join(tells, span, label)
+    }
+
+    /// With the include of colours at the top of the main file, for a name there.
+    fn include_at_top(&self, here: &Here, told: Diagnostic, include: &str) -> Diagnostic {
+        let ast = &here.unit.ast;
+        let used = told.primary().map_or(0, |label| label.span.start);
+        if ast.file != MAIN || include != COLORS {
+            return told;
+        }
+        let line = format!("#include \"{include}\"");
+        let text = &self.sources.get(MAIN).text;
+        let (at, line) = match version_end(ast).filter(|end| *end <= used) {
+            None => (0, format!("{line}\n")),
+            Some(end) => {
+                let rest = text.get(end as usize..).and_then(|rest| rest.lines().next());
+                let ends_line = rest.is_none_or(|rest| rest.trim().is_empty());
+                (end as usize, format!("\n{line}{}", if ends_line { "" } else { "\n" }))
+            }
+        };
+        told.fix(Span::new(MAIN, at, at), line)
+    }
+
     /// Where a name is missing in a file that the main file includes, the include belongs before that.
     pub(super) fn include_before(
         &self,
@@ -88,7 +133,7 @@ impl Evaluator<'_> {
             .last()
             .filter(|outermost| outermost.call.file == MAIN)
         else {
-            return diagnostic;
+            return self.include_at_top(here, diagnostic, include);
         };
         let before = Span { end: outermost.call.start, ..outermost.call };
         diagnostic
