@@ -1247,6 +1247,12 @@ fn check_says_which_file_answered() {
     let (installed, embedded) = ("stdinc.inc: /", "stdinc.inc: built in\n");
     assert!(said.contains(installed) || said.contains(embedded), "{said}");
     assert_eq!(place.run("check i.scene").ends(0, &[]).stdout(), "");
+    // A picture is a file that answers, too.
+    place.write("h.pgm", "P2\n2 2\n255\n0 9 9 0\n");
+    let hills = "height_field { pgm \"h.pgm\" pigment { rgb 1 } }";
+    place.write("h.scene", &format!("{hills}\n{SCENE}"));
+    let said = place.run("check --where h.scene").ends(0, &[]).stdout();
+    assert_eq!(said, "h.pgm: h.pgm\n");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome};
-use crate::source::{FileError, Found, Span};
+use crate::source::{FileError, Found, Source, Span};
 
 /// The name of a file, and where it is written.
 pub(super) struct NamedFile {
@@ -31,6 +31,19 @@ impl Evaluator<'_> {
     /// The file of this name; if there is none and the name has no ending, of the name with one of these, as
     /// POV-Ray looks for it.
     pub(super) fn read_named(
+        &mut self,
+        file: &NamedFile,
+        endings: &[&str],
+    ) -> Result<Found, FileError> {
+        let found = self.found_named(file, endings)?;
+        // It is no text, and has its name among what was read alone.
+        if self.sources.iter().all(|(_, source)| source.name != found.name) {
+            self.sources.add(Source::new(found.name.clone(), ""));
+        }
+        Ok(found)
+    }
+
+    fn found_named(
         &self,
         NamedFile { name, span, .. }: &NamedFile,
         endings: &[&str],
