@@ -148,7 +148,7 @@ codes! {
     CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
     ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
-    ReplacedPigment "replaced-pigment" sure "an object has two pigments; the last one is used";
+    ReplacedPigment "replaced-pigment" lint "an object or a texture has two pigments; the last one is used";
     RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";
     RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
     LegacyForm "legacy-form" lint "an old form of the language";

@@ -204,9 +204,9 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A second pigment in the block of an object.
-    pub(super) fn lint_replaced(&mut self, token: &Token, first: Site) {
-        let message = "this object has two pigments; the last one is used";
+    /// A second pigment in the block of an object, or of a texture.
+    pub(super) fn lint_replaced(&mut self, token: &Token, first: Site, of: &str) {
+        let message = format!("this {of} has two pigments; the last one is used");
         let diagnostic = Diagnostic::new(Code::ReplacedPigment, message)
             .at(token.span, "this one is used")
             .also(first.span, "this one does nothing");

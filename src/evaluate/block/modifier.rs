@@ -34,6 +34,8 @@ impl Evaluator<'_> {
             _ => Place::shape(word),
         };
         let (mut failed, mut painted): (bool, Option<Site>) = (false, None);
+        // Whether that is the pigment of a texture.
+        let mut within = false;
         let mut first: Option<Site> = None;
         let mut late: Option<Late> = None;
         while let Some(token) = self.next() {
@@ -54,13 +56,19 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Pigment) => {
                     let site = token.here.site(token.span);
                     // What a macro gives may be changed by who calls it.
+                    let of_texture = std::mem::take(&mut within);
                     if let Some(first) = painted.replace(site)
                         && first.expansion == site.expansion
+                        && (!of_texture || self.begins_with_color())
                     {
-                        self.lint_replaced(&token, first);
+                        self.lint_replaced(&token, first, "object");
                     }
                 }
-                TokenKind::Word(Word::Texture | Word::Material) => painted = None,
+                TokenKind::Word(Word::Texture) => {
+                    painted = self.pigment_within(&token);
+                    within = true;
+                }
+                TokenKind::Word(Word::Material) => painted = None,
                 _ => {}
             }
             match self.modifier(&token, used, modifiers, &mut textured) {

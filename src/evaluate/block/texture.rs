@@ -67,6 +67,13 @@ impl Evaluator<'_> {
         }
         match token.kind {
             TokenKind::Word(Word::Pigment) => {
+                let site = token.here.site(token.span);
+                if let Some(first) = written.painted.replace(site)
+                    && first.expansion == site.expansion
+                    && self.begins_with_color()
+                {
+                    self.lint_replaced(token, first, "texture");
+                }
                 texture.pigment = self.pigment_from(token, texture.pigment)?
             }
             TokenKind::Word(Word::Finish) => {

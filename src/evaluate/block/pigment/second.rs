@@ -5,9 +5,11 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
+use crate::syntax::ast::{Item, ItemKind};
 use crate::vocabulary::Word;
 
-use super::super::super::stream::Token;
+use super::super::super::enclosure::Contents;
+use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome, Reported};
 use super::Written;
 
@@ -81,6 +83,27 @@ impl Evaluator<'_> {
         .also(first.site.span, "the pigment has this already")
         .help(format!("a declared pigment comes first: `pigment {{ {text} … }}`"));
         Err(self.report(&token.here, diagnostic))
+    }
+
+    /// Whether the block that comes next begins with a colour: nothing of a pigment before it is left.
+    pub(in crate::evaluate::block) fn begins_with_color(&mut self) -> bool {
+        let Some(Token { kind: TokenKind::Block(Contents::Items(items)), here, .. }) = self.peek()
+        else {
+            return false;
+        };
+        let first = here.unit.ast.items(*items).first().map(|item| item.kind);
+        matches!(first, Some(ItemKind::Word(Word::Color | Word::Rgb | Word::Srgb)))
+    }
+
+    /// The pigment that is written right in the block that comes next, of the texture that `token` began.
+    pub(in crate::evaluate::block) fn pigment_within(&mut self, token: &Token) -> Option<Site> {
+        let Some(Token { kind: TokenKind::Block(Contents::Items(items)), here, .. }) = self.peek()
+        else {
+            return None;
+        };
+        let is_pigment = |item: &&Item| item.kind == ItemKind::Word(Word::Pigment);
+        let pigment = here.unit.ast.items(*items).iter().find(is_pigment)?;
+        Some(token.here.site(pigment.span))
     }
 
     fn second_in_pigment(

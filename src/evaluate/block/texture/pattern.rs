@@ -20,6 +20,8 @@ pub(super) struct Written {
     pattern: Option<(Word, Token)>,
     /// The first `pigment`, `normal` or `finish`.
     plain: Option<(Word, Site)>,
+    /// The last `pigment`.
+    pub(super) painted: Option<Site>,
     /// Its map, or the textures behind it, were there.
     parts: bool,
     /// What is wrong was told: more is the same mistake.
