@@ -11,6 +11,7 @@ use crate::vocabulary::{Family, Word};
 use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
+use super::written::unquoted;
 use super::{Evaluator, Here, Outcome, Reported, Symbol, endless};
 
 impl Evaluator<'_> {
@@ -124,29 +125,12 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.help(meant);
         }
         if let Value::String(found) = found
-            && wanted.starts_with("a vector")
             && text.starts_with('"')
-            && let plain = found.trim()
-            && (matches!(plain, "x" | "y" | "z")
-                || plain.split(',').all(|part| part.trim().parse::<f64>().is_ok()))
+            && let Some(plain) = unquoted(found.trim(), wanted)
         {
-            let vector = match plain {
-                "x" | "y" | "z" => plain.to_owned(),
-                _ => format!("<{plain}>"),
-            };
-            diagnostic = diagnostic
-                .help(format!("a vector stands without quotes: `{vector}`"))
-                .fix(span, vector);
-        }
-        if let Value::String(found) = found
-            && wanted.starts_with("a number")
-            && text.starts_with('"')
-            && let Ok(number) = found.trim().parse::<f64>()
-        {
-            let number = number.to_string();
-            diagnostic = diagnostic
-                .help(format!("a number stands without quotes: `{number}`"))
-                .fix(span, number);
+            let what = if wanted.starts_with("a number") { "a number" } else { "a vector" };
+            let help = format!("{what} stands without quotes: `{plain}`");
+            diagnostic = diagnostic.help(help).fix(span, plain);
         }
         if let Value::String(found) = found
             && let Some(shown) = color_of_string(found)

@@ -18,6 +18,7 @@ use crate::vocabulary::{Family, Role, Word, standard_include_of};
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
 use super::value::Value;
+use super::written::is_no_number;
 use super::{Evaluator, Here, Reported, Symbol};
 
 impl Evaluator<'_> {
@@ -400,11 +401,6 @@ impl Call {
 
 /// The main file's text.
 const MAIN: FileId = FileId(0);
-/// What programs write where a calculation gave nothing.
-fn is_no_number(name: &str) -> bool {
-    const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];
-    NONE.contains(&name.to_ascii_lowercase().as_str())
-}
 
 /// The word of the language that an author who wrote `name` most likely meant.
 pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {

@@ -89,3 +89,20 @@ impl Evaluator<'_> {
         None
     }
 }
+
+/// What a string holds that should be a number or a vector, as it is written; `None` where that is none.
+pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
+    let are_numbers = |text: &str| text.split(',').all(|part| part.trim().parse::<f64>().is_ok());
+    match (text, wanted.starts_with("a vector")) {
+        ("x" | "y" | "z", true) => Some(text.to_owned()),
+        (_, true) => are_numbers(text).then(|| format!("<{text}>")),
+        _ if !wanted.starts_with("a number") => None,
+        _ => text.parse::<f64>().ok().map(|number| number.to_string()),
+    }
+}
+
+/// What programs write where a calculation gave nothing.
+pub(super) fn is_no_number(name: &str) -> bool {
+    const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];
+    NONE.contains(&name.to_ascii_lowercase().as_str())
+}

@@ -73,9 +73,16 @@ impl<'a> Nest<'a> {
         match (head, values.as_deref()) {
             (Head::Ifdef | Head::Ifndef, _) => {
                 // No word of the language is a name that is declared.
-                if let (Some(Argument::Items(items)), 1) = (first, arguments.len())
-                    && let [Item { kind: ItemKind::Word(_), .. }] = *self.ast.items(items)
-                {
+                let is_word = match first.filter(|_| arguments.len() == 1) {
+                    Some(Argument::Items(items)) => {
+                        matches!(self.ast.items(items), [Item { kind: ItemKind::Word(_), .. }])
+                    }
+                    Some(Argument::Expression(id)) => {
+                        matches!(self.ast.expression(id).kind, ExpressionKind::Word(_))
+                    }
+                    None => false,
+                };
+                if is_word {
                     let answer = f64::from(head == Head::Ifndef);
                     let test = Test::Condition(self.add(ExpressionKind::Number(answer), at));
                     let body = Body::If { done: Vec::new(), test: Some((at, test)) };
