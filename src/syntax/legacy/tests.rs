@@ -95,7 +95,7 @@ fn a_declared_number_vector_or_colour_gets_its_semicolon() {
 #[test]
 fn vectors_get_their_commas() {
     becomes("sphere { <1 2,3>, 1 }", "sphere { <1, 2,3>, 1 }");
-    becomes("sphere { <1 -2 3>, 1 }", "sphere { <1 -2, 3>, 1 }");
+    becomes("sphere { <1 - 2 3>, 1 }", "sphere { <1 - 2, 3>, 1 }");
     is_todays("sphere { <1, 2 ,3>, 1 }");
 }
 
