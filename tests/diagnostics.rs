@@ -333,6 +333,8 @@ fn bad_fixes(case: &Case) -> String {
         // A misspelt directive hides what it does.
         let hides = one.code.shifts_what_follows()
             || one.code == Code::UnknownDirective
+            // Of a scene it might have declared any name.
+            || one.code == Code::ForeignFile
             || after.iter().any(|other| other.code == Code::MissingInclude);
         // And the block of a misspelt word.
         let end = one.fixes.iter().map(|fix| fix.span.end as usize).max().unwrap_or(0);

@@ -311,11 +311,19 @@ impl Evaluator<'_> {
                 let next = next.cloned();
                 let found = next.as_ref().map_or("nothing".to_owned(), |next| self.describe(next));
                 let name = word.name();
-                let mut diagnostic = Diagnostic::new(
-                    Code::MissingPart,
-                    format!("expected `{{` after `{name}`, found {found}"),
-                )
-                .at(token.span, "its block is missing");
+                let message = format!("expected `{{` after `{name}`, found {found}");
+                let diagnostic = Diagnostic::new(Code::MissingPart, message);
+                // Where its parts stand in parentheses, at these.
+                let group = next.as_ref().filter(|next| {
+                    matches!(next.kind, TokenKind::Expression(_))
+                        && self.sources.text(next.span).starts_with('(')
+                });
+                let mut diagnostic = match group {
+                    Some(group) => diagnostic
+                        .at(Span { end: group.span.start + 1, ..group.span }, "expected `{`")
+                        .also(token.span, "its block is missing"),
+                    None => diagnostic.at(token.span, "its block is missing"),
+                };
                 diagnostic = match next {
                     Some(Token { kind: TokenKind::Expression(id), span, here })
                         if matches!(here.unit.expression(id).kind, ExpressionKind::Name(_)) =>

@@ -22,6 +22,7 @@ impl Evaluator<'_> {
         }
         let functions =
             self.sources.text(Span { start: opener.span.end, end: first.start, ..first });
+        let mut told: Option<Diagnostic> = None;
         for (axis, name) in ["u", "v"].into_iter().enumerate() {
             let [from, to] = corners.map(|corner| corner.value[axis]);
             let is_turn = matches!((from, to), (0.0 | -180.0, 180.0) | (0.0 | -360.0, 360.0));
@@ -32,17 +33,21 @@ impl Evaluator<'_> {
             let [Some(low), Some(high)] = typed else { continue };
             let [from_text, to_text] = [low, high].map(|span| in_radians(self.sources.text(span)));
             let message = format!("`sin` and `cos` take radians, and `{name}` looks like degrees");
-            let label = format!("it goes from {from} to {to} radians");
-            let mut diagnostic = Diagnostic::new(Code::SuspiciousUnit, message).at(high, label);
-            diagnostic = diagnostic.help(match from == 0.0 {
-                true => format!("write `{to_text}`"),
-                false => format!("write `{from_text}` and `{to_text}`"),
-            });
-            if from != 0.0 {
-                diagnostic = diagnostic.fix(low, from_text);
-            }
-            self.report(&corners[1].here, diagnostic.fix(high, to_text));
-            return;
+            let label = format!("`{name}` goes from {from} to {to} radians");
+            let diagnostic = match told {
+                Some(told) => told.also(high, label),
+                None => Diagnostic::new(Code::SuspiciousUnit, message).at(high, label),
+            };
+            let diagnostic = match from == 0.0 {
+                true => diagnostic.help(format!("write `{to_text}`")),
+                false => diagnostic
+                    .help(format!("write `{from_text}` and `{to_text}`"))
+                    .fix(low, from_text),
+            };
+            told = Some(diagnostic.fix(high, to_text));
+        }
+        if let Some(told) = told {
+            self.report(&corners[1].here, told);
         }
     }
 
