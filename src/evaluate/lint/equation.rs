@@ -34,12 +34,12 @@ impl Evaluator<'_> {
         let span = here.unit.expression(id).span;
         let has_step =
             |name: &&str| self.sources.text(span).split(is_no_letter).any(|word| word == *name);
-        if STEPS.iter().any(|name| has_step(&name)) {
+        if STEPS.iter().any(has_step) {
             return;
         }
         let (before, behind) = (self.sources.text(left.span), self.sources.text(right.span));
         let written = match right.kind {
-            ExpressionKind::Number(number) if number == 0.0 => before.to_owned(),
+            ExpressionKind::Number(0.0) => before.to_owned(),
             ExpressionKind::Binary(BinaryOperator::Add | BinaryOperator::Subtract, ..)
             | ExpressionKind::Unary(..) => format!("{before} - ({behind})"),
             ExpressionKind::Binary(operator, ..) if !is_arithmetic(operator) => return,
