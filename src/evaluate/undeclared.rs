@@ -18,7 +18,7 @@ use crate::vocabulary::{Family, Role, Word, standard_include_of};
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
 use super::value::Value;
-use super::written::is_no_number;
+use super::written::number_as_a_name;
 use super::{Evaluator, Here, Reported, Symbol};
 
 impl Evaluator<'_> {
@@ -208,9 +208,8 @@ impl Evaluator<'_> {
                 .at(span, "not declared here")
                 .also(parameter, format!("a parameter of macro `{owner}`"))
                 .help("a parameter is known in the body of its macro only");
-        } else if is_no_number(name) {
-            diagnostic = Diagnostic::new(Code::MalformedNumber, format!("`{name}` is no number"))
-                .at(span, "the program that wrote this had no number here");
+        } else if let Some(told) = number_as_a_name(name, span).filter(|_| !is_called) {
+            diagnostic = told;
         } else if let Some((close, include)) =
             // A colour is one only where some value may stand.
             self.lacking_near(name).filter(|_| fits(Word::X))

@@ -47,25 +47,6 @@ impl Evaluator<'_> {
         let is_fraction = after
             .strip_prefix('.')
             .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
-        if matches!(name, "O" | "o") && !is_fraction && !after.trim_start().starts_with(['(', '{'])
-        {
-            return Some(
-                Diagnostic::new(
-                    Code::MalformedNumber,
-                    format!("`{name}` is a letter, and no number"),
-                )
-                .at(span, "is the digit `0` meant?")
-                .fix(span, "0"),
-            );
-        }
-        if let Some((_, number)) = NUMBERS.iter().find(|(word, _)| *word == name) {
-            return Some(
-                Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"))
-                    .at(span, "numbers are written with digits")
-                    .help(format!("write `{number}`"))
-                    .fix(span, *number),
-            );
-        }
         if matches!(name, "O" | "o") && is_fraction {
             let digits = after[1..].find(|c: char| !c.is_ascii_digit()).map(|end| end + 1);
             let fraction = &after[..digits.unwrap_or(after.len())];
@@ -101,8 +82,24 @@ pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     }
 }
 
-/// What programs write where a calculation gave nothing.
-pub(super) fn is_no_number(name: &str) -> bool {
+/// `nan`, `thirty`, `O`: what stands for a number, where no name is like it.
+pub(super) fn number_as_a_name(name: &str, span: Span) -> Option<Diagnostic> {
+    /// What programs write where a calculation gave nothing.
     const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];
-    NONE.contains(&name.to_ascii_lowercase().as_str())
+    let told =
+        |message: &str| Diagnostic::new(Code::MalformedNumber, format!("`{name}` is {message}"));
+    if NONE.contains(&name.to_ascii_lowercase().as_str()) {
+        return Some(told("no number").at(span, "the program that wrote this had no number here"));
+    }
+    if matches!(name, "O" | "o") {
+        let told = told("a letter, and no number").at(span, "is the digit `0` meant?");
+        return Some(told.fix(span, "0"));
+    }
+    let (_, number) = NUMBERS.iter().find(|(word, _)| *word == name)?;
+    Some(
+        Diagnostic::new(Code::UndeclaredName, format!("`{name}` is not declared"))
+            .at(span, "numbers are written with digits")
+            .help(format!("write `{number}`"))
+            .fix(span, *number),
+    )
 }

@@ -53,9 +53,10 @@ impl Evaluator<'_> {
         let outside = rise.literal.iter().find(|given| !within.contains(&given.value));
         // What goes down from beyond 1 is out of its range first.
         let is_high = |before: f64| outside.is_some_and(|given| given.value == before);
-        let fall = rise.fall.filter(|&(before, ..)| !(before > 1.0 && is_high(before)));
-        let code =
-            if fall.is_some() == rise.fall.is_some() { Code::MapRange } else { Code::UnsortedMap };
+        let (fall, code) = match rise.fall {
+            Some((before, ..)) if before > 1.0 && is_high(before) => (None, Code::UnsortedMap),
+            fall => (fall, Code::MapRange),
+        };
         if let Some((before, after, site)) = fall {
             let message =
                 format!("the entries of this `color_map` go down from {before} to {after}");
