@@ -39,10 +39,7 @@ fn told(files: &dyn Files, dialect: Dialect, text: &str) -> (String, Vec<String>
         road.diagnostics.iter().partition(|one| one.code == Code::AuthorDebug);
     let said: Vec<&str> = said.iter().map(|one| one.message.as_str()).collect();
     (
-        said.join(
-            "
-",
-        ),
+        said.concat(),
         faults.iter().map(|one| lucarne::diagnostic::render::short(one, &road.sources)).collect(),
     )
 }

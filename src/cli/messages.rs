@@ -32,6 +32,13 @@ pub enum Format {
     Json,
 }
 
+/// What an author says in pieces is a line of its own all the same.
+fn end_line(text: &mut String) {
+    if !text.is_empty() && !text.ends_with('\n') {
+        text.push('\n');
+    }
+}
+
 /// Prints messages and remembers what they mean for the exit code.
 pub struct Messages {
     format: Format,
@@ -82,6 +89,7 @@ impl Messages {
                         more += 1;
                         continue;
                     }
+                    end_line(&mut out);
                     *shown += 1;
                     *alike += 1;
                     out.push_str(&match self.format {
@@ -94,6 +102,7 @@ impl Messages {
                 Format::Json => out.push_str(&(json::line(diagnostic, sources) + "\n")),
             }
         }
+        end_line(&mut out);
         if more > 0 {
             out.push_str(&format!("… and {more} more; `--message-format short` shows them all\n"));
         }

@@ -151,6 +151,7 @@ codes! {
     ReplacedPigment "replaced-pigment" lint "an object or a texture has two pigments; the last one is used";
     RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";
     RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
+    LooseOperation "loose-operation" sure "a macro leaves an operation beside an operator that binds tighter";
     LegacyForm "legacy-form" lint "an old form of the language";
     UnknownLint "unknown-lint" lint "a comment that is to silence a warning does not";
     // files

@@ -1,7 +1,8 @@
 //! A message as one line of JSON.
 //!
 //! **Invariant:** lines and columns count from 1, columns in characters, ends are exclusive; the
-//! line holds no line break whatever the message holds.
+//! line holds no line break whatever the message holds. What is about the scene as a whole is at the
+//! first place of its main file.
 
 use serde::Serialize;
 
@@ -71,19 +72,20 @@ pub fn severity_name(severity: Severity) -> &'static str {
 
 /// One JSON object, without a line break at its end.
 pub fn line(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let label = |span, text, primary| Label { place: Place::of(span, sources), text, primary };
+    let mut labels: Vec<Label> = diagnostic
+        .labels
+        .iter()
+        .map(|one| label(one.span, one.text.as_str(), one.primary))
+        .collect();
+    if let (true, Some((main, _))) = (labels.is_empty(), sources.iter().next()) {
+        labels.push(label(Span::new(main, 0, 0), "", true));
+    }
     let message = Message {
         code: diagnostic.code.name(),
         severity: severity_name(diagnostic.severity),
-        message: &diagnostic.message,
-        labels: diagnostic
-            .labels
-            .iter()
-            .map(|label| Label {
-                place: Place::of(label.span, sources),
-                text: &label.text,
-                primary: label.primary,
-            })
-            .collect(),
+        message: diagnostic.message.trim_end_matches('\n'),
+        labels,
         trace: diagnostic
             .trace
             .iter()
@@ -137,6 +139,16 @@ mod tests {
                 r#""text":"pigment"}]}"#
             )
         );
+    }
+
+    #[test]
+    fn what_is_about_the_whole_scene_is_at_its_first_place() {
+        let mut sources = Sources::default();
+        sources.add(Source::new("a.scene", "sphere { 0, 1 }"));
+        let text = line(&Diagnostic::new(Code::NoLight, "nothing gives light"), &sources);
+        let place =
+            r#"{"file":"a.scene","line":1,"column":1,"end_line":1,"end_column":1,"text":"""#;
+        assert!(text.contains(place), "{text}");
     }
 
     #[test]

@@ -63,13 +63,9 @@ pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String
     beside::completed(&text, &view.texts, width)
 }
 
-/// The message alone, as its author laid it out; ends in a line break.
+/// The message alone, as its author laid it out; it may be a piece of a line.
 pub fn plain(diagnostic: &Diagnostic) -> String {
-    let mut text = visible_untrimmed(&diagnostic.message);
-    if !text.ends_with('\n') {
-        text.push('\n');
-    }
-    text
+    visible_untrimmed(&diagnostic.message)
 }
 
 /// `file:line:column: error[code]: message`, one line, no line break at its end.
@@ -80,7 +76,7 @@ pub fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
         format!("{}:{line}:{column}: ", visible(&source.name))
     });
     let (severity, code) = (severity_name(diagnostic.severity), diagnostic.code.name());
-    let message = visible(&diagnostic.message).replace('\n', "␊");
+    let message = visible(diagnostic.message.trim_end_matches('\n')).replace('\n', "␊");
     format!("{place}{severity}[{code}]: {message}")
 }
 

@@ -4,9 +4,10 @@
 //! **Invariant:** only what was told, and still is, makes anything else its repetition.
 
 use crate::diagnostic::Diagnostic;
-use crate::source::{Expansion, ExpansionKind, Span};
+use crate::source::{Expansion, ExpansionId, ExpansionKind, Site, Span};
 use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 
+use super::block::Given;
 use super::value::Value;
 use super::{Evaluator, Here, Symbol};
 
@@ -26,6 +27,8 @@ pub(super) struct Refused {
 #[derive(Debug, Clone, Copy)]
 struct Origin {
     call: Span,
+    /// What the call stands in.
+    within: ExpansionId,
     parameter: Symbol,
     /// The argument itself, where it is found.
     argument: Option<Span>,
@@ -73,6 +76,16 @@ impl Evaluator<'_> {
         }
     }
 
+    /// The two arguments of one call that two values came by.
+    pub(super) fn arguments_behind(&self, values: [&Given<Value>; 2]) -> Option<[Site; 2]> {
+        let [a, b] = values.map(|given| {
+            let origin = self.origin(&given.here, given.span, &given.value)?;
+            Some((Site { span: origin.argument?, expansion: origin.within }, origin.call))
+        });
+        let ((a, call), (b, other)) = (a?, b?);
+        (call == other && a.span != b.span).then_some([a, b])
+    }
+
     /// Where `found`, which `span` came to, entered the macro that is being run; through the calls that only hand
     /// it on.
     fn origin(&self, here: &Here, span: Span, found: &Value) -> Option<Origin> {
@@ -88,7 +101,7 @@ impl Evaluator<'_> {
         {
             (call, parameter, argument) = (outer, above, Some(higher));
         }
-        Some(Origin { call: call.call, parameter, argument })
+        Some(Origin { call: call.call, within: call.parent, parameter, argument })
     }
 
     /// The parameter in a text that a value of this kind came by: its only name, or the one that is of that kind.

@@ -212,19 +212,29 @@ impl Evaluator<'_> {
         let mut values = Vec::with_capacity(list.len());
         let mut failed = false;
         for argument in list {
-            let value = match *argument {
-                Argument::Expression(id) => self.operand(here, id),
+            let left = match *argument {
+                Argument::Expression(id) => match self.left_by_macro(here, id) {
+                    Some(left) => left,
+                    None => match self.operand(here, id) {
+                        Ok(value) => {
+                            values.push(value);
+                            continue;
+                        }
+                        Err(reported) => Err(reported),
+                    },
+                },
                 Argument::Items(items) => {
-                    self.inside(here, items, |evaluator| evaluator.only_value(here, span))
+                    self.inside(here, items, |evaluator| evaluator.values(here, span))
                 }
             };
-            match value {
-                Ok(value) => values.push(value),
+            match left {
+                Ok(left) => values.extend(left),
                 Err(Reported) => failed = true,
             }
         }
-        if !arity.contains(&list.len()) {
-            return Err(self.wrong_arity(here, word, word_span, arity, list.len()));
+        let count = if failed { list.len() } else { values.len() };
+        if !arity.contains(&count) {
+            return Err(self.wrong_arity(here, word, word_span, arity, count));
         }
         if failed {
             return Err(Reported);

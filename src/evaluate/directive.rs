@@ -197,7 +197,12 @@ impl Evaluator<'_> {
             Severity::Error => "the scene stops itself here",
             Severity::Warning | Severity::Note => "said here",
         };
-        let diagnostic = Diagnostic::new(code, text.trim_end_matches('\n')).at(head, label);
+        // A note may be one of several pieces of a line.
+        let said = match code.severity() {
+            Severity::Note => &*text,
+            Severity::Error | Severity::Warning => text.trim_end_matches('\n'),
+        };
+        let diagnostic = Diagnostic::new(code, said).at(head, label);
         self.report(here, diagnostic);
         Ok(())
     }

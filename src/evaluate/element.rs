@@ -225,7 +225,12 @@ impl Evaluator<'_> {
                 );
                 let told = Diagnostic::new(Code::OutOfRange, message)
                     .at(index(at), "outside of the array");
-                self.one_too_far(here, indices.get(at).copied(), (found, size), told)
+                let told = self.one_too_far(here, indices.get(at).copied(), (found, size), told);
+                let is_past = told.help.is_empty() && indices.len() == 1 && found >= 0.0;
+                match is_past {
+                    true => told.help(format!("the last one is `{name}[{}]`", size - 1)),
+                    false => told,
+                }
             }
             NoElement::Count { wanted } => {
                 let wanted = match wanted {

@@ -107,7 +107,8 @@ impl Evaluator<'_> {
             return true;
         }
         let diagnostic = Diagnostic::new(Code::StrayCloser, "this `}` closes nothing")
-            .at(span, "no `{` is open where this is run");
+            .at(span, "no `{` is open where this is run")
+            .help("leave it out");
         self.report(here, diagnostic);
         false
     }

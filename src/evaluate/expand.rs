@@ -10,15 +10,14 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, ExpansionKind, ExpansionName, Span};
 use crate::syntax::ast::{
-    Argument, Arguments, BinaryOperator, Body, Callee, ExpressionId, ExpressionKind, Items, NameId,
-    Parameter,
+    Argument, Arguments, Body, Callee, ExpressionId, ExpressionKind, Items, NameId, Parameter,
 };
 
 use crate::vocabulary::Word;
 
 use super::report::count;
 use super::scope::{MacroId, Owner, Slot, Symbol};
-use super::value::{Components, Poison, Value};
+use super::value::{Poison, Value};
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
 /// How many brackets may stand around each of the macros that call each other, on average.
@@ -47,6 +46,14 @@ enum MacroBody {
 }
 
 impl Macro {
+    /// Its body, and whose it is, where that is read as items.
+    pub fn parts(&self) -> Option<(&Rc<Unit>, Items)> {
+        match self.body {
+            MacroBody::Items(body) => Some((&self.unit, body)),
+            MacroBody::Raw => None,
+        }
+    }
+
     /// Its body, where it is written.
     fn text(&self) -> Option<Span> {
         let MacroBody::Items(body) = self.body else { return None };
@@ -159,20 +166,35 @@ impl Evaluator<'_> {
         arguments: Arguments,
         span: Span,
     ) -> Outcome<Value> {
+        let lacking = || Ok(Value::Poison(Poison::new(Word::Macro, here.site(span))));
+        self.read_macro(here, id, arguments, span, |evaluator| evaluator.only_value(here, span))
+            .unwrap_or_else(lacking)
+    }
+
+    /// Reads what a macro leaves, which is something; `None` where its body cannot be read as values.
+    pub(super) fn read_macro<T>(
+        &mut self,
+        here: &Here,
+        id: MacroId,
+        arguments: Arguments,
+        span: Span,
+        reader: impl FnOnce(&mut Self) -> Outcome<T>,
+    ) -> Option<Outcome<T>> {
         let definition = self.macros[id.0 as usize].clone();
-        let MacroBody::Items(body) = definition.body else {
-            return Ok(Value::Poison(Poison::new(Word::Macro, here.site(span))));
+        let MacroBody::Items(body) = definition.body else { return None };
+        let expansion = match self.enter_macro(here, &definition, arguments, span) {
+            Ok(expansion) => expansion,
+            Err(reported) => return Some(Err(reported)),
         };
-        let expansion = self.enter_macro(here, &definition, arguments, span)?;
         self.macro_depth += 1;
         let inner = Here { unit: definition.unit.clone(), expansion };
         let value = self.inside(&inner, body, |evaluator| match evaluator.peek() {
             None => Err(evaluator.leaves_no_value(expansion, "a value")),
-            Some(_) => evaluator.only_value(here, span),
+            Some(_) => reader(evaluator),
         });
         self.macro_depth -= 1;
         self.scopes.close();
-        value
+        Some(value)
     }
 
     /// Evaluates the arguments, then opens the macro's table with its parameters bound.
@@ -192,12 +214,13 @@ impl Evaluator<'_> {
             }
             list => list,
         };
-        let split = match list.len() + 1 == definition.required {
-            true => self.split(here, list)?,
-            false => None,
+        let spread = match list.len() < definition.required {
+            true => self.spread(here, list, definition.required..=definition.parameters.len())?,
+            false => Vec::new(),
         };
         // With too many or too few the body is read all the same, for its own mistakes.
-        let wrong = split.is_none() && self.check_arguments(here, definition, list, span).is_err();
+        let wrong =
+            spread.is_empty() && self.check_arguments(here, definition, list, span).is_err();
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
@@ -222,9 +245,7 @@ impl Evaluator<'_> {
             bound.extend(std::iter::repeat_with(broken).take(definition.parameters.len()));
         }
         for (i, argument) in list.iter().enumerate().filter(|_| !wrong) {
-            if let Some((at, values)) = &split
-                && *at == i
-            {
+            if let Some((_, values)) = spread.iter().find(|(at, _)| *at == i) {
                 let keep =
                     |value: &Value| Bound { slot: self.scopes.keep(value.clone()), own: true };
                 bound.extend(values.iter().map(keep));
@@ -256,39 +277,6 @@ impl Evaluator<'_> {
         bound.clear();
         self.bound = bound;
         Ok(expansion)
-    }
-
-    /// An object and a signed value without a comma between them, where one argument is missing: the index of
-    /// both, and what they are. POV-Ray reads `Align(Ball() -y, 0)` so.
-    fn split(&mut self, here: &Here, list: &[Argument]) -> Outcome<Option<(usize, [Value; 2])>> {
-        for (i, argument) in list.iter().enumerate() {
-            let Argument::Expression(id) = *argument else { continue };
-            let ExpressionKind::Binary(
-                sign @ (BinaryOperator::Add | BinaryOperator::Subtract),
-                first,
-                second,
-            ) = here.unit.expression(id).kind
-            else {
-                continue;
-            };
-            let ExpressionKind::Call(Callee::Name(..), _) = here.unit.expression(first).kind else {
-                continue;
-            };
-            let first = self.expression(here, first)?;
-            if let Value::Object(_) | Value::Poison(_) = first {
-                let second = self.expression(here, second)?;
-                let second = match (sign, &second) {
-                    (BinaryOperator::Subtract, Value::Number(number)) => Value::Number(-number),
-                    (BinaryOperator::Subtract, Value::Vector(vector)) => {
-                        let negated: Vec<f64> = vector.as_slice().iter().map(|c| -c).collect();
-                        Components::new(&negated).map_or(Value::Broken, Value::Vector)
-                    }
-                    _ => second,
-                };
-                return Ok(Some((i, [first, second])));
-            }
-        }
-        Ok(None)
     }
 
     /// As many arguments as parameters; the optional ones may be left out.
@@ -324,7 +312,7 @@ impl Evaluator<'_> {
                     let right = format!("<{}>", self.sources.text(three));
                     told.help(format!("is `{right}` meant?")).fix(three, right)
                 }
-                None => told,
+                None => told.help(format!("it is called as `{}`", self.form(definition))),
             }
         } else if let Some(empty) =
             list.iter().zip(parameters).position(|(argument, (_, optional))| {
@@ -341,6 +329,13 @@ impl Evaluator<'_> {
             return Ok(());
         };
         Err(self.report(here, diagnostic.also(definition.defined, "defined here")))
+    }
+
+    /// A macro as it is called: `Ball(Where, Radius)`.
+    pub(super) fn form(&self, definition: &Macro) -> String {
+        let name = self.scopes.name(definition.name);
+        let parameters = definition.parameters.iter().map(|&(symbol, _)| self.scopes.name(symbol));
+        format!("{name}({})", parameters.collect::<Vec<_>>().join(", "))
     }
 
     /// Nothing further is evaluated.

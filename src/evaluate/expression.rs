@@ -7,6 +7,7 @@ use crate::syntax::ast::{ExpressionId, ExpressionKind, UnaryOperator};
 use crate::vocabulary::Word;
 
 use super::comparison::Comparison;
+use super::lint::Side;
 use super::stream::TokenKind;
 use super::value::{self, Components, OperationError, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
@@ -91,6 +92,7 @@ impl Evaluator<'_> {
         match expression.kind {
             ExpressionKind::Unary(operator, operand) => {
                 let value = self.operand(here, operand)?;
+                self.lint_loose_sign(here, operator, operand);
                 if let Value::Poison(_) = value {
                     return Ok(value);
                 }
@@ -189,6 +191,8 @@ impl Evaluator<'_> {
         let ExpressionKind::Binary(operator, left, right) = expression.kind else { return value };
         // Both sides are evaluated before either fails: each may report, and both draw from streams.
         let operand = self.operand(here, right);
+        self.lint_loose_operand(here, operator, Side::Left, left);
+        self.lint_loose_operand(here, operator, Side::Right, right);
         match (value, operand) {
             (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
             (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
@@ -394,34 +398,15 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `A[I, J]`: whether what stands there is behind a comma in the brackets of an index.
-    fn is_index(&self, comma: Span) -> bool {
-        let text = &self.sources.get(comma.file).text;
-        let before = text.get(..comma.start as usize).unwrap_or("");
-        let opener = before.rfind(['[', ']', ';', '{', '}']);
-        let named = |at: usize| {
-            before[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == ']')
-        };
-        self.sources.text(comma) == ","
-            && opener.is_some_and(|at| before[at..].starts_with('[') && named(at))
-    }
-
     /// The one value that the current items leave.
     pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
         let value = self.value_or(here, span)?;
         while matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }
-        if let Some(extra) = self.next() {
-            let diagnostic =
-                Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
-                    .at(extra.span, "this is more than one value");
-            let diagnostic = match self.is_index(extra.span) {
-                true => diagnostic.help("each index has brackets of its own: `A[I][J]`"),
-                false => diagnostic,
-            };
-            return Err(self.report(&extra.here, diagnostic));
+        match self.next() {
+            Some(extra) => Err(self.more_than_one(&extra)),
+            None => Ok(value),
         }
-        Ok(value)
     }
 }

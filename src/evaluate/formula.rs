@@ -143,6 +143,17 @@ impl Evaluator<'_> {
                 return Err(self.report(here, diagnostic));
             }
             let text = self.sources.text(parameter).to_owned();
+            if let ExpressionKind::Component(_, Component::Word(_, of) | Component::Name(_, of)) =
+                here.unit.expression(id).kind
+            {
+                let component = self.sources.text(of);
+                let message =
+                    format!("`{text}` is a number here, and has no component `{component}`");
+                let diagnostic = Diagnostic::new(Code::WrongType, message)
+                    .at(parameter, "a parameter of the function")
+                    .help("a function takes numbers: `function(x, y, z) { … }` is one of a place");
+                return Err(self.report(here, diagnostic));
+            }
             let message = format!("`{text}` has no value yet where the function is defined");
             let diagnostic = Diagnostic::new(Code::WrongType, message)
                 .at(parameter, "a parameter of the function")

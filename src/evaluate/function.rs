@@ -276,19 +276,33 @@ impl Evaluator<'_> {
         let mut arguments = Vec::with_capacity(list.len());
         let mut outcome = Ok(());
         for argument in list {
-            let value = match *argument {
-                Argument::Expression(id) => self.number(here, id),
-                Argument::Items(items) => self
-                    .inside(here, items, |evaluator| evaluator.only_value(here, span))
-                    .and_then(|value| self.as_number(here, span, &value, "a number")),
+            let (left, place) = match *argument {
+                Argument::Expression(id) => match self.left_by_macro(here, id) {
+                    Some(left) => (left, here.unit.expression(id).span),
+                    None => {
+                        match self.number(here, id) {
+                            Ok(number) => arguments.push(number),
+                            Err(reported) => outcome = Err(reported),
+                        }
+                        continue;
+                    }
+                },
+                Argument::Items(items) => {
+                    (self.inside(here, items, |evaluator| evaluator.values(here, span)), span)
+                }
             };
-            match value {
-                Ok(number) => arguments.push(number),
-                Err(reported) => outcome = Err(reported),
+            for value in left.unwrap_or_else(|reported| {
+                outcome = Err(reported);
+                Vec::new()
+            }) {
+                match self.as_number(here, place, &value, "a number") {
+                    Ok(number) => arguments.push(number),
+                    Err(reported) => outcome = Err(reported),
+                }
             }
         }
         outcome?;
-        self.check_count(here, wanted, list.len(), span)?;
+        self.check_count(here, wanted, arguments.len(), span)?;
         let functions = Functions { all: &self.functions, noise: self.noise };
         let value = match &self.functions[id.0 as usize] {
             AuthorFunction::Spline(spline) => return Ok(spline.at(arguments[0])),

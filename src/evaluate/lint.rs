@@ -6,6 +6,7 @@ mod equation;
 mod finish;
 mod light;
 mod lone;
+mod loose;
 mod map;
 mod range;
 mod short;
@@ -24,6 +25,7 @@ use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 
 use super::scope::Owner;
 pub(in crate::evaluate) use light::Cone;
+pub(in crate::evaluate) use loose::Side;
 pub(in crate::evaluate) use map::Rise;
 pub(in crate::evaluate) use version::version_end;
 

@@ -32,6 +32,7 @@ mod scope;
 mod semicolon;
 mod silent;
 mod spline;
+mod spread;
 mod stream;
 #[cfg(test)]
 mod tests;

@@ -98,6 +98,9 @@ impl Evaluator<'_> {
         }
         let meant = match (found, wanted) {
             (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
+            (Value::Color(_), wanted) if wanted.starts_with("a number") && name.is_some() => {
+                Some(format!("how bright it is: `{text}.gray`"))
+            }
             (Value::Function(_), wanted) if wanted.starts_with("a number") => {
                 Some(format!("a function has a value where it is called: `{text}(x, y, z)`"))
             }
@@ -212,12 +215,9 @@ impl Evaluator<'_> {
     /// A macro's name without its arguments.
     pub(super) fn macro_not_called(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
-        let parameters: Vec<String> = match self.scopes.read(symbol) {
-            Some(&Value::Macro(id)) => {
-                let parameters = &self.macros[id.0 as usize].parameters;
-                parameters.iter().map(|&(symbol, _)| self.scopes.name(symbol).to_owned()).collect()
-            }
-            _ => Vec::new(),
+        let form = match self.scopes.read(symbol) {
+            Some(&Value::Macro(id)) => self.form(&self.macros[id.0 as usize]),
+            _ => format!("{name}()"),
         };
         let message = format!("`{name}` is a macro, and is called with parentheses");
         let mut diagnostic =
@@ -225,9 +225,9 @@ impl Evaluator<'_> {
         if let Some(declared) = self.scopes.declared(symbol) {
             diagnostic = diagnostic.also(declared.site.span, "defined here");
         }
-        diagnostic = diagnostic.help(format!("write `{name}({})`", parameters.join(", ")));
-        if parameters.is_empty() {
-            diagnostic = diagnostic.fix(span, format!("{name}()"));
+        diagnostic = diagnostic.help(format!("write `{form}`"));
+        if form.ends_with("()") {
+            diagnostic = diagnostic.fix(span, form);
         }
         self.report(here, diagnostic)
     }
@@ -252,7 +252,7 @@ impl Evaluator<'_> {
                 .help("which dimension comes second: `dimension_size(A, 1)` is how many elements"),
             Word::Str if found == 1 => diagnostic
                 .help("how wide and how many digits: `str(A, 0, 3)` has three behind the point"),
-            _ => diagnostic,
+            _ => diagnostic.help(word.sentence()),
         };
         self.report(here, diagnostic)
     }

@@ -8,8 +8,27 @@ use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, Expressio
 use crate::vocabulary::Word;
 
 use super::stream::TokenKind;
-use super::value::{Components, Value};
+use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
+
+/// What a vector has between its angle brackets, so far.
+#[derive(Default)]
+struct Gathered {
+    numbers: [f64; 5],
+    /// How many there were: more than five are counted, and not kept.
+    count: usize,
+    poison: Option<Poison>,
+    failed: bool,
+}
+
+impl Gathered {
+    fn push(&mut self, number: f64) {
+        if let Some(slot) = self.numbers.get_mut(self.count) {
+            *slot = number;
+        }
+        self.count += 1;
+    }
+}
 
 impl Evaluator<'_> {
     pub(super) fn vector_value(
@@ -19,63 +38,32 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Outcome<Value> {
         let arguments = here.unit.ast.arguments(components);
-        let (mut numbers, mut count) = ([0.0; 5], 0);
-        let mut failed = false;
-        let mut poison = None;
+        let mut gathered = Gathered::default();
         for argument in arguments {
-            let id = match *argument {
-                Argument::Expression(id) => id,
-                Argument::Items(items) => {
-                    match self.inside(here, items, |evaluator| evaluator.components(here, span)) {
-                        Ok(found) => found.into_iter().for_each(|number| {
-                            if let Some(slot) = numbers.get_mut(count) {
-                                *slot = number;
-                            }
-                            count += 1;
+            let found = match *argument {
+                Argument::Items(items) => self
+                    .inside(here, items, |evaluator| evaluator.components(here, span))
+                    .map(|numbers| numbers.into_iter().for_each(|number| gathered.push(number))),
+                Argument::Expression(id) => match self.plain_number(here, id) {
+                    Some(number) => {
+                        gathered.push(number);
+                        Ok(())
+                    }
+                    None => match self.left_by_macro(here, id) {
+                        None => self
+                            .any_value(here, id)
+                            .and_then(|value| self.gather(here, id, value, &mut gathered)),
+                        Some(left) => left.and_then(|values| {
+                            values
+                                .into_iter()
+                                .try_for_each(|value| self.gather(here, id, value, &mut gathered))
                         }),
-                        Err(Reported) => failed = true,
-                    }
-                    continue;
-                }
+                    },
+                },
             };
-            let value = match self.plain_number(here, id) {
-                Some(number) => Ok(Value::Number(number)),
-                None => self.any_value(here, id),
-            };
-            match value {
-                Ok(Value::Number(number)) => {
-                    if let Some(slot) = numbers.get_mut(count) {
-                        *slot = number;
-                    }
-                    count += 1;
-                }
-                Ok(Value::Poison(found)) => poison = poison.or(Some(found)),
-                Ok(other) => {
-                    let span = here.unit.expression(id).span;
-                    failed = true;
-                    if self.is_refused_again(here, span, &other) {
-                        continue;
-                    }
-                    let diagnostic = Diagnostic::new(
-                        Code::WrongType,
-                        format!("a component of a vector is a number, this is {}", other.kind()),
-                    )
-                    .at(span, "expected a number");
-                    let text = self.sources.text(span);
-                    let diagnostic = match (&other, here.unit.expression(id).kind) {
-                        (Value::Vector(_), ExpressionKind::Name(_)) => diagnostic
-                            .help(format!("write its components: `{text}.x, {text}.y, {text}.z`")),
-                        (Value::Array(_), ExpressionKind::Name(_)) => {
-                            diagnostic.help(format!("an element of it has its place: `{text}[0]`"))
-                        }
-                        _ => diagnostic,
-                    };
-                    let diagnostic = self.given_by_call(here, span, &other, diagnostic);
-                    self.report(here, diagnostic);
-                }
-                Err(Reported) => failed = true,
-            }
+            gathered.failed |= found.is_err();
         }
+        let Gathered { numbers, count, poison, failed } = gathered;
         if failed {
             return Err(Reported);
         }
@@ -117,6 +105,48 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
         }
+    }
+
+    /// Takes a component of a vector, which an expression came to.
+    fn gather(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        value: Value,
+        gathered: &mut Gathered,
+    ) -> Outcome<()> {
+        let other = match value {
+            Value::Number(number) => {
+                gathered.push(number);
+                return Ok(());
+            }
+            Value::Poison(found) => {
+                gathered.poison = gathered.poison.or(Some(found));
+                return Ok(());
+            }
+            other => other,
+        };
+        let span = here.unit.expression(id).span;
+        if self.is_refused_again(here, span, &other) {
+            return Err(Reported);
+        }
+        let diagnostic = Diagnostic::new(
+            Code::WrongType,
+            format!("a component of a vector is a number, this is {}", other.kind()),
+        )
+        .at(span, "expected a number");
+        let text = self.sources.text(span);
+        let diagnostic = match (&other, here.unit.expression(id).kind) {
+            (Value::Vector(_), ExpressionKind::Name(_)) => {
+                diagnostic.help(format!("write its components: `{text}.x, {text}.y, {text}.z`"))
+            }
+            (Value::Array(_), ExpressionKind::Name(_)) => {
+                diagnostic.help(format!("an element of it has its place: `{text}[0]`"))
+            }
+            _ => diagnostic,
+        };
+        let diagnostic = self.given_by_call(here, span, &other, diagnostic);
+        Err(self.report(here, diagnostic))
     }
 
     /// The numbers that the items of directives in a vector leave.

@@ -4,6 +4,7 @@
 //! **Invariant:** a scene whose text, or an include of it, has any word of light is said nothing of, and so is
 //! one that is not whole; likewise of a camera.
 
+use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
 
 use super::Road;
@@ -11,7 +12,7 @@ use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::lower::unlit::tell_unlit;
 use crate::scene::{Dialect, ObjectKind, Scene, Unused};
-use crate::source::Span;
+use crate::source::{FileId, Span};
 use crate::vocabulary::{Family, Word, is_standard_source, standard_include_of};
 
 /// Parts of the words by which a scene, or its author's macros, give light.
@@ -168,12 +169,13 @@ impl Road<'_> {
         }
         let sources = &self.sources;
         // A name on the line of a fault may stand for another value.
-        let doubtful: Vec<&str> = faults
+        let lines: BTreeSet<(FileId, usize)> = faults
             .iter()
-            .flat_map(|fault| {
-                let source = sources.get(fault.file);
-                words(source.line(source.position(fault.start as usize).line))
-            })
+            .map(|fault| (fault.file, sources.get(fault.file).position(fault.start as usize).line))
+            .collect();
+        let doubtful: HashSet<&str> = lines
+            .into_iter()
+            .flat_map(|(file, line)| words(sources.get(file).line(line)))
             .filter(|word| {
                 word.starts_with(|c: char| !c.is_ascii_digit()) && Word::from_name(word).is_none()
             })

@@ -157,6 +157,17 @@ pub enum BinaryOperator {
     Or,
 }
 
+/// How tightly an operator binds its neighbours; a higher rank is taken first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    Conditional,
+    Logical,
+    Relational,
+    Sum,
+    Product,
+    Unary,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Callee {
     /// A built-in function and the span of its word.
@@ -345,6 +356,21 @@ impl UnaryOperator {
 }
 
 impl BinaryOperator {
+    /// How tightly it binds.
+    pub fn rank(self) -> Rank {
+        match self {
+            Self::Multiply | Self::Divide => Rank::Product,
+            Self::Add | Self::Subtract => Rank::Sum,
+            Self::Less
+            | Self::LessOrEqual
+            | Self::Equal
+            | Self::NotEqual
+            | Self::GreaterOrEqual
+            | Self::Greater => Rank::Relational,
+            Self::And | Self::Or => Rank::Logical,
+        }
+    }
+
     /// How it is written.
     pub fn symbol(self) -> &'static str {
         match self {

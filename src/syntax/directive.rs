@@ -11,6 +11,7 @@ use super::nest::{Frame, FrameKind, Nest};
 use super::token::{Bracket, Head, Mark, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::vocabulary::{Family, Word};
 
 /// A directive whose `#end` is still to come.
 pub(super) enum Body {
@@ -118,7 +119,13 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn expected_in_head(&mut self, span: Span, message: &str, label: &str) {
-        self.report(Diagnostic::new(Code::ExpectedExpression, message).at(span, label));
+        let told = Diagnostic::new(Code::ExpectedExpression, message).at(span, label);
+        let head = directive_word(self.slice(span));
+        let word = head.split(|c: char| !c.is_ascii_alphabetic()).next().and_then(Word::from_name);
+        self.report(match word.filter(|word| word.family() == Family::Directive) {
+            Some(word) => told.help(word.sentence()),
+            None => told,
+        });
     }
 
     /// Adds a finished directive as an item that reaches from its `#` to the end of `last`.

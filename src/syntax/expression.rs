@@ -5,7 +5,7 @@
 //! **Source:** POV-Ray 3.7 manual, section 3.3.1.5.3 "Operators"; that `&` and `|` bind alike, and
 //! that `?:` groups to the right, was tried on the program.
 
-use super::ast::{BinaryOperator, Expression, ExpressionId, ExpressionKind, UnaryOperator};
+use super::ast::{BinaryOperator, Expression, ExpressionId, ExpressionKind, Rank, UnaryOperator};
 use super::token::Mark;
 use crate::source::Span;
 
@@ -32,33 +32,11 @@ pub(super) enum OperatorKind {
     Conditional,
 }
 
-/// How tightly an operator binds its neighbours; a higher rank is taken first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    Conditional,
-    Logical,
-    Relational,
-    Sum,
-    Product,
-    Unary,
-}
-
 impl OperatorKind {
     fn rank(self) -> Rank {
-        use BinaryOperator as B;
         match self {
             OperatorKind::Unary(_) => Rank::Unary,
-            OperatorKind::Binary(operator) => match operator {
-                B::Multiply | B::Divide => Rank::Product,
-                B::Add | B::Subtract => Rank::Sum,
-                B::Less
-                | B::LessOrEqual
-                | B::Equal
-                | B::NotEqual
-                | B::GreaterOrEqual
-                | B::Greater => Rank::Relational,
-                B::And | B::Or => Rank::Logical,
-            },
+            OperatorKind::Binary(operator) => operator.rank(),
             OperatorKind::Question | OperatorKind::Conditional => Rank::Conditional,
         }
     }

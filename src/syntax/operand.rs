@@ -179,7 +179,11 @@ impl<'a> Nest<'a> {
                     Err(_) => "expected one decimal point at most",
                 };
                 let message = format!("`{text}` is not a number");
-                self.report(Diagnostic::new(Code::MalformedNumber, message).at(span, why));
+                let told = Diagnostic::new(Code::MalformedNumber, message).at(span, why);
+                self.report(match with_one_point(text) {
+                    Some(right) => told.help(format!("is `{right}` meant?")),
+                    None => told,
+                });
                 self.operand(ExpressionKind::Missing, span, false);
             }
         }
@@ -328,4 +332,11 @@ fn is_color_vector(word: Word) -> bool {
         word,
         W::Rgb | W::Rgbf | W::Rgbt | W::Rgbft | W::Srgb | W::Srgbf | W::Srgbt | W::Srgbft
     )
+}
+
+/// `0.0.00` with its first point alone.
+fn with_one_point(text: &str) -> Option<String> {
+    let (whole, rest) = text.split_once('.')?;
+    let right = format!("{whole}.{}", rest.replace('.', ""));
+    right.parse::<f64>().is_ok().then_some(right)
 }

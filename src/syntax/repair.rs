@@ -303,7 +303,7 @@ impl Repair<'_> {
         if let Some(top) = self.open.last() {
             diagnostic = diagnostic.also(self.span(top.token), "this is open instead");
         }
-        self.tell(diagnostic.fix(self.span(at), ""));
+        self.tell(diagnostic.help("leave it out").fix(self.span(at), ""));
     }
 
     /// `#end`.

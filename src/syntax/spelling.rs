@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::habits::color_at;
+use super::habits::{color_at, is_no_number};
 use super::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
@@ -53,6 +53,10 @@ pub(super) fn correct_heads(
         let word = directive_word(text.get(span.range()).unwrap_or(""));
         if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {
             // A colour, as the web writes it (habits/web.rs).
+            continue;
+        }
+        if before == Some(TokenKind::Number) && is_no_number(word) {
+            // Told with the number before it (habits/number.rs).
             continue;
         }
         if word == "define" {

@@ -95,8 +95,8 @@ mod tests {
     fn what_stands_between_closers_parts_them() {
         let told = told("sphere { 0, 1 } } sphere { 0, 1 } }}");
         assert_eq!(told.len(), 2);
-        assert!(told[0].help.is_empty());
-        assert_eq!(told[1].help, ["and 1 more like it"]);
+        assert_eq!(told[0].help, ["leave it out"]);
+        assert_eq!(told[1].help, ["leave it out", "and 1 more like it"]);
     }
 
     #[test]

@@ -72,8 +72,16 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("fuse", "union"),
     ("cut", "difference"),
     ("carve", "difference"),
+    // settings
+    ("max_bounces", "max_trace_level"),
+    ("bounces", "max_trace_level"),
+    ("max_depth", "max_trace_level"),
+    ("maxdepth", "max_trace_level"),
+    ("ray_depth", "max_trace_level"),
+    ("trace_depth", "max_trace_level"),
     // lights
     ("light", "light_source"),
+    ("arealightsource", "light_source"),
     ("lamp", "light_source"),
     ("pointlight", "light_source"),
     ("point_light", "light_source"),

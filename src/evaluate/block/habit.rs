@@ -348,7 +348,13 @@ pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
 
 /// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.
 pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
-    match (place.word?, name.to_lowercase().as_str()) {
+    let name = name.to_lowercase();
+    if matches!(name.as_str(), "hsv" | "hsl") {
+        return Some(
+            "`CHSV2RGB(<hue, saturation, value>)` of `colors.inc` makes a colour of these",
+        );
+    }
+    match (place.word?, name.as_str()) {
         (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
             Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
         }

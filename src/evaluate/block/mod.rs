@@ -33,6 +33,7 @@ mod settings;
 mod sheet;
 mod skip;
 mod solid;
+mod swapped;
 mod sweep;
 mod text;
 mod texture;

@@ -219,7 +219,10 @@ impl Evaluator<'_> {
             // A sphere of radius 0 was not meant.
             && (*a_number != 0.0 || after.kind != TokenKind::Word(Word::Sphere))
         {
-            let reported = self.swapped(a.site(), b.site(), vector, number);
+            let reported = match self.arguments_behind([a, b]) {
+                Some([x, y]) => self.swapped(x, y, vector, number, Some(a.span.to(b.span))),
+                None => self.swapped(a.site(), b.site(), vector, number, None),
+            };
             return (Err(reported), Err(reported));
         }
         let second = second.and_then(|given| {
@@ -227,26 +230,6 @@ impl Evaluator<'_> {
             Ok(given.with(number))
         });
         (first.and_then(|given| self.as_vector(given, vector)), second)
-    }
-
-    /// Two parts stand in each other's place.
-    pub(super) fn swapped(&mut self, a: Site, b: Site, first: &str, second: &str) -> Reported {
-        let message = format!("expected {first}, then {second}: the two are swapped");
-        let text = |site: Site| self.sources.text(site.span).to_owned();
-        let (text_a, text_b) = (text(a), text(b));
-        let mut diagnostic = Diagnostic::new(Code::WrongType, message)
-            .at(a.span, format!("expected {first}"))
-            .also(b.span, format!("expected {second}"))
-            .help(format!("write `{text_b}, {text_a}`"));
-        if a.expansion == b.expansion && a.span.file == b.span.file {
-            let between =
-                self.sources.text(Span { start: a.span.end, end: b.span.start, ..a.span });
-            diagnostic = match between.trim() {
-                "" | "," => diagnostic.fix(a.span.to(b.span), format!("{text_b}, {text_a}")),
-                _ => diagnostic.fix(a.span, text_b).fix(b.span, text_a),
-            };
-        }
-        self.report_in(a.expansion, diagnostic)
     }
 
     pub(super) fn as_vector(
@@ -304,7 +287,8 @@ impl Evaluator<'_> {
                 Code::ZeroVector,
                 format!("{what} is the zero vector, and points nowhere"),
             )
-            .at(given.span, "expected a vector other than <0, 0, 0>");
+            .at(given.span, "expected a vector other than <0, 0, 0>")
+            .help("`y` points up, `-z` to the front");
             return Err(self.report(&given.here, diagnostic));
         }
         Ok(given)
@@ -387,6 +371,13 @@ impl Evaluator<'_> {
             format!("`{}` is {}, and must be {wanted}", word.name(), given.value),
         )
         .at(given.span, format!("expected {wanted}"));
+        let typed = self.sources.text(given.span).strip_prefix('-').map(str::trim);
+        let diagnostic = match typed.filter(|typed| typed.parse() == Ok(-given.value)) {
+            Some(right) if wanted.ends_with("0 or more") || wanted == "more than 0" => {
+                diagnostic.help(format!("is `{right}` meant?"))
+            }
+            _ => diagnostic,
+        };
         self.report(&given.here, diagnostic)
     }
 

@@ -275,6 +275,12 @@ impl Evaluator<'_> {
             let message = "POV-Ray draws nothing of a torus whose minor radius is negative";
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
                 .at(minor.span, "expected a number more than 0");
+            let diagnostic = match self.sources.text(minor.span).strip_prefix('-') {
+                Some(right) if right.parse::<f64>().is_ok() => {
+                    diagnostic.help(format!("write `{right}`")).fix(minor.span, right.to_owned())
+                }
+                _ => diagnostic,
+            };
             self.nothing(token, &minor.here, diagnostic)?;
             return Ok(Solid::Torus { major: major.value, minor: 0.0 });
         }

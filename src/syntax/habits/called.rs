@@ -148,6 +148,30 @@ impl Reader<'_> {
         ahead
     }
 
+    /// `console.log("done");`
+    pub(super) fn console(&mut self, meant: &mut Vec<Token>) -> bool {
+        let called = self.slice(0) == "console"
+            && self.is(1, Mark::Dot)
+            && self.is(3, Mark::Open(Bracket::Round));
+        let Some(close) = self.closed(3, Bracket::Round).filter(|_| called) else { return false };
+        let span = self.span(0, 2);
+        let text = self.text.get(span.range()).unwrap_or("");
+        let mut diagnostic =
+            Diagnostic::new(Code::ForeignWord, format!("`{text}` is written `#debug`"))
+                .at(span, "did you mean `#debug`?")
+                .help(Word::Debug.sentence())
+                .fix(span, "#debug");
+        if self.is(close + 1, Mark::Semicolon) {
+            diagnostic = diagnostic.fix(self.span(close + 1, close + 1), "");
+            self.dropped.insert(self.at + close + 1, false);
+        }
+        self.diagnostics.push(diagnostic);
+        let Span { start, end, .. } = span;
+        meant.push(Token { kind: TokenKind::Directive(Head::Debug), start, end });
+        self.at += 3;
+        true
+    }
+
     /// `Math.PI`, `math.sqrt(2)`: what the language has by itself.
     pub(super) fn library(&mut self, meant: &mut Vec<Token>) -> bool {
         let called = LIBRARIES.contains(&self.slice(0))

@@ -26,6 +26,7 @@ mod vector;
 mod web;
 
 use self::letter::Foreign;
+pub(super) use self::number::is_no_number;
 use self::part::Inside;
 pub(super) use self::web::color_at;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
@@ -192,6 +193,7 @@ impl Reader<'_> {
                     || self.declarer(meant)
                     || self.definer(meant)
                     || self.library(meant)
+                    || self.console(meant)
                     || self.returns()
                     || self.changes(meant)
                     || self.logic(meant)
@@ -199,7 +201,11 @@ impl Reader<'_> {
                     || self.vector(meant)
                     || self.part(meant)
             }
-            TokenKind::Directive(Head::Unknown) if self.web_color(meant) => true,
+            TokenKind::Directive(Head::Unknown)
+                if self.web_color(meant) || self.number_of_c(meant) =>
+            {
+                true
+            }
             TokenKind::Directive(head) => self.head(head, meant),
             TokenKind::Stray => {
                 self.web_color(meant)

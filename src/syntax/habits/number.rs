@@ -1,4 +1,4 @@
-//! Numbers with more in them than digits: `0.1O`, `2.445(7)`, and `2pi`, where a `*` is missing.
+//! Numbers with more in them than digits: `0.1O`, `2.445(7)`, `1.#INF`, and `2pi`, where a `*` is missing.
 
 use super::Reader;
 use super::template::STAND_IN;
@@ -6,6 +6,11 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::Role;
+
+/// `IND` of `1.#IND`, `INF00` of `1.#INF00`: what some programs in C print for what is no number.
+pub(in crate::syntax) fn is_no_number(word: &str) -> bool {
+    ["IND", "INF", "QNAN", "SNAN"].contains(&word.trim_end_matches(char::is_numeric))
+}
 
 impl Reader<'_> {
     /// `0.1O`, `1O.5`, `l0`: letters that look like digits.
@@ -102,6 +107,28 @@ impl Reader<'_> {
         );
         meant.push(Token { kind: STAND_IN, end: span.end, ..self.tokens[self.at] });
         self.at += last + 1;
+        true
+    }
+
+    /// `-1.#IND`, `1.#INF`, as some programs in C print what is no number.
+    pub(super) fn number_of_c(&mut self, meant: &mut [Token]) -> bool {
+        let Some(number) = self.number_before(meant) else { return false };
+        let word = self.slice(0).trim_start_matches('#');
+        if !is_no_number(word) {
+            return false;
+        }
+        let span = Span { start: number.start, ..self.span(0, 0) };
+        let text = self.text.get(span.range()).unwrap_or("");
+        let what = if word.starts_with("INF") { "infinity" } else { "no number at all" };
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(span, format!("the program that wrote this had {what} here"))
+                .help("let that program write this file again, with a number"),
+        );
+        if let Some(number) = meant.last_mut() {
+            (number.kind, number.end) = (STAND_IN, span.end);
+        }
+        self.at += 1;
         true
     }
 

@@ -1,0 +1,90 @@
+//! What a macro leaves beside an operator that would take but a part of it: `2*Next(3)` of `a+1`.
+//!
+//! POV-Ray reads the text of the macro in the place of its call, so that this is `2*a + 1` there. Here a call is
+//! one value, as if in parentheses.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{
+    BinaryOperator, Callee, ExpressionId, ExpressionKind, ItemKind, Rank, UnaryOperator,
+};
+
+use super::super::value::Value;
+use super::super::{Evaluator, Here};
+
+/// Where a call stands, seen from an operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::evaluate) enum Side {
+    Left,
+    Right,
+}
+
+impl Evaluator<'_> {
+    /// `id`, an operand of `operator`, if it is a call of a macro that leaves an operation of its own.
+    pub(in crate::evaluate) fn lint_loose_operand(
+        &mut self,
+        here: &Here,
+        operator: BinaryOperator,
+        side: Side,
+        id: ExpressionId,
+    ) {
+        let Some((left, place)) = self.left_bare(here, id) else { return };
+        let regroups = match left.rank() == operator.rank() {
+            // a − (b + c) is not a − b + c; a + (b − c) is.
+            true => {
+                side == Side::Right
+                    && matches!(operator, BinaryOperator::Subtract | BinaryOperator::Divide)
+            }
+            false => left.rank() < operator.rank(),
+        };
+        if regroups {
+            self.tell_loose(here, operator.symbol(), id, place);
+        }
+    }
+
+    /// As [`Self::lint_loose_operand`], of what stands behind a sign.
+    pub(in crate::evaluate) fn lint_loose_sign(
+        &mut self,
+        here: &Here,
+        sign: UnaryOperator,
+        id: ExpressionId,
+    ) {
+        let symbol = match sign {
+            UnaryOperator::Plus => return,
+            UnaryOperator::Minus => "-",
+            UnaryOperator::Not => "!",
+        };
+        if let Some((left, place)) = self.left_bare(here, id)
+            && (sign == UnaryOperator::Not || left.rank() == Rank::Sum)
+        {
+            self.tell_loose(here, symbol, id, place);
+        }
+    }
+
+    /// The operation that a called macro leaves without parentheses, and where it stands.
+    fn left_bare(&self, here: &Here, id: ExpressionId) -> Option<(BinaryOperator, Span)> {
+        let ExpressionKind::Call(Callee::Name(name, _), _) = here.unit.expression(id).kind else {
+            return None;
+        };
+        let Some(Value::Macro(called)) = self.scopes.look(here.symbol(name)) else { return None };
+        let (unit, body) = self.macros[called.0 as usize].parts()?;
+        let last = unit.ast.items(body).last()?;
+        let ItemKind::Expression(left) = last.kind else { return None };
+        match unit.expression(left).kind {
+            ExpressionKind::Binary(operator, ..) => Some((operator, last.span)),
+            _ => None,
+        }
+    }
+
+    fn tell_loose(&mut self, here: &Here, symbol: &str, call: ExpressionId, left: Span) {
+        let call = here.unit.expression(call).span;
+        let text = self.sources.text(left).to_owned();
+        let message = format!("`{symbol}` stands beside a macro that leaves an operation");
+        let diagnostic = Diagnostic::new(Code::LooseOperation, message)
+            .at(call, format!("taken as one value, where POV-Ray puts the text `{text}` here"))
+            .also(left, "what the macro leaves")
+            .help(format!("say which is meant: write `({text})` in the macro"))
+            .fix(left, format!("({text})"));
+        self.report(here, diagnostic);
+    }
+}

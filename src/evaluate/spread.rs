@@ -1,0 +1,127 @@
+//! What a macro leaves where a list is read: `<Pair(), 3>`, `max(Pair())`, `Box(Pair())`.
+//!
+//! **Invariant:** as in POV-Ray, where the text of a macro stands for its call, a call is as many entries of the
+//! list as the macro leaves values between commas.
+
+use std::ops::RangeInclusive;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+
+use super::stream::{Token, TokenKind};
+use super::value::{Components, Value};
+use super::{Evaluator, Here, Outcome, Reported};
+
+/// Entries of a list that are other than one value each: their places, and what they are.
+pub(super) type Spread = Vec<(usize, Vec<Value>)>;
+
+impl Evaluator<'_> {
+    /// What the macro that an entry calls leaves; `None` where the entry is anything else.
+    pub(super) fn left_by_macro(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<Outcome<Vec<Value>>> {
+        let expression = here.unit.expression(id);
+        let ExpressionKind::Call(Callee::Name(name, _), arguments) = expression.kind else {
+            return None;
+        };
+        let Some(Value::Macro(called)) = self.scopes.read(here.symbol(name)) else { return None };
+        let (called, span) = (*called, expression.span);
+        self.read_macro(here, called, arguments, span, |evaluator| evaluator.values(here, span))
+    }
+
+    /// The values that the current items leave, between commas.
+    pub(super) fn values(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
+        let mut values = vec![self.value_or(here, span)?];
+        loop {
+            match self.next() {
+                None => return Ok(values),
+                Some(token) => match token.kind {
+                    TokenKind::Semicolon => {}
+                    TokenKind::Comma => values.push(self.value_or(here, span)?),
+                    _ => return Err(self.more_than_one(&token)),
+                },
+            }
+        }
+    }
+
+    /// The arguments of a call that has too few, where some of them are more than one value each and all
+    /// together are as many as is `wanted`; empty where they are not.
+    pub(super) fn spread(
+        &mut self,
+        here: &Here,
+        list: &[Argument],
+        wanted: RangeInclusive<usize>,
+    ) -> Outcome<Spread> {
+        let (mut spread, mut count) = (Spread::new(), list.len());
+        for (place, argument) in list.iter().enumerate() {
+            let Argument::Expression(id) = *argument else { continue };
+            let values = match self.left_by_macro(here, id) {
+                Some(values) => values?,
+                None => match self.object_and_value(here, id)? {
+                    Some(both) => both.into(),
+                    None => continue,
+                },
+            };
+            count += values.len() - 1;
+            spread.push((place, values));
+        }
+        if !wanted.contains(&count) {
+            spread.clear();
+        }
+        Ok(spread)
+    }
+
+    /// An object and a signed value without a comma between them: POV-Ray reads `Align(Ball() -y, 0)` so.
+    fn object_and_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Option<[Value; 2]>> {
+        let ExpressionKind::Binary(
+            sign @ (BinaryOperator::Add | BinaryOperator::Subtract),
+            first,
+            second,
+        ) = here.unit.expression(id).kind
+        else {
+            return Ok(None);
+        };
+        let ExpressionKind::Call(Callee::Name(..), _) = here.unit.expression(first).kind else {
+            return Ok(None);
+        };
+        let first = self.expression(here, first)?;
+        let (Value::Object(_) | Value::Poison(_)) = first else { return Ok(None) };
+        let second = self.expression(here, second)?;
+        let second = match (sign, &second) {
+            (BinaryOperator::Subtract, Value::Number(number)) => Value::Number(-number),
+            (BinaryOperator::Subtract, Value::Vector(vector)) => {
+                let negated: Vec<f64> = vector.as_slice().iter().map(|c| -c).collect();
+                Components::new(&negated).map_or(Value::Broken, Value::Vector)
+            }
+            _ => second,
+        };
+        Ok(Some([first, second]))
+    }
+
+    /// Something stands behind the one value that was expected.
+    pub(super) fn more_than_one(&mut self, extra: &Token) -> Reported {
+        let diagnostic =
+            Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
+                .at(extra.span, "this is more than one value");
+        let diagnostic = match self.is_index(extra.span) {
+            true => diagnostic.help("each index has brackets of its own: `A[I][J]`"),
+            false => diagnostic,
+        };
+        self.report(&extra.here, diagnostic)
+    }
+
+    /// `A[I, J]`: whether what stands there is behind a comma in the brackets of an index.
+    fn is_index(&self, comma: Span) -> bool {
+        let text = &self.sources.get(comma.file).text;
+        let before = text.get(..comma.start as usize).unwrap_or("");
+        let opener = before.rfind(['[', ']', ';', '{', '}']);
+        let named = |at: usize| {
+            before[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == ']')
+        };
+        self.sources.text(comma) == ","
+            && opener.is_some_and(|at| before[at..].starts_with('[') && named(at))
+    }
+}
