@@ -121,7 +121,11 @@ impl Evaluator<'_> {
     pub(super) fn run_arguments(&mut self, here: &Here, arguments: Arguments) {
         for argument in here.unit.ast.arguments(arguments) {
             match *argument {
-                Argument::Expression(id) => drop(self.expression(here, id)),
+                Argument::Expression(id) => {
+                    if self.left_by_macro(here, id).is_none() {
+                        drop(self.expression(here, id));
+                    }
+                }
                 Argument::Items(items) => self.inside(here, items, Self::run_items),
             }
         }

@@ -6,12 +6,15 @@
 
 mod ends;
 
+use std::cell::Cell;
+
 use smallvec::SmallVec;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
 use super::cylinder::{BASE, CAP, between};
+use super::mesh::pierce::beside;
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 use ends::{after, before, entered, high, low, reversed};
@@ -59,6 +62,8 @@ impl Wall {
 struct Ruled<'a> {
     ray: &'a LocalRay<'a>,
     conic: bool,
+    /// The line has been found to lie in a wall, as far as rounding tells.
+    in_wall: Cell<bool>,
 }
 
 impl Ruled<'_> {
@@ -137,13 +142,20 @@ impl Side for Ruled<'_> {
     }
 
     fn of_all(&self, piece: &Piece) -> Option<bool> {
-        let told = |outside: bool| {
-            piece.points().iter().all(|point| {
-                let (value, error) = self.value(*point);
-                if outside { value > error } else { value < -error }
-            })
-        };
-        [true, false].into_iter().find(|outside| told(*outside))
+        let (mut outside, mut inside, mut on) = (true, true, piece.is_straight());
+        for point in piece.points() {
+            let (value, error) = self.value(*point);
+            outside &= value > error;
+            inside &= value < -error;
+            on &= value.abs() <= error;
+            if !(outside || inside || on) {
+                return None;
+            }
+        }
+        if on {
+            self.in_wall.set(true);
+        }
+        (outside || inside).then_some(outside)
     }
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
@@ -169,20 +181,20 @@ impl Ruled<'_> {
 const STEEP: f64 = 1.0 / 1024.0;
 
 impl Prism {
-    /// Parts of the line between walls, in order.
-    fn spans(&self, ray: &LocalRay) -> Spans {
+    /// Parts of the line between walls, in order; and whether it lies in a wall, as far as rounding tells.
+    fn spans(&self, ray: &LocalRay) -> (Spans, bool) {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
         if !self.conic
             && tilt < STEEP
-            && let Some(inside) = self.upright(ray, tilt)
+            && let Some(upright) = self.upright(ray, tilt)
         {
-            return inside;
+            return upright;
         }
         let apex_off = ray.blur_at(2.0) + 32.0 * U;
         if self.conic && ray.nearest.length() <= 16.0 * apex_off {
-            return self.through_apex(ray, apex_off);
+            return (self.through_apex(ray, apex_off), false);
         }
-        let ruled = Ruled { ray, conic: self.conic };
+        let ruled = Ruled { ray, conic: self.conic, in_wall: Cell::new(false) };
         let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
         // Straight walls are met where a step takes one; others are iterated.
         let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
@@ -194,7 +206,7 @@ impl Prism {
         let mut spans = Spans::new();
         if !self.conic {
             pair(&walls, &mut spans);
-            return spans;
+            return (spans, ruled.in_wall.get());
         }
         // The body is in two parts, one to each side of the origin's plane; in it nothing is.
         let speed = ray.direction.z;
@@ -212,7 +224,7 @@ impl Prism {
             }
             pair(&walls, &mut spans);
         }
-        spans
+        (spans, ruled.in_wall.get())
     }
 
     /// The normal of a wall, by that of its outline.
@@ -222,7 +234,7 @@ impl Prism {
 
     /// Of a line that goes nearly straight up, where all of it between the ends is on one side of the walls;
     /// or, as far as rounding tells, goes straight up: then what cannot be told is outside.
-    fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<Spans> {
+    fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<(Spans, bool)> {
         let error = ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U;
         let told = self.outline.is_inside([ray.nearest.x, ray.nearest.y], error);
         let inside = if tilt <= 2.0 * ray.turn { told.unwrap_or(false) } else { told? };
@@ -230,7 +242,7 @@ impl Prism {
         if inside {
             pair(&[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)], &mut spans);
         }
-        Some(spans)
+        Some((spans, told.is_none()))
     }
 
     /// Of a line through the origin, as good as: it comes from inside and goes on inside, or never is.
@@ -311,8 +323,24 @@ impl Local for Prism {
             _ => met,
         };
         let mut before: Option<f64> = None;
-        for walls in self.spans(ray) {
-            let Some([enter, leave]) = self.cut(ray, [first, last], walls) else { continue };
+        let (mut spans, is_in_wall) = self.spans(ray);
+        let mut line = *ray;
+        if is_in_wall && ray.in_world.is_some() {
+            // Of two that share the wall, the one on whose side the line is taken to be has it.
+            line = LocalRay { blur: ray.blur, ..beside(ray, self.reach()) };
+            (spans, _) = self.spans(&line);
+        }
+        let off = (line.nearest - ray.nearest).length();
+        let moved = |met: Met| {
+            if off == 0.0 || !met.t.is_finite() {
+                return met;
+            }
+            let slope = self.height(met.part, ray.at(met.t)).gradient.dot(ray.direction).abs();
+            Met { error: met.error + 2.0 * off / slope, ..met }
+        };
+        for walls in spans {
+            let Some([enter, leave]) = self.cut(&line, [first, last], walls) else { continue };
+            let [enter, leave] = [enter, leave].map(moved);
             // What is not told from a part before is one with it.
             if before.is_some_and(|end| enter.t <= end) {
                 found.pop();

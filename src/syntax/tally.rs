@@ -96,7 +96,7 @@ mod tests {
         let told = told("sphere { 0, 1 } } sphere { 0, 1 } }}");
         assert_eq!(told.len(), 2);
         assert_eq!(told[0].help, ["leave it out"]);
-        assert_eq!(told[1].help, ["leave it out", "and 1 more like it"]);
+        assert_eq!(told[1].help, ["and 1 more like it", "leave it out"]);
     }
 
     #[test]
