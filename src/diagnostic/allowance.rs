@@ -79,9 +79,13 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
         };
         let start = at + word.len() + (rest.len() - list.len());
         let line_end = text[at..].find('\n').map_or(text.len(), |end| at + end);
-        let reach = match code.trim().is_empty() {
-            true => line_end..end_of_item(text, line_end),
-            false => line..line_end,
+        // `/* lucarne: allow(no-pigment) */ sphere { … }`
+        let closed = text[at..line_end].find("*/").map(|end| at + end + "*/".len());
+        let before_code = closed.filter(|end| !text[*end..line_end].trim().is_empty());
+        let reach = match (code.trim().is_empty(), before_code) {
+            (true, Some(end)) => end..end_of_item(text, end),
+            (true, None) => line_end..end_of_item(text, line_end),
+            (false, _) => line..line_end,
         };
         let mut place = start;
         for name in list[..end].split(',') {

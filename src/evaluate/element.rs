@@ -12,7 +12,7 @@ use super::report::count;
 use super::scope::Slot;
 use super::stream::FrameKind;
 use super::value::Value;
-use super::{Evaluator, Here, Outcome, Reported};
+use super::{Evaluator, Here, Outcome, Reported, Symbol};
 
 impl Evaluator<'_> {
     /// `a[i][j]` as a value.
@@ -94,9 +94,35 @@ impl Evaluator<'_> {
         indices: Outcome<Indices>,
         value: Outcome<Value>,
     ) -> Outcome<()> {
-        let symbol = here.symbol(target.name);
+        let place = (here.symbol(target.name), target.span);
+        self.assign_at(here, place, (&target.indices, indices), value)
+    }
+
+    /// Sets what an expression `A[i]` stands for.
+    pub(super) fn assign_indexed(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        value: Value,
+    ) -> Outcome<()> {
+        let (base, indices) = chain(here, id);
+        let base = here.unit.expression(base);
+        let ExpressionKind::Name(name) = base.kind else {
+            return Err(self.wrong_type(here, base.span, "a declared array", &value));
+        };
+        let numbers = self.indices(here, &indices, true);
+        self.assign_at(here, (here.symbol(name), base.span), (&indices, numbers), Ok(value))
+    }
+
+    fn assign_at(
+        &mut self,
+        here: &Here,
+        (symbol, span): (Symbol, Span),
+        (written, indices): (&[ExpressionId], Outcome<Indices>),
+        value: Outcome<Value>,
+    ) -> Outcome<()> {
         let numbers = match (indices?, self.scopes.read(symbol)) {
-            (_, None) => return Err(self.undeclared(here, symbol, target.span)),
+            (_, None) => return Err(self.undeclared(here, symbol, span)),
             // What is set in something that is not built, or that was reported, is lost.
             (Indices::Poison(_), _) | (_, Some(Value::Poison(_) | Value::Broken)) => return Ok(()),
             (Indices::Numbers(numbers), Some(_)) => numbers,
@@ -110,8 +136,8 @@ impl Evaluator<'_> {
         self.scopes.overwrite(symbol, held);
         match outcome {
             Ok(Ok(())) => Ok(()),
-            Ok(Err(kinds)) => Err(self.other_kind(here, kinds, target.span)),
-            Err(error) => Err(self.no_element(here, error, &target.indices, target.span)),
+            Ok(Err(kinds)) => Err(self.other_kind(here, kinds, span)),
+            Err(error) => Err(self.no_element(here, error, written, span)),
         }
     }
 

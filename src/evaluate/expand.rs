@@ -32,17 +32,17 @@ pub(super) struct Macro {
     pub parameters: Vec<(Symbol, bool)>,
     /// How many of them, from the first, no call leaves out.
     required: usize,
-    body: MacroBody,
-    unit: Rc<Unit>,
+    pub body: MacroBody,
+    pub unit: Rc<Unit>,
     /// Its name, where it is defined.
     pub defined: Span,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum MacroBody {
+pub(super) enum MacroBody {
     Items(Items),
     /// Its parentheses do not pair where they are written.
-    Raw,
+    Raw(Span),
 }
 
 impl Macro {
@@ -50,7 +50,7 @@ impl Macro {
     pub fn parts(&self) -> Option<(&Rc<Unit>, Items)> {
         match self.body {
             MacroBody::Items(body) => Some((&self.unit, body)),
-            MacroBody::Raw => None,
+            MacroBody::Raw(_) => None,
         }
     }
 
@@ -110,7 +110,7 @@ impl Evaluator<'_> {
             required,
             body: match body {
                 Body::Items(items) => MacroBody::Items(*items),
-                Body::Raw(_) => MacroBody::Raw,
+                Body::Raw(span) => MacroBody::Raw(*span),
             },
             unit: here.unit.clone(),
             defined: name_span,
@@ -140,11 +140,21 @@ impl Evaluator<'_> {
         };
         let span = here.unit.expression(id).span;
         let definition = self.macros[macro_id.0 as usize].clone();
-        // Its value is what it lacks.
-        let MacroBody::Items(body) = definition.body else { return Ok(false) };
+        if !self.has_a_way(&definition) {
+            // Its value is what it lacks.
+            return Ok(false);
+        }
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
-        self.push_macro(&definition.unit, expansion, body);
-        Ok(true)
+        match self.body_of(&definition, expansion) {
+            Ok((unit, body)) => {
+                self.push_macro(&unit, expansion, body);
+                Ok(true)
+            }
+            Err(reported) => {
+                self.scopes.close();
+                Err(reported)
+            }
+        }
     }
 
     /// Whether a frame walks the body of a macro that was called for its value.
@@ -154,7 +164,7 @@ impl Evaluator<'_> {
             MacroBody::Items(body) => {
                 body.end == frame.end && Rc::ptr_eq(&definition.unit, &frame.here.unit)
             }
-            MacroBody::Raw => false,
+            MacroBody::Raw(_) => self.is_body_on_a_way(frame),
         })
     }
 
@@ -181,16 +191,19 @@ impl Evaluator<'_> {
         reader: impl FnOnce(&mut Self) -> Outcome<T>,
     ) -> Option<Outcome<T>> {
         let definition = self.macros[id.0 as usize].clone();
-        let MacroBody::Items(body) = definition.body else { return None };
+        if !self.has_a_way(&definition) {
+            return None;
+        }
         let expansion = match self.enter_macro(here, &definition, arguments, span) {
             Ok(expansion) => expansion,
             Err(reported) => return Some(Err(reported)),
         };
         self.macro_depth += 1;
-        let inner = Here { unit: definition.unit.clone(), expansion };
-        let value = self.inside(&inner, body, |evaluator| match evaluator.peek() {
-            None => Err(evaluator.leaves_no_value(expansion, "a value")),
-            Some(_) => reader(evaluator),
+        let value = self.body_of(&definition, expansion).and_then(|(unit, body)| {
+            self.inside(&Here { unit, expansion }, body, |evaluator| match evaluator.peek() {
+                None => Err(evaluator.leaves_no_value(expansion, "a value")),
+                Some(_) => reader(evaluator),
+            })
         });
         self.macro_depth -= 1;
         self.scopes.close();

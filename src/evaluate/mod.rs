@@ -40,6 +40,7 @@ mod turn;
 mod undeclared;
 pub mod value;
 mod vector;
+mod way;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -242,6 +243,7 @@ struct Evaluator<'a> {
     faults: u64,
     /// What messages were made of, by their places.
     remembered: Remembered,
+    read: way::Read,
     /// The words that opened the blocks being read, outermost first.
     openers: Vec<Span>,
     /// What a block lacks, to be told unless it stands too late in it.
@@ -357,6 +359,7 @@ impl<'a> Evaluator<'a> {
             reports: 0,
             faults: 0,
             remembered: Remembered::default(),
+            read: way::Read::default(),
             openers: Vec::new(),
             owed: None,
             blocks: Vec::new(),

@@ -117,6 +117,11 @@ impl Evaluator<'_> {
             self.scopes.overwrite(symbol, Value::vector3(normal));
             return Ok(());
         }
+        if let Argument::Expression(id) = *argument
+            && let ExpressionKind::Index(..) = here.unit.expression(id).kind
+        {
+            return self.assign_indexed(here, id, Value::vector3(normal));
+        }
         let diagnostic = Diagnostic::new(
             Code::WrongType,
             "the fourth argument of `trace` receives the normal, and must be a name",

@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word, standard_include_of};
+use crate::vocabulary::{Family, Role, Word, is_standard_source, standard_include_of};
 
 use super::expand::Macro;
 use super::stream::{Token, TokenKind};
@@ -263,6 +263,9 @@ impl Evaluator<'_> {
         let has =
             |declared: &&Rc<Macro>| declared.parameters.iter().any(|&(name, _)| name == symbol);
         let found = self.macros.iter().rev().find(has)?;
+        if is_standard_source(&self.sources.get(found.defined.file).name) {
+            return None;
+        }
         let owner = self.sources.text(found.defined).to_owned();
         Some((owner, found.defined))
     }

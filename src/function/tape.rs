@@ -152,7 +152,7 @@ impl<N: Number> Run<'_, N> {
         let undefined = N::constant(f64::NAN);
         let (mut counter, last) = (self.read(repeat.from), self.read(repeat.last));
         let mut total = N::constant(if repeat.operation == Binary::Add { 0.0 } else { 1.0 });
-        for _ in 0..MOST_TURNS {
+        for _ in 0..=MOST_TURNS {
             let counts = match N::turn(counter, last) {
                 Turn::Again(counts) => counts,
                 Turn::Done => return total,

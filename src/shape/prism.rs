@@ -5,6 +5,7 @@
 //! is a polynomial of the outline's own degree, so the ray meets the walls where the outline changes sides.
 
 mod ends;
+mod wall;
 
 use std::cell::Cell;
 
@@ -14,10 +15,10 @@ use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
 use super::cylinder::{BASE, CAP, between};
-use super::mesh::pierce::beside;
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 use ends::{after, before, entered, high, low, reversed};
+use wall::beside;
 
 /// The part of the first piece's outside; one more is that side seen from within, and so on.
 const WALLS: u32 = 3;
@@ -327,7 +328,7 @@ impl Local for Prism {
         let mut line = *ray;
         if is_in_wall && ray.in_world.is_some() {
             // Of two that share the wall, the one on whose side the line is taken to be has it.
-            line = LocalRay { blur: ray.blur, ..beside(ray, self.reach()) };
+            line = beside(ray, self.conic);
             (spans, _) = self.spans(&line);
         }
         let off = (line.nearest - ray.nearest).length();

@@ -37,11 +37,13 @@ mod spelling;
 mod tally;
 mod target;
 mod token;
+mod way;
 
 pub use self::dump::dump;
 pub use self::format::{Unformatted, format};
 pub use self::legacy::legacy;
 pub use self::print::print;
+pub use self::way::{Ways, alone};
 
 use self::ast::Ast;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};

@@ -72,7 +72,12 @@ pub(super) fn correct_heads(
                 .at(span, "unknown word after `#`");
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
         let near = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()));
-        if let Some(near) = near.filter(|near| fits(Head::from_word(near), next)) {
+        // `#foo bar` is no `#for`.
+        let fits = |near: &&str| {
+            let head = Head::from_word(near);
+            fits(head, next) && (head != Head::For || foreign.is_some() || opens(next))
+        };
+        if let Some(near) = near.filter(fits) {
             let start = span.end - word.len() as u32;
             diagnostic = diagnostic
                 .help(format!("did you mean `#{near}`?"))
@@ -98,6 +103,10 @@ fn reads_as_comment(text: &str, head: Span) -> bool {
     let prose = word.starts_with([' ', '\t']) && word.trim_start().starts_with(char::is_uppercase);
     let line = text.get(head.end as usize..).and_then(|rest| rest.split(['\n', '\r']).next());
     prose && line.is_some_and(|line| !line.contains(['=', '(', '"', '{']))
+}
+
+fn opens(next: Option<TokenKind>) -> bool {
+    next == Some(TokenKind::Mark(Mark::Open(Bracket::Round)))
 }
 
 /// Whether what follows can be a condition, where a directive has one.

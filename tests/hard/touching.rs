@@ -84,7 +84,7 @@ fn no_ray_slips_through_between_two_solids_that_touch() {
             for group in ["union", "merge"] {
                 let things = format!("{group} {{ {below} }} {above} }} {PAINT} {map} }}");
                 let [middle, next] = rows(&things, map);
-                assert!(middle == next, "{things}");
+                assert!(middle == next, "{things}\n{middle:?}\n{next:?}");
             }
             let things = format!("{below} {PAINT} {map} }} {above} {PAINT} {map} }}");
             let [middle, next] = rows(&things, map);

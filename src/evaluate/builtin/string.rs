@@ -87,6 +87,9 @@ fn piece(a: &Arguments) -> Result<String, CallError> {
     let text = a.string(0)?;
     let (start, length) = (a.number(1)?.trunc(), a.number(2)?.trunc());
     let outside = |i, message: String| Err(a.error(CallErrorKind::OutOfRange, Some(i), message));
+    if length == 0.0 && (0.0..=text.chars().count() as f64 + 1.0).contains(&start) {
+        return Ok(String::new());
+    }
     if start < 1.0 {
         return outside(1, format!("counts characters from 1, not from {}", Written(start)));
     }
@@ -257,6 +260,7 @@ mod tests {
         };
         let error = |message: &str| Err(format!("`substr` {message}"));
         assert_eq!(substr(10.0, 0.0), Ok(String::new()));
+        assert_eq!(substr(0.0, 0.0), Ok(String::new()));
         assert_eq!(substr(8.0, 3.0), error("reaches to character 10, and the string has 9"));
         assert_eq!(substr(0.0, 2.0), error("counts characters from 1, not from 0"));
         assert_eq!(substr(1.0, -1.0), error("takes a length of at least 0, not -1"));

@@ -92,7 +92,10 @@ impl Evaluator<'_> {
         };
         let help = matches!(value, Value::Color(_)).then(|| {
             let text = self.sources.text(span);
-            format!("write its parts: `<{text}.red, {text}.green, {text}.blue>`")
+            match text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && text != "rgb" {
+                true => format!("write its parts: `<{text}.red, {text}.green, {text}.blue>`"),
+                false => "a vector of its parts has no `rgb` before it".to_owned(),
+            }
         });
         Err(self.wrong_type_with(here, span, wanted, value, help))
     }

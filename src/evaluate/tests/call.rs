@@ -42,7 +42,7 @@ fn a_macro_leaves_as_many_entries_of_a_list_as_it_has_values_between_commas() {
         ("P(Mix(3, Two()))", "213.000"),
         ("P(F(Two()))", "201.000"),
         ("P(Mix(Two(), Two()))", "macro `Mix` takes 3 arguments, and is given 2"),
-        ("P(sin(Two()))", "`sin` takes 1 argument, and is given 2"),
+        ("P(sin(Two()))", "`sin` takes one argument, and is given 2"),
         ("P(F(Two(), 3))", "`F` takes 2 arguments, and is given 3"),
     ] {
         assert_eq!(printed(&format!("{macros} {call}")), answer, "{call}");

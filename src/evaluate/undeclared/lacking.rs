@@ -35,6 +35,10 @@ impl Evaluator<'_> {
         }
         // Of all names of the includes too many are close to a short one: only those of colours are.
         let near = suggest::closest(name, standard_names(COLORS))?;
+        let begins = near.get(..name.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(name));
+        if name.len() < 4 && !begins {
+            return None;
+        }
         (!suggest::are_of_a_series(name, near) && !self.has_read(COLORS))
             .then(|| (near, COLORS.to_owned()))
     }
