@@ -102,15 +102,29 @@ impl Algebraic {
     }
 }
 
+/// The same line, from another place of it on.
+#[cold]
+fn about<'a>(ray: &LocalRay<'a>, s: f64) -> LocalRay<'a> {
+    let nearest = ray.at(s);
+    let blur = ray.blur_at(s) + 2.0 * U * (nearest.length() + s.abs());
+    LocalRay { nearest, blur, ..*ray }
+}
+
 impl Local for Algebraic {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let size = ray.nearest.length().max(1.0);
-        let roots = self.along_ray(ray).roots(size, ray.tolerance);
-        found.extend(roots.into_iter().map(|root| Met {
-            t: root.s,
-            error: root.error,
-            leaving: root.rising,
-            part: 0,
+        let (mut line, mut start) = (*ray, 0.0);
+        let mut polynomial = self.along_ray(ray);
+        if let Some(vertex) = polynomial.doubtful_vertex() {
+            // Of planes that are close together, or of a flat ellipsoid, the terms are small between its sides.
+            line = about(ray, vertex);
+            (polynomial, start) = (self.along_ray(&line), vertex);
+        }
+        let size = line.nearest.length().max(1.0);
+        let roots = polynomial.roots(size, ray.tolerance);
+        found.extend(roots.into_iter().map(|root| {
+            let t = start + root.s;
+            let error = root.error + if start == 0.0 { 0.0 } else { U * t.abs() };
+            Met { t, error, leaving: root.rising, part: 0 }
         }));
     }
 

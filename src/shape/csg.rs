@@ -48,6 +48,13 @@ pub struct Event {
     pub shared: bool,
 }
 
+impl Event {
+    /// Whether its leaf has been crossed at a place that starts so, or behind it.
+    fn crosses_again_since(&self, start: &Self) -> bool {
+        self.last.is_some_and(|last| (last, self.leaf) >= (start.met.t, start.leaf))
+    }
+}
+
 /// Events in order.
 pub type Events = SmallVec<[Event; 16]>;
 
@@ -141,7 +148,10 @@ impl Tree {
         let mut kept = 0;
         let mut first = 0;
         while first < events.len() {
-            let end = end_of_place(events, first);
+            let mut end = end_of_place(events, first);
+            if events.get(end).is_some_and(|next| next.crosses_again_since(&events[first])) {
+                end = gather_place(events, first, end);
+            }
             if let Some(shown) = self.pass(&mut counts, events, first..end, &mut changes) {
                 events[kept] = Event { shared: end - first > 1, ..events[shown] };
                 kept += 1;
@@ -334,12 +344,39 @@ fn end_of_place(events: &[Event], first: usize) -> usize {
     let mut end = first + 1;
     while let Some(next) = events.get(end) {
         let apart = next.met.t - next.met.error > limit;
-        let again = next.last.is_some_and(|last| (last, next.leaf) >= (start.met.t, start.leaf));
-        if apart || again {
+        if apart || next.crosses_again_since(start) {
             break;
         }
         limit = limit.max(next.met.t + next.met.error);
         end += 1;
+    }
+    end
+}
+
+/// Puts behind a place what crosses a leaf of it again, and into it what else cannot be told from it: so of two
+/// boxes that share an edge, which a line grazes, both are entered before either is left. Its new end.
+#[cold]
+fn gather_place(events: &mut [Event], first: usize, mut end: usize) -> usize {
+    let start = events[first];
+    let limit = |event: &Event| event.met.t + event.met.error;
+    let mut most = events[first..end].iter().map(limit).fold(f64::NEG_INFINITY, f64::max);
+    let mut at = end;
+    while let Some(&next) = events.get(at)
+        && next.met.t - next.met.error <= most
+    {
+        if !next.crosses_again_since(&start) {
+            most = most.max(limit(&next));
+            events[end..=at].rotate_right(1);
+            end += 1;
+        }
+        at += 1;
+    }
+    // What is crossed again behind the place is crossed for the first time since then.
+    for leaf in first..end {
+        let leaf = events[leaf].leaf;
+        if let Some(again) = events[end..at].iter_mut().find(|event| event.leaf == leaf) {
+            again.last = None;
+        }
     }
     end
 }

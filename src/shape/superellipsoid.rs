@@ -20,6 +20,9 @@ const AROUND: f64 = 1.25;
 /// A greater gauge is as good as this.
 const MOST: f64 = 1e100;
 
+/// From this part on, the two sides of a plate that is too thin to be told from its plane, axis by axis.
+const PLATES: u32 = 1;
+
 /// Exponents that its equation does not name but its slope takes: p − 1, q − 1 and q − p.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Slopes {
@@ -219,6 +222,38 @@ impl Superellipsoid {
                 walk.through((from, to), value, slope, &mut note);
             }
         }
+        self.plates(ray, found);
+    }
+
+    /// Where the exponents are great, the body is a plate in the plane of two axes, so thin that of no number beside
+    /// 0 the third coordinate is in it; a line that passes the plane there passes it all the same.
+    fn plates(&self, ray: &LocalRay, found: &mut Crossings) {
+        let walked = found.len();
+        for axis in 0..3 {
+            let s = -ray.nearest[axis] / ray.direction[axis];
+            let blur = ray.blur_at(s) + 4.0 * U * (1.0 + s.abs());
+            if !s.is_finite() {
+                continue;
+            }
+            let mut place = ray.at(s).abs() + blur;
+            place[axis] = 0.0;
+            let is_in = self.gauge(place).value * (1.0 + self.rounding()) < 1.0;
+            let error = blur / ray.direction[axis].abs();
+            let (walked, _) = found.split_at(walked);
+            let is_met = walked.iter().any(|met| (met.t - s).abs() <= met.error + error);
+            let before = walked.iter().rev().find(|met| met.t <= s);
+            if !is_in || is_met || before.is_some_and(|met| !met.leaving) {
+                continue;
+            }
+            // The side that the line comes from, and the other.
+            let side = 2 * axis as u32 + u32::from(ray.direction[axis] < 0.0);
+            found.push(Met { t: s, error, leaving: false, part: PLATES + side });
+            found.push(Met { t: s, error, leaving: true, part: PLATES + (side ^ 1) });
+        }
+        if found.len() > walked {
+            // Stable: what is entered and left in one place is entered first.
+            found.sort_by(|a, b| a.t.total_cmp(&b.t));
+        }
     }
 }
 
@@ -234,7 +269,16 @@ impl Local for Superellipsoid {
         found.extend([met(enter, false), met(leave, true)]);
     }
 
-    fn height(&self, _: u32, point: Vector) -> Height {
+    fn height(&self, part: u32, point: Vector) -> Height {
+        if let Some(side) = part.checked_sub(PLATES) {
+            let axis = (side / 2) as usize;
+            let sign = if side % 2 == 0 { -1.0 } else { 1.0 };
+            return Height {
+                value: sign * point[axis],
+                gradient: Vector::AXES[axis] * sign,
+                error: U * point.length(),
+            };
+        }
         let (value, gradient, _) = self.at(point);
         Height { value: value - 1.0, gradient, error: self.rounding() * value }
     }

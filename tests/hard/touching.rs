@@ -166,3 +166,35 @@ fn no_ray_slips_through_between_a_mesh_and_another_solid_that_touch() {
         }
     }
 }
+
+#[test]
+fn rays_through_an_edge_see_nothing_of_what_is_taken_away_there_or_only_touches() {
+    const CUBE: &str = "mesh2 { vertex_vectors { 8, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>, <1, 1, 0>, \
+         <0, 0, 1>, <1, 0, 1>, <0, 1, 1>, <1, 1, 1> } face_indices { 12, <0, 1, 2>, <1, 2, 3>, \
+         <4, 5, 6>, <5, 6, 7>, <0, 1, 4>, <1, 4, 5>, <2, 3, 6>, <3, 6, 7>, <0, 2, 4>, <2, 4, 6>, \
+         <1, 3, 5>, <3, 5, 7> } inside_vector <0.1, 0.9, 0.3> }";
+    const CAMERA: &str = "camera { location <2, 3, -6> look_at 0 angle 35 right x*4/3 }";
+    for thing in [
+        "difference { box { 0, 1 } box { 0, 1 }",
+        "difference { box { 0, 0.3 } box { 0, 0.1 + 0.2 }",
+        "difference { box { 0, 0.3 } box { 0, 0.4 }",
+        "difference { box { 0, 0.3 } prism { 0, 0.3, 4, <0, 0>, <0.3, 0>, <0.3, 0.3>, <0, 0.3> }",
+        "difference { box { 0, 0.3 } plane { -z, 0 }",
+        "intersection { box { 0, 0.3 } box { -1, <1, 1, 0> }",
+        "intersection { box { 0, 1 } box { <0, -1, -1>, <1, 0, 0> }",
+        "difference { CUBE box { 0, 1 }",
+        "difference { box { 0, 1 } CUBE",
+        "difference { box { 0, 1 } lathe { linear_spline 4, <0, 0>, <2, 0>, <2, 1>, <0, 1> }",
+        "difference { prism { 0, 1, 4, <0, 0>, <1, 0>, <1, 1>, <0, 1> } box { 0, 1 }",
+    ] {
+        let thing = thing.replace("CUBE", CUBE);
+        let film = rendered(
+            &format!(
+                "#version 3.7; {CAMERA} {thing} pigment {{ rgb 1 }} finish {{ emission 1 }} }}"
+            ),
+            (320, 240),
+        );
+        let lit = film.radiance.iter().filter(|radiance| radiance.red > 0.0).count();
+        assert_eq!(lit, 0, "{thing}");
+    }
+}

@@ -60,6 +60,17 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
+    /// Where a parabola turns, if rounding does not tell whether it reaches 0 there.
+    pub fn doubtful_vertex(&self) -> Option<f64> {
+        let ([c, b, a, ..], [slack_c, slack_b, slack_a, ..]) = (&self.values, &self.slack);
+        if self.degree != 2 || a.abs() <= 4.0 * slack_a {
+            return None;
+        }
+        let s = -0.5 * b / a;
+        let slack = (slack_a * s.abs() + slack_b) * s.abs() + slack_c;
+        (((a * s + b) * s + c).abs() <= slack).then_some(s)
+    }
+
     /// `errors` holds how far each of `values` may be off.
     pub fn new(values: Coefficients, errors: Coefficients) -> Self {
         let known = |k: &usize| values[*k] != 0.0 || errors[*k] != 0.0;

@@ -286,3 +286,16 @@ fn a_hundred_thousand_levels_are_gone_through() {
         assert_eq!(events.len(), expected, "{leaf}");
     }
 }
+
+#[test]
+fn of_solids_that_a_line_grazes_where_they_coincide_nothing_is_left() {
+    // The second is crossed within the error of the first's two crossings.
+    for b in [(0.0, 1e-5), (5e-6, 2.0), (2e-5, 3e-5), (-1.0, 2.0)] {
+        assert_eq!(of_two(&DIFFERENCE, 1e-5, b), [], "{b:?}");
+    }
+    assert_eq!(of_two(&INTERSECTION, 1e-5, (-1.0, 5e-6)), []);
+    // Alone, and beside what only touches it, it is there.
+    for b in [(1.0, 2.0), (-1.0, 0.0)] {
+        assert_eq!(of_two(&DIFFERENCE, 1e-5, b)[..2], [(A, 0.0), (A, 1e-5)], "{b:?}");
+    }
+}
