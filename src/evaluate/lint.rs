@@ -116,6 +116,12 @@ impl Evaluator<'_> {
                         .at(site.span, label)
                         .help(format!("place it with `{} {{ {name} }}`", word.name()))
                 }
+                Some(Value::Camera(_)) => Diagnostic::new(
+                    Code::UnusedDeclaration,
+                    format!("`{name}` is a camera that is declared and never used"),
+                )
+                .at(site.span, "the scene is not seen by it")
+                .help(format!("use it with `camera {{ {name} }}`")),
                 Some(_) => Diagnostic::new(
                     Code::UnusedDeclaration,
                     format!("`{name}` is declared and never used"),

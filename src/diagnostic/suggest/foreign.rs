@@ -72,6 +72,12 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("fuse", "union"),
     ("cut", "difference"),
     ("carve", "difference"),
+    // other languages
+    ("couleur", "color"),
+    ("farbe", "color"),
+    ("colore", "color"),
+    ("kugel", "sphere"),
+    ("sphère", "sphere"),
     // settings
     ("max_bounces", "max_trace_level"),
     ("bounces", "max_trace_level"),

@@ -20,6 +20,10 @@ impl Evaluator<'_> {
         let (mut failed, mut count) = (false, 0);
         loop {
             self.skip_commas();
+            if self.passes_no_part(Place::shape(Word::Blob), &[Word::Sphere, Word::Cylinder]) {
+                failed = true;
+                continue;
+            }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
             let read: fn(&mut Self, &Token, Word, &mut Blob) -> Outcome<()> = match word {

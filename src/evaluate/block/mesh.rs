@@ -130,6 +130,12 @@ impl Evaluator<'_> {
         let mut failed = false;
         loop {
             self.skip_commas();
+            if self
+                .passes_no_part(Place::shape(Word::Mesh), &[Word::Triangle, Word::SmoothTriangle])
+            {
+                failed = true;
+                continue;
+            }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
             let outcome = match word {

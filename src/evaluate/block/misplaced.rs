@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::vocabulary::{Family, Role, Word};
 
-use super::super::stream::Token;
+use super::super::stream::{Token, TokenKind};
 use super::super::value::Poison;
 use super::super::{Evaluator, Reported};
 use super::Place;
@@ -12,6 +12,22 @@ use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
 impl Evaluator<'_> {
+    /// Tells of what stands among the parts of a blob or a mesh and is none: a name that nothing has, or another
+    /// shape. What follows are its parts as before.
+    pub(super) fn passes_no_part(&mut self, place: Place, parts: &[Word]) -> bool {
+        let is_other = match self.peek().map(|next| &next.kind) {
+            Some(TokenKind::Word(word)) => word.family() == Family::Shape && !parts.contains(word),
+            _ => self.peeks_unknown_name(),
+        };
+        if !is_other {
+            return false;
+        }
+        if let Some(token) = self.next() {
+            self.unexpected(&token, place);
+        }
+        true
+    }
+
     pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
         if let Some(today) = word.today() {
             self.old_word(token, word, today);

@@ -309,7 +309,7 @@ impl Evaluator<'_> {
     }
 
     /// Whether a name comes next that was never declared.
-    fn peeks_unknown_name(&mut self) -> bool {
+    pub(super) fn peeks_unknown_name(&mut self) -> bool {
         let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else {
             return false;
         };

@@ -63,6 +63,9 @@ enum Wanted {
     First(f64, f64),
 }
 
+/// As steep as this, over the size of the container, a function may have a pole.
+const STEEPEST: f64 = 1e9;
+
 impl Isosurface {
     fn world(&self, point: Vector) -> Vector {
         self.centre + point * self.scale
@@ -94,7 +97,9 @@ impl Isosurface {
     /// What the function rises by within `step` to both sides.
     fn differences(&self, point: Vector, step: f64) -> Vector {
         let along = |axis: Vector| {
-            (self.value(point + axis * step) - self.value(point - axis * step)) / (2.0 * step)
+            let rise = self.value(point + axis * step) - self.value(point - axis * step);
+            // Within a jump's plane there may be no values.
+            if rise.is_nan() { 0.0 } else { rise / (2.0 * step) }
         };
         Vector::new(along(Vector::X), along(Vector::Y), along(Vector::Z))
     }
@@ -224,7 +229,13 @@ impl Local for Isosurface {
         let gradient = Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high)));
         let width = Vector::from_array(slopes.map(|slope| slope.high - slope.low)).length();
         let steepness = gradient.length();
-        let is_known = value.is_finite() && width <= 1e-3 * steepness;
+        let is_known = value.is_finite() && width <= 1e-3 * steepness && steepness > 0.0;
+        // Beside a pole it falls, and rises across.
+        let is_pole = || {
+            let across = self.differences(point, 1e-6);
+            across.is_finite() && across.dot(gradient) < 0.0
+        };
+        let is_known = is_known && !(steepness > STEEPEST && is_pole());
         if is_known && value.abs() <= self.accuracy * steepness {
             return Height { value, gradient, error: 0.5 * (high - low) };
         }
