@@ -124,6 +124,11 @@ impl Reader<'_, '_> {
             let vertex = vertex.ok_or_else(|| Fault::new("a corner has no vertex"))?;
             self.corners.push(Corner { vertex, normal, color: self.color, uv });
         }
+        if self.corners.len() < 3 {
+            let lack = format!("the face on line {} has fewer than three corners", self.line);
+            self.builder.lacks(lack);
+            return Ok(());
+        }
         match self.missing(&self.corners) {
             None => {
                 let mut corners = std::mem::take(&mut self.corners);
@@ -193,7 +198,15 @@ impl Reader<'_, '_> {
                 }
                 Some(self.builder.color(material.rgb, material.alpha)?)
             }
-            Some(None) | None => None,
+            Some(None) => None,
+            None => {
+                // Of a library that is missing, that is told.
+                if !self.materials.is_empty() {
+                    let lack = format!("its materials have no `{name}`, which line {} uses", self.line);
+                    self.builder.lacks(lack);
+                }
+                None
+            }
         };
         Ok(())
     }

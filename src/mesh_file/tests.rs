@@ -189,7 +189,11 @@ fn an_obj_is_read_with_its_materials() {
     // The material goes on in the second group; without one, a face is white.
     assert_eq!(colors(&model), [[X; 3], [X; 3], [[1.0; 3]; 3]]);
     assert_eq!(model.colors[0].transmit, 0.75);
-    assert_eq!(model.lacks.len(), 1, "{:?}", model.lacks);
+    let [pictured, unknown] = &model.lacks[..] else { panic!("{:?}", model.lacks) };
+    assert!(pictured.contains("map_Kd") && unknown.contains("no `none`"), "{:?}", model.lacks);
+    let narrow = self::model("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n");
+    assert_eq!(narrow.triangles.faces.len(), 1);
+    assert_eq!(narrow.lacks, ["the face on line 4 has fewer than three corners"]);
     let wrong = read("newmtl red\nKd 1\nKd 1 0\n").expect_err("two numbers");
     assert_eq!((wrong.file.as_deref(), wrong.place), (Some("a.mtl"), Some(Place::Line(3))));
     let alone = read_alone("a.obj", OBJ.as_bytes()).expect("without colours");
