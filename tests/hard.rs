@@ -58,6 +58,8 @@ mod specks;
 mod steps;
 #[path = "benches/numerics/sturm.rs"]
 mod sturm;
+#[path = "hard/thin.rs"]
+mod thin;
 #[path = "hard/things.rs"]
 mod things;
 #[path = "hard/tips.rs"]

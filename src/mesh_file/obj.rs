@@ -202,7 +202,8 @@ impl Reader<'_, '_> {
             None => {
                 // Of a library that is missing, that is told.
                 if !self.materials.is_empty() {
-                    let lack = format!("its materials have no `{name}`, which line {} uses", self.line);
+                    let lack =
+                        format!("its materials have no `{name}`, which line {} uses", self.line);
                     self.builder.lacks(lack);
                 }
                 None

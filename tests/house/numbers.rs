@@ -140,6 +140,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("function/slope.rs", "first.abs() <", "whole numbers up to it are exact"),
     ("shape/isosurface/cells.rs", "MARGIN", "relative: of the box's size"),
     ("shape/isosurface/mod.rs", "let steps", "of a container's size: differences for a normal"),
+    ("shape/isosurface/mod.rs", "STEEPEST", "relative: a slope over the container's size"),
+    ("shape/isosurface/mod.rs", "let across", "of a container's size: differences for a slope"),
     ("shape/isosurface/mod.rs", "let is_known", "relative: of a slope"),
     ("shape/isosurface/mod.rs", "1e-9 * steepness", "relative: of the container's size, at a jump"),
     ("shape/julia_fractal/mod.rs", "const FINEST", "relative: of the ball's radius"),

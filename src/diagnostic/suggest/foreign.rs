@@ -76,7 +76,6 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("couleur", "color"),
     ("farbe", "color"),
     ("colore", "color"),
-    ("kugel", "sphere"),
     ("sphère", "sphere"),
     // settings
     ("max_bounces", "max_trace_level"),

@@ -288,7 +288,7 @@ impl Evaluator<'_> {
                 format!("{what} is the zero vector, and points nowhere"),
             )
             .at(given.span, "expected a vector other than <0, 0, 0>")
-            .help("`y` points up, `-z` to the front");
+            .help("a direction such as `y`, which points up");
             return Err(self.report(&given.here, diagnostic));
         }
         Ok(given)

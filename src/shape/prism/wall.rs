@@ -12,7 +12,8 @@ pub(super) fn beside<'a>(ray: &LocalRay<'a>, conic: bool) -> LocalRay<'a> {
     let way = nudge(ray);
     let aside = (way - direction * way.dot(direction)).normalize_or(Vector::ZERO);
     // The nearer to straight up it goes, the less a turn leaves of where it goes.
-    let sine = if conic { 1.0 } else { direction.x.hypot(direction.y).max(turn.sqrt()) };
+    let across = direction.x * direction.x + direction.y * direction.y;
+    let sine = if conic { 1.0 } else { across.max(turn).sqrt() };
     let far = 64.0 * (blur + turn / sine + 4.0 * U * (1.0 + nearest.length()));
     LocalRay { nearest: nearest + aside * far, in_world: None, ..*ray }
 }
