@@ -121,7 +121,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("serde", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     // Lists that are mostly short, where crossings are found.
-    ("rustc_hash", &["lower/texture.rs"]),
+    ("rustc_hash", &["lower/"]),
     ("smallvec", &["function/", "geometry/", "lower/texture.rs", "math/roots/", "shape/"]),
     ("strsim", &["diagnostic/suggest.rs"]),
     // How wide what miette draws is.

@@ -246,9 +246,7 @@ impl Evaluator<'_> {
         if let Some(poison) = values.iter().find(|value| matches!(value, Value::Poison(_))) {
             return Ok(poison.clone());
         }
-        if let ([Argument::Expression(id)], [Value::Number(angle)]) = (list, &values[..])
-            && matches!(word, Word::Sin | Word::Cos | Word::Tan)
-        {
+        if let ([Argument::Expression(id)], [Value::Number(angle)]) = (list, &values[..]) {
             self.lint_trigonometry(here, word, *id, *angle);
         }
         let longest = usize::try_from(self.options.limits.string.saturating_mul(1 << 20))

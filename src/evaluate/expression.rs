@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
-use crate::syntax::ast::{ExpressionId, ExpressionKind, UnaryOperator};
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::comparison::Comparison;
@@ -12,52 +12,12 @@ use super::stream::TokenKind;
 use super::value::{self, Components, OperationError, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
-/// How deep an expression of plain numbers is looked into.
-const PLAIN_DEPTH: u32 = 8;
-
 impl Evaluator<'_> {
     /// The value of an expression; poison if something in it is not built yet.
     pub(super) fn expression(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         match self.plain_number(here, id) {
             Some(number) => Ok(Value::Number(number)),
             None => self.any_value(here, id),
-        }
-    }
-
-    /// The value of what is made of numbers, and of names of numbers, alone: most of what loops calculate.
-    /// `None` where it takes more than that, or has no finite value.
-    pub(super) fn plain_number(&mut self, here: &Here, id: ExpressionId) -> Option<f64> {
-        self.plain_operand(here, id, PLAIN_DEPTH)
-    }
-
-    #[inline(always)]
-    fn plain_operand(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
-        match here.unit.expression(id).kind {
-            ExpressionKind::Number(number) => Some(number).filter(|number| number.is_finite()),
-            ExpressionKind::Name(name) => self.scopes.read(here.symbol(name))?.as_number(),
-            ExpressionKind::Group(_)
-            | ExpressionKind::Unary(UnaryOperator::Minus, _)
-            | ExpressionKind::Binary(..)
-                if depth > 0 =>
-            {
-                self.plain_result(here, id, depth - 1)
-            }
-            _ => None,
-        }
-    }
-
-    fn plain_result(&mut self, here: &Here, id: ExpressionId, depth: u32) -> Option<f64> {
-        match here.unit.expression(id).kind {
-            ExpressionKind::Group(inner) => self.plain_operand(here, inner, depth),
-            ExpressionKind::Unary(UnaryOperator::Minus, operand) => {
-                self.plain_operand(here, operand, depth).map(|number| -number)
-            }
-            ExpressionKind::Binary(operator, left, right) => {
-                let left = self.plain_operand(here, left, depth)?;
-                let right = self.plain_operand(here, right, depth)?;
-                value::numbers_meet(operator, left, right, self.comparison()).ok()
-            }
-            _ => None,
         }
     }
 
@@ -78,7 +38,12 @@ impl Evaluator<'_> {
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
             // Brackets in brackets.
-            _ => {
+            kind => {
+                if let ExpressionKind::Vector(components) = kind
+                    && let Some(vector) = self.plain_triple(here, components)
+                {
+                    return Ok(Value::Vector(vector.into()));
+                }
                 self.calculating += 1;
                 let value = stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.compound(here, id));
                 self.calculating -= 1;

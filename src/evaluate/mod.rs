@@ -24,6 +24,7 @@ mod function;
 mod include;
 mod lint;
 mod options;
+mod plain;
 mod probe;
 mod remembered;
 mod report;

@@ -66,6 +66,16 @@ struct SymbolState {
     is_unread: bool,
 }
 
+impl SymbolState {
+    #[inline]
+    fn mark_used(&mut self) {
+        self.is_unread = false;
+        if let Some(declared) = &mut self.declared {
+            declared.used = true;
+        }
+    }
+}
+
 /// All tables of one evaluation.
 #[derive(Debug)]
 pub struct Scopes {
@@ -131,9 +141,10 @@ impl Scopes {
     }
 
     /// The value of a name; reading it counts as a use.
+    #[inline]
     pub fn read(&mut self, symbol: Symbol) -> Option<&Value> {
-        self.mark_used(symbol);
-        let state = &self.states[symbol.0 as usize];
+        let state = &mut self.states[symbol.0 as usize];
+        state.mark_used();
         let &(_, slot) = state.bindings.last()?;
         self.value(slot)
     }
@@ -302,11 +313,7 @@ impl Scopes {
 
     #[inline]
     pub fn mark_used(&mut self, symbol: Symbol) {
-        let state = &mut self.states[symbol.0 as usize];
-        state.is_unread = false;
-        if let Some(declared) = &mut state.declared {
-            declared.used = true;
-        }
+        self.states[symbol.0 as usize].mark_used();
     }
 
     /// A value from outside the scene, which is there before its first line.

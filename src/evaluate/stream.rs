@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use crate::source::{ExpansionId, ExpansionKind, FileId, Site, Span};
 use crate::syntax::ast::{
-    DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
+    Ast, DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
 };
 use crate::vocabulary::Word;
 
@@ -378,27 +378,19 @@ impl Evaluator<'_> {
                 return Some(Token { kind: TokenKind::Literal(Box::new(value)), span, here });
             }
             frame.at += 1;
-            let kind = match kind {
-                ItemKind::Close | ItemKind::Numbers { .. } => continue,
-                ItemKind::Open => TokenKind::Block(Contents::Following),
-                ItemKind::Word(word) => TokenKind::Word(word),
-                ItemKind::Block(items) => TokenKind::Block(Contents::Items(items)),
-                ItemKind::Entry(items) => TokenKind::Entry(items),
-                ItemKind::Comma => TokenKind::Comma,
-                ItemKind::Semicolon => TokenKind::Semicolon,
-                ItemKind::Expression(id) => {
-                    if let ExpressionKind::Call(..) = here.unit.expression(id).kind {
-                        match self.splices_macro(&here, id) {
-                            Ok(true) => continue,
-                            Ok(false) => {}
-                            Err(Reported) => {
-                                self.silent = Some(Silent { called: None, behind: self.taken });
-                                continue;
-                            }
-                        }
+            if let Some(kind) = taken_as_it_is(&here.unit.ast, kind) {
+                return Some(Token { kind, span, here });
+            }
+            match kind {
+                ItemKind::Expression(id) => match self.splices_macro(&here, id) {
+                    Ok(true) => {}
+                    Ok(false) => {
+                        return Some(Token { kind: TokenKind::Expression(id), span, here });
                     }
-                    TokenKind::Expression(id)
-                }
+                    Err(Reported) => {
+                        self.silent = Some(Silent { called: None, behind: self.taken });
+                    }
+                },
                 ItemKind::Directive(id) => {
                     let (taken, silent) = (self.taken, self.silent);
                     // Reported where it happened; the statement is the fault boundary.
@@ -408,10 +400,27 @@ impl Evaluator<'_> {
                     if let DirectiveKind::Version(_) = here.unit.ast.directive(id).kind {
                         self.pass(ItemKind::Semicolon);
                     }
-                    continue;
                 }
-            };
-            return Some(Token { kind, span, here });
+                _ => {}
+            }
         }
     }
+}
+
+/// What an item is to whoever takes it, where nothing has to be run for it.
+#[inline]
+fn taken_as_it_is(ast: &Ast, kind: ItemKind) -> Option<TokenKind> {
+    Some(match kind {
+        ItemKind::Open => TokenKind::Block(Contents::Following),
+        ItemKind::Word(word) => TokenKind::Word(word),
+        ItemKind::Block(items) => TokenKind::Block(Contents::Items(items)),
+        ItemKind::Entry(items) => TokenKind::Entry(items),
+        ItemKind::Comma => TokenKind::Comma,
+        ItemKind::Semicolon => TokenKind::Semicolon,
+        ItemKind::Expression(id) => match ast.expression(id).kind {
+            ExpressionKind::Call(..) => return None,
+            _ => TokenKind::Expression(id),
+        },
+        ItemKind::Close | ItemKind::Numbers { .. } | ItemKind::Directive(_) => return None,
+    })
 }

@@ -66,6 +66,12 @@ impl Components {
     }
 }
 
+impl From<Vector> for Components {
+    fn from(Vector { x, y, z }: Vector) -> Self {
+        Self { values: [x, y, z, 0.0, 0.0], len: 3 }
+    }
+}
+
 impl fmt::Debug for Components {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.as_slice()).finish()

@@ -2,7 +2,6 @@
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::math::Vector;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
@@ -164,29 +163,6 @@ impl Evaluator<'_> {
             if numbers.len() > 5 {
                 return Ok(numbers);
             }
-        }
-    }
-
-    /// The vector of three that an expression is, where it is a name of one, or made of no more than two or
-    /// three plain numbers.
-    pub(super) fn plain_vector(&mut self, here: &Here, id: ExpressionId) -> Option<Vector> {
-        match here.unit.expression(id).kind {
-            ExpressionKind::Name(name) => match self.scopes.read(here.symbol(name))? {
-                Value::Vector(components) => components.as_vector3(),
-                _ => None,
-            },
-            ExpressionKind::Vector(components) => {
-                let mut plain = |argument| match argument {
-                    Argument::Expression(id) => self.plain_number(here, id),
-                    Argument::Items(_) => None,
-                };
-                match *here.unit.ast.arguments(components) {
-                    [x, y] => Some(Vector::new(plain(x)?, plain(y)?, 0.0)),
-                    [x, y, z] => Some(Vector::new(plain(x)?, plain(y)?, plain(z)?)),
-                    _ => None,
-                }
-            }
-            _ => None,
         }
     }
 

@@ -25,11 +25,11 @@ impl Surface {
     }
 
     /// All that may be seen of it: the textures of faces, in their order, and then its own.
-    pub fn all(&self, scene: &scene::Scene) -> Vec<(PigmentId, FinishId)> {
+    pub fn all(&self, scene: &scene::Scene) -> impl Iterator<Item = (PigmentId, FinishId)> {
         let textures = self.faces.iter().flat_map(|triangles| &triangles.textures);
         let of_faces = textures.map(|id| &scene.textures[id.index()]);
         let of_faces = of_faces.map(|texture| (texture.pigment, texture.finish));
-        of_faces.chain([(self.pigment, self.finish)]).collect()
+        of_faces.chain([(self.pigment, self.finish)])
     }
 }
 
@@ -44,7 +44,7 @@ impl Lowering<'_, '_> {
     /// The World's index of the material of a mesh whose faces have textures themselves.
     pub(super) fn material_of_faces(&mut self, surface: &Surface) -> Result<u32, Fault> {
         let scene = self.scene;
-        let all = surface.all(scene);
+        let all: Vec<_> = surface.all(scene).collect();
         let (mut colors, mut finishes) = (Vec::new(), Vec::new());
         for &(pigment, finish) in &all {
             match lower_pigment(&scene.pigments[pigment.index()].kind, Map::IDENTITY)? {

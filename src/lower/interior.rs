@@ -64,6 +64,9 @@ impl Lowering<'_, '_> {
 
     /// Drops the interiors that nothing can show, and tells so.
     pub(super) fn prune_interiors(&mut self) {
+        if self.world.interiors.is_empty() {
+            return;
+        }
         let bent = |object: &Object| {
             let ior = object.interior.map(|index| self.world.interiors[index as usize].ior);
             ior.is_some_and(|ior| ior != 1.0) && is_entered(&self.world, object)

@@ -177,7 +177,9 @@ impl Lowering<'_, '_> {
 
     /// Objects that are black because nothing gives them a colour.
     fn lint_pigment(&mut self) {
-        let mut sites: Vec<Site> = std::mem::take(&mut self.unpainted).into_values().collect();
+        let mut sites = std::mem::take(&mut self.unpainted);
+        sites.sort_by_key(|site| site.span);
+        sites.dedup_by_key(|site| site.span);
         sites.retain(|site| !self.reporter.diagnostics.allows(Code::NoPigment, site.span));
         let Some((&first, others)) = sites.split_first() else { return };
         let message = match others.len() {

@@ -37,7 +37,7 @@ use std::sync::Arc;
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::mesh::Triangles;
-use crate::scene::{ObjectId, Scene, TransformId, Unused};
+use crate::scene::{ObjectId, Scene, TextureId, TransformId, Unused};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
 use crate::world::{Dropped, NearSingular, Origins, Settings, World};
@@ -76,9 +76,10 @@ pub fn lower(
         reporter: Reporter { diagnostics, expansions: &scene.expansions },
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
+        last_surface: None,
         dropped: HashMap::new(),
         fillings: Vec::new(),
-        unpainted: BTreeMap::new(),
+        unpainted: Vec::new(),
         lamps: Vec::new(),
         black: None,
         emptied: BTreeMap::new(),
@@ -115,13 +116,15 @@ struct Lowering<'s, 'd> {
     reporter: Reporter<'s, 'd>,
     materials: texture::Materials,
     transforms: transform::Transforms<'s>,
+    /// Of the last texture that was set where nothing moves it.
+    last_surface: Option<(TextureId, texture::Surface)>,
     /// What was left out so far, and where that is noted: a place says it once, however often it is gone
     /// through.
     dropped: HashMap<(&'static str, String, Span), usize>,
     /// Of each object that has an interior, in order.
     fillings: Vec<interior::Filling>,
     /// Where solids stand that have no pigment and do not mirror.
-    unpainted: BTreeMap<Span, Site>,
+    unpainted: Vec<Site>,
     /// The word of each light.
     lamps: Vec<Site>,
     /// The colour of the first light that is black.

@@ -8,6 +8,7 @@ use super::texture::Surface;
 use super::transform::Affine;
 use crate::scene::{InteriorId, ModifierKind, ObjectId, TextureId};
 use crate::source::Site;
+use crate::vocabulary::Word;
 
 /// An object's modifiers come to this.
 #[derive(Default)]
@@ -54,20 +55,31 @@ impl Flags {
     }
 }
 
-/// Which modifiers call for an effect, if there is a solid that they hold for: without all of them it has
+/// Which modifiers call for an effect, if there is a solid that they hold for: without all of one word it has
 /// none.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Calls {
-    pub no_image: Vec<Site>,
-    pub no_reflection: Vec<Site>,
-    pub double_illuminate: Vec<Site>,
-}
+pub(super) struct Calls(Vec<(Word, Site)>);
 
-/// What was undone calls for nothing, even where it is done again: then only that does.
-fn call(calls: &mut Vec<Site>, on: bool, site: Site) {
-    match on {
-        true => calls.push(site),
-        false => calls.clear(),
+impl Calls {
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What was undone calls for nothing, even where it is done again: then only that does.
+    fn note(&mut self, word: Word, on: bool, site: Site) {
+        match on {
+            true => self.0.push((word, site)),
+            false => self.forget(word),
+        }
+    }
+
+    pub fn forget(&mut self, word: Word) {
+        self.0.retain(|(noted, _)| *noted != word);
+    }
+
+    /// Where a word stands.
+    pub fn of(&self, word: Word) -> impl Iterator<Item = Site> {
+        self.0.iter().filter(move |(noted, _)| *noted == word).map(|(_, site)| *site)
     }
 }
 
@@ -96,8 +108,7 @@ impl Lowering<'_, '_> {
                     }
                 }
                 ModifierKind::Texture(id) => {
-                    let set = Surface::set(scene, &mut self.transforms, id, map);
-                    modified.surface = Some(self.reporter.made_there(set)?);
+                    modified.surface = Some(self.set_surface(id, map)?);
                 }
                 ModifierKind::Pigment(id) => {
                     let mut surface =
@@ -114,15 +125,15 @@ impl Lowering<'_, '_> {
                 ModifierKind::NoShadow => flags.no_shadow = true,
                 ModifierKind::NoImage(on) => {
                     flags.no_image = on;
-                    call(&mut calls.no_image, on, modifier.site);
+                    calls.note(Word::NoImage, on, modifier.site);
                 }
                 ModifierKind::NoReflection(on) => {
                     flags.no_reflection = on;
-                    call(&mut calls.no_reflection, on, modifier.site);
+                    calls.note(Word::NoReflection, on, modifier.site);
                 }
                 ModifierKind::DoubleIlluminate(on) => {
                     flags.double_illuminate = on;
-                    call(&mut calls.double_illuminate, on, modifier.site);
+                    calls.note(Word::DoubleIlluminate, on, modifier.site);
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
                 ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),
@@ -140,9 +151,24 @@ impl Lowering<'_, '_> {
         default: TextureId,
         map: Affine,
     ) -> Option<Surface> {
-        own.or_else(|| {
-            let set = Surface::set(self.scene, &mut self.transforms, default, map);
-            self.reporter.made_there(set)
-        })
+        own.or_else(|| self.set_surface(default, map))
+    }
+
+    /// A surface of a texture, set where `map` leads; `None`, and a message, where a transform cannot be spent.
+    pub(super) fn set_surface(&mut self, texture: TextureId, map: Affine) -> Option<Surface> {
+        // Mostly it is the one before: the default, under a pigment.
+        let unmoved = map.moves_nothing();
+        if unmoved
+            && let Some((known, surface)) = &self.last_surface
+            && *known == texture
+        {
+            return Some(surface.clone());
+        }
+        let set = Surface::set(self.scene, &mut self.transforms, texture, map);
+        let surface = self.reporter.made_there(set)?;
+        if unmoved {
+            self.last_surface = Some((texture, surface.clone()));
+        }
+        Some(surface)
     }
 }

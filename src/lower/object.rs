@@ -14,7 +14,7 @@ use super::{Fault, Lowering, NO_SIZE, blob, body, outline, points, shape, sweep}
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
-use crate::shape::{Body, Shape};
+use crate::shape::Shape;
 use crate::source::Site;
 
 /// What a child takes from above.
@@ -79,11 +79,14 @@ impl<'s> Lowering<'s, '_> {
         let mut stack: Vec<Frame> = Vec::new();
         // Most roots have the same default.
         let mut last: Option<(TextureId, Inherited)> = None;
+        let count = self.scene.roots.len();
+        self.world.objects.reserve(count);
+        self.origins.objects.reserve(count);
         for &Root { object, default_texture } in &self.scene.roots {
             if last.as_ref().is_none_or(|(texture, _)| *texture != default_texture) {
-                let place = Affine::IDENTITY;
-                let set = Surface::set(self.scene, &mut self.transforms, default_texture, place);
-                let Some(surface) = self.reporter.made_there(set) else { continue };
+                let Some(surface) = self.set_surface(default_texture, Affine::IDENTITY) else {
+                    continue;
+                };
                 last = Some((default_texture, Inherited::root(surface)));
             }
             let Some((_, inherited)) = &last else { continue };
@@ -95,7 +98,7 @@ impl<'s> Lowering<'s, '_> {
                 let Some((id, inherited)) = frame.next() else {
                     if let Some(Frame { open, calls, before, .. }) = stack.pop() {
                         open.into_iter().for_each(|open| self.close(open));
-                        self.note_calls(calls, before);
+                        self.note_calls(&calls, before);
                     }
                     continue;
                 };
@@ -137,6 +140,12 @@ impl<'s> Lowering<'s, '_> {
             target = next;
         }
         let object = &scene.objects[target.index()];
+        if let ObjectKind::Solid(solid) = &object.kind
+            && object.modifiers.is_empty()
+            && uses.is_empty()
+        {
+            return self.spend(target, solid, inherited, object.site);
+        }
         let mut own = object.item;
         let mut modified = Modified::default();
         for &id in [target].iter().chain(uses.iter().rev()) {
@@ -156,9 +165,9 @@ impl<'s> Lowering<'s, '_> {
                 Some(map) => above.after(map),
                 None => *above,
             },
-            surface: match (&modified.surface, &modified.map) {
+            surface: match (modified.surface.take(), &modified.map) {
                 (Some(own), _) => own.within(above),
-                (None, Some(map)) => inherited.surface.under(map),
+                (None, Some(map)) => inherited.surface.clone().under(map),
                 (None, None) => inherited.surface.clone(),
             },
             interior: modified.interior.or(inherited.interior),
@@ -216,41 +225,19 @@ impl<'s> Lowering<'s, '_> {
                 self.light(light, &here.world_from_here, object.site, item);
             }
             ObjectKind::Solid(solid) => {
-                let spent = self.solid(target, solid, &here, object.site);
-                if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
-                    self.drop_part(object.site, self.word(target), NO_SIZE);
-                }
-                self.reporter.made(spent, object.site);
-                self.note_calls(modified.calls, before);
+                self.spend(target, solid, &here, object.site);
+                self.note_calls(&modified.calls, before);
             }
             ObjectKind::Use(_) => {}
         }
     }
 
-    /// A solid of which there is nothing, and why.
-    fn place_nowhere(
-        &mut self,
-        here: &Inherited,
-        site: Site,
-        (word, why): (&'static str, &'static str),
-    ) -> Result<(), Fault> {
-        self.drop_part(site, word, why);
-        self.nothing(here.flags.inverse, site);
-        Ok(())
-    }
-
-    /// A body that is made once, however often it is used; of none, nothing is placed.
-    fn place_stored(
-        &mut self,
-        id: ObjectId,
-        make: impl FnOnce() -> Result<Option<(Body, Affine)>, Fault>,
-        here: &Inherited,
-        site: Site,
-    ) -> Result<(), Fault> {
-        match self.shared(id, |_| make())? {
-            Some((body, frame)) => self.place_body(body, &frame, here, site),
-            None => Ok(()),
+    fn spend(&mut self, id: ObjectId, solid: &Solid, here: &Inherited, site: Site) {
+        let spent = self.solid(id, solid, here, site);
+        if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
+            self.drop_part(site, self.word(id), NO_SIZE);
         }
+        self.reporter.made(spent, site);
     }
 
     fn solid(
@@ -356,9 +343,9 @@ impl<'s> Lowering<'s, '_> {
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
-            Solid::Isosurface { ref function, container, threshold, accuracy, open } => {
+            Solid::Isosurface { ref function, ref container, threshold, accuracy, open } => {
                 let made = self.shared(id, |lowering| {
-                    let made = body::isosurface(function, container, threshold, accuracy, open)?;
+                    let made = body::isosurface(function, **container, threshold, accuracy, open)?;
                     Ok(lowering.is_somewhere(&made.0, site).then_some(made))
                 })?;
                 match made {
@@ -370,8 +357,8 @@ impl<'s> Lowering<'s, '_> {
                     ),
                 }
             }
-            Solid::Parametric { ref functions, corners, container } => {
-                let make = || body::parametric(functions, corners, container).map(Some);
+            Solid::Parametric { ref functions, corners, ref container } => {
+                let make = || body::parametric(functions, corners, **container).map(Some);
                 self.place_stored(id, make, here, site)
             }
             // A tube about a point is a ball.
@@ -394,19 +381,6 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::polynomial(degree, terms)?, here, site)
             }
         }
-    }
-
-    /// What a solid became when it was first used, or becomes now.
-    fn shared(
-        &mut self,
-        id: ObjectId,
-        make: impl FnOnce(&mut Self) -> Result<Option<(Body, Affine)>, Fault>,
-    ) -> Result<Option<(Arc<Body>, Affine)>, Fault> {
-        if let Some(known) = self.shared.get(&id) {
-            return Ok(known.clone());
-        }
-        let made = make(self)?.map(|(body, frame)| (Arc::new(body), frame));
-        Ok(self.shared.entry(id).or_insert(made).clone())
     }
 }
 

@@ -6,13 +6,54 @@ use super::modifier::{Calls, Flags, Modified};
 use super::object::Inherited;
 use super::shape::LocalFace;
 use super::texture::Surface;
-use super::transform::{Affine, NEAR_SINGULAR};
+use super::transform::Affine;
 use super::{Fault, Lowering, body};
+use crate::scene::ObjectId;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
+use crate::vocabulary::Word;
 use crate::world::{NearSingular, Object};
 
 impl Lowering<'_, '_> {
+    /// A solid of which there is nothing, and why.
+    pub(super) fn place_nowhere(
+        &mut self,
+        here: &Inherited,
+        site: Site,
+        (word, why): (&'static str, &'static str),
+    ) -> Result<(), Fault> {
+        self.drop_part(site, word, why);
+        self.nothing(here.flags.inverse, site);
+        Ok(())
+    }
+
+    /// A body that is made once, however often it is used; of none, nothing is placed.
+    pub(super) fn place_stored(
+        &mut self,
+        id: ObjectId,
+        make: impl FnOnce() -> Result<Option<(Body, Affine)>, Fault>,
+        here: &Inherited,
+        site: Site,
+    ) -> Result<(), Fault> {
+        match self.shared(id, |_| make())? {
+            Some((body, frame)) => self.place_body(body, &frame, here, site),
+            None => Ok(()),
+        }
+    }
+
+    /// What a solid became when it was first used, or becomes now.
+    pub(super) fn shared(
+        &mut self,
+        id: ObjectId,
+        make: impl FnOnce(&mut Self) -> Result<Option<(Body, Affine)>, Fault>,
+    ) -> Result<Option<(Arc<Body>, Affine)>, Fault> {
+        if let Some(known) = self.shared.get(&id) {
+            return Ok(known.clone());
+        }
+        let made = make(self)?.map(|(body, frame)| (Arc::new(body), frame));
+        Ok(self.shared.entry(id).or_insert(made).clone())
+    }
+
     /// A body that nothing else shares, and the map to it from its own space.
     pub(super) fn place_made(
         &mut self,
@@ -95,7 +136,9 @@ impl Lowering<'_, '_> {
         let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
         // What mirrors is seen by what it mirrors.
         if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
-            self.unpainted.entry(site.span).or_insert(site);
+            // In a loop it is the same place time and again.
+            let known = self.unpainted.last().is_some_and(|last| last.span == site.span);
+            self.unpainted.extend((!known).then_some(site));
         }
         Ok(material)
     }
@@ -115,8 +158,8 @@ impl Lowering<'_, '_> {
                 self.drop_part(site, word, "it is a part: that of the whole counts");
             }
         }
-        calls.no_image.clear();
-        calls.no_reflection.clear();
+        calls.forget(Word::NoImage);
+        calls.forget(Word::NoReflection);
         *hidden_by = None;
     }
 
@@ -128,22 +171,21 @@ impl Lowering<'_, '_> {
     }
 
     /// Notes modifiers that hold for solids made since there were `before`.
-    pub(super) fn note_calls(&mut self, calls: Calls, before: usize) {
-        if self.world.objects.len() > before {
-            self.origins.hidden.extend(calls.no_image);
-            self.origins.hidden.extend(calls.no_reflection);
-            self.origins.double_illuminate.extend(calls.double_illuminate);
+    pub(super) fn note_calls(&mut self, calls: &Calls, before: usize) {
+        if calls.is_empty() || self.world.objects.len() == before {
+            return;
         }
+        let hidden =
+            [Word::NoImage, Word::NoReflection].into_iter().flat_map(|word| calls.of(word));
+        self.origins.hidden.extend(hidden);
+        self.origins.double_illuminate.extend(calls.of(Word::DoubleIlluminate));
     }
 
     /// Notes an object whose transforms together nearly flatten space, while none alone does.
     pub(super) fn note_near_singular(&mut self, here: &Inherited, site: Site) {
-        let map = &here.world_from_here;
-        if here.strained || map.uniform_scale().is_some() {
-            return;
-        }
-        let condition = map.condition();
-        if condition >= NEAR_SINGULAR {
+        if !here.strained
+            && let Some(condition) = here.world_from_here.near_singular()
+        {
             self.origins.near_singular.push(NearSingular { site, condition });
         }
     }

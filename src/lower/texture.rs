@@ -30,7 +30,8 @@ use crate::world::{
 /// What has been put into the World's lists of materials and maps.
 #[derive(Default)]
 pub struct Materials {
-    of_ids: FxHashMap<(PigmentId, FinishId), u32>,
+    /// Of each pigment, the finish that it had last, and the material of both.
+    of_pigments: Vec<Option<(FinishId, u32)>>,
     /// Materials that share the numbers in which most differ; equality decides among them.
     alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
     maps: FxHashMap<[u64; 12], u32>,
@@ -103,7 +104,8 @@ impl Surface {
         let own = transforms.product(&pigment.transforms).map_err(|f| (f, pigment.site))?;
         self.pigment = id;
         let Places { place, set_place, set_from_solid: before } = &*self.places;
-        if own.moves_nothing() && place == set_place && *before == set_from_solid {
+        let same = |a: &Affine, b: &Affine| a.moves_nothing() && b.moves_nothing() || a == b;
+        if own.moves_nothing() && same(place, set_place) && same(before, &set_from_solid) {
             return Ok(());
         }
         let place = own.after(place);
@@ -117,25 +119,28 @@ impl Surface {
     }
 
     /// The same surface held by a child whose own transforms come to `child`.
-    pub fn under(&self, child: &Affine) -> Self {
-        let set_from_solid = self.places.set_from_solid.after(child);
-        Self { places: Rc::new(Places { set_from_solid, ..*self.places }), ..self.clone() }
+    pub fn under(mut self, child: &Affine) -> Self {
+        let places = Rc::make_mut(&mut self.places);
+        places.set_from_solid = places.set_from_solid.after(child);
+        self
     }
 
     /// The same surface seen from outside of `outer`.
-    pub fn within(&self, outer: &Affine) -> Self {
-        if outer.moves_nothing() {
-            return self.clone();
+    pub fn within(mut self, outer: &Affine) -> Self {
+        if !outer.moves_nothing() {
+            let places = Rc::make_mut(&mut self.places);
+            places.place = outer.after(&places.place);
         }
-        let place = outer.after(&self.places.place);
-        Self { places: Rc::new(Places { place, ..*self.places }), ..self.clone() }
+        self
     }
 }
 
 impl Lowering<'_, '_> {
     /// The World's index of a material; `site` is the object's, for faults of its finish.
     pub(super) fn material(&mut self, pigment: PigmentId, finish: FinishId, site: Site) -> u32 {
-        if let Some(&index) = self.materials.of_ids.get(&(pigment, finish)) {
+        if let Some(&Some((last, index))) = self.materials.of_pigments.get(pigment.index())
+            && last == finish
+        {
             return index;
         }
         let scene = self.scene;
@@ -148,8 +153,10 @@ impl Lowering<'_, '_> {
         let paint = paint.unwrap_or(Pigment::Color(Color::BLACK));
         let material = material(paint, finish_lowered.unwrap_or(BARE));
         let index = self.index(material, self.origin(pigment, finish));
-        self.materials.of_ids.insert((pigment, finish), index);
         self.note_material(index, written, finish);
+        let known = &mut self.materials.of_pigments;
+        known.resize(scene.pigments.len(), None);
+        known[pigment.index()] = Some((finish, index));
         index
     }
 
@@ -185,15 +192,15 @@ impl Lowering<'_, '_> {
     pub(super) fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
         let origin = &mut self.origins.materials[index as usize];
         let noted = &mut self.materials.noted;
-        let mut note = |part: Part, list: &mut Vec<Site>, sites: &[Site]| {
-            list.extend(sites.iter().filter(|site| noted.insert((index, part, site.span))));
+        let mut note = |part: Part, list: &mut Vec<Site>, sites: &mut dyn Iterator<Item = Site>| {
+            list.extend(sites.filter(|site| noted.insert((index, part, site.span))));
         };
-        note(Part::Pattern, &mut origin.pattern, &pigment.pattern);
-        note(Part::Clear, &mut origin.clear, &pigment.clear);
+        note(Part::Pattern, &mut origin.pattern, &mut pigment.pattern.iter().copied());
+        note(Part::Clear, &mut origin.clear, &mut pigment.clear.iter().copied());
         let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
-        let highlights: Vec<Site> = finish.highlights.iter().map(|(_, site)| *site).collect();
-        note(Part::Highlights, &mut origin.highlights, &highlights);
-        note(Part::Reflection, &mut origin.reflection, &finish.reflection);
+        let mut highlights = finish.highlights.iter().map(|(_, site)| *site);
+        note(Part::Highlights, &mut origin.highlights, &mut highlights);
+        note(Part::Reflection, &mut origin.reflection, &mut finish.reflection.iter().copied());
         for &(word, site) in &finish.zeros {
             self.drop_part(site, word.name(), "its weight is zero");
         }

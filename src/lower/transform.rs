@@ -10,6 +10,8 @@ mod stretch;
 
 use std::collections::BTreeMap;
 
+use rustc_hash::FxHashMap;
+
 use super::Fault;
 use crate::diagnostic::Code;
 use crate::math::double::{Double, DoubleVector, power_of_two_near, sin_cos_degrees};
@@ -29,6 +31,8 @@ pub struct Affine {
     offset: DoubleVector,
     /// How far rounding may have moved the linear part, relative to its size.
     rounding: f64,
+    /// The linear part is the identity, as of most maps.
+    is_translation: bool,
 }
 
 /// The inverse of the linear part, as yet undivided: row i over `determinant`.
@@ -47,13 +51,18 @@ impl Affine {
         ],
         offset: DoubleVector::ZERO,
         rounding: 0.0,
+        is_translation: true,
     };
+
+    fn new(rows: [DoubleVector; 3], offset: DoubleVector, rounding: f64) -> Self {
+        Self { rows, offset, rounding, is_translation: rows == Self::IDENTITY.rows }
+    }
 
     /// The map that takes x, y and z to these, and the origin to `offset`.
     pub fn from_columns([x, y, z]: [DoubleVector; 3], offset: DoubleVector) -> Self {
         let [x, y, z] = [x, y, z].map(DoubleVector::components);
         let row = |i: usize| DoubleVector::new(x[i], y[i], z[i]);
-        Self { rows: [row(0), row(1), row(2)], offset, rounding: Self::STEP_ROUNDING }
+        Self::new([row(0), row(1), row(2)], offset, Self::STEP_ROUNDING)
     }
 
     /// 2⁻⁹⁶: a rotation is a dozen roundings of 2⁻¹⁰² each.
@@ -79,16 +88,15 @@ impl Affine {
                     let factor = Double::from(by[axis]);
                     self.scale_row(axis, if undone { Double::ONE / factor } else { factor });
                 }
-            }
-            Step::Rotate(degrees) if undone => {
-                self.turn(0, 1, -degrees.z);
-                self.turn(2, 0, -degrees.y);
-                self.turn(1, 2, -degrees.x);
+                self = Self::new(self.rows, self.offset, self.rounding);
             }
             Step::Rotate(degrees) => {
-                self.turn(1, 2, degrees.x);
-                self.turn(2, 0, degrees.y);
-                self.turn(0, 1, degrees.z);
+                let turns = [(1, 2, degrees.x), (2, 0, degrees.y), (0, 1, degrees.z)];
+                match undone {
+                    false => turns.into_iter().for_each(|(a, b, by)| self.turn(a, b, by)),
+                    true => turns.into_iter().rev().for_each(|(a, b, by)| self.turn(a, b, -by)),
+                }
+                self = Self::new(self.rows, self.offset, self.rounding);
             }
             Step::Matrix([x, y, z, offset]) => {
                 let [x, y, z, offset] = [x, y, z, offset].map(|v| DoubleVector::from(*v));
@@ -137,17 +145,17 @@ impl Affine {
         let rounding = self.rounding + inner.rounding;
         let offset = self.point(inner.offset);
         // Most maps only translate: nothing is rounded then, and little is computed.
-        if inner.is_translation() {
-            return Self { rows: self.rows, offset, rounding };
+        if inner.is_translation {
+            return Self { offset, rounding, ..*self };
         }
-        if self.is_translation() {
-            return Self { rows: inner.rows, offset, rounding };
+        if self.is_translation {
+            return Self { offset, rounding, ..*inner };
         }
         let columns = inner.columns();
         let row = |row: DoubleVector| {
             DoubleVector::new(row.dot(columns[0]), row.dot(columns[1]), row.dot(columns[2]))
         };
-        Self { rows: self.rows.map(row), offset, rounding: rounding + Self::STEP_ROUNDING }
+        Self::new(self.rows.map(row), offset, rounding + Self::STEP_ROUNDING)
     }
 
     /// As most things are moved.
@@ -156,23 +164,23 @@ impl Affine {
     }
 
     pub fn is_identity(&self) -> bool {
-        self.is_translation() && self.offset == DoubleVector::ZERO
-    }
-
-    fn is_translation(&self) -> bool {
-        self.rows == Self::IDENTITY.rows
+        self.is_translation && self.offset == DoubleVector::ZERO
     }
 
     pub fn is_finite(&self) -> bool {
-        self.rows.iter().all(|row| row.is_finite()) && self.offset.is_finite()
+        let is_linear = self.is_translation || self.rows.iter().all(|row| row.is_finite());
+        is_linear && self.offset.is_finite()
     }
 
     pub fn point(&self, p: DoubleVector) -> DoubleVector {
-        self.direction(p) + self.offset
+        match self.moves_nothing() {
+            true => p,
+            false => self.direction(p) + self.offset,
+        }
     }
 
     pub fn direction(&self, d: DoubleVector) -> DoubleVector {
-        if self.is_translation() {
+        if self.is_translation {
             return d;
         }
         DoubleVector::new(self.rows[0].dot(d), self.rows[1].dot(d), self.rows[2].dot(d))
@@ -245,34 +253,61 @@ impl Affine {
         largest / (volume / (largest * middle))
     }
 
-    /// The inverse, or why there is none.
-    pub fn checked(&self) -> Result<Self, Fault> {
+    /// What the inverse is made of; `None` where it but moves back. Or why there is no inverse.
+    fn checked_cofactors(&self) -> Result<Option<Cofactors>, Fault> {
         if !self.is_finite() {
             return Err(Fault::not_finite("this transform"));
         }
-        if self.is_translation() {
-            return Ok(Self { offset: -self.offset, ..*self });
+        if self.is_translation {
+            return Ok(None);
         }
-        let Cofactors { rows, determinant } =
-            self.cofactors().ok_or(Fault::flat("this transform flattens space"))?;
+        let flat = || Fault::flat("this transform flattens space");
+        self.cofactors().map(Some).ok_or_else(flat)
+    }
+
+    /// The condition number, where it is [`NEAR_SINGULAR`].
+    pub fn near_singular(&self) -> Option<f64> {
+        if self.is_translation {
+            return None;
+        }
+        // The largest factor, squared, times the middle one, over the volume: of most maps it is plain from
+        // the sum of their squares that this is little.
+        let size = self.size();
+        let near_one = self.rows.map(|row| row.map(|c| c.times_power_of_two(1.0 / size)).round());
+        let squares: f64 = near_one.into_iter().map(Vector::length_squared).sum();
+        let volume = near_one[0].dot(near_one[1].cross(near_one[2])).abs();
+        if squares * squares.sqrt() < 0.5 * NEAR_SINGULAR * volume {
+            return None;
+        }
+        Some(self.condition()).filter(|&condition| condition >= NEAR_SINGULAR)
+    }
+
+    /// The inverse, or why there is none.
+    pub fn checked(&self) -> Result<Self, Fault> {
+        let Some(Cofactors { rows, determinant }) = self.checked_cofactors()? else {
+            return Ok(Self { offset: -self.offset, ..*self });
+        };
         let rows = rows.map(|row| row.map(|c| c / determinant));
-        let linear = Self { rows, offset: DoubleVector::ZERO, rounding: self.bound() };
+        let linear = Self::new(rows, DoubleVector::ZERO, self.bound());
         Ok(Self { offset: -linear.direction(self.offset), ..linear })
     }
 
     /// The factor by which lengths grow, if it is the same in all directions: when the rows are as
     /// long as each other and at right angles, within the map's bound (which is far below `f64`).
     pub fn uniform_scale(&self) -> Option<Double> {
-        if self.is_translation() {
+        if self.is_translation {
             return Some(Double::ONE);
         }
-        let [x, y, z] = self.rows;
-        let length = x.length();
-        let [x, y, z] = [x, y, z].map(|row| row.map(|c| c / length));
-        let small = |v: Double| v.abs().round() <= self.bound();
-        let same = small(y.length() - Double::ONE) && small(z.length() - Double::ONE);
+        // Brought near 1 first, so that the square of a huge or tiny map is a number.
+        let size = self.size();
+        let [x, y, z] = self.rows.map(|row| row.map(|c| c.times_power_of_two(1.0 / size)));
+        let squared = x.dot(x);
+        let bound = self.bound() * squared.round();
+        let small = |v: Double| v.abs().round() <= bound;
+        let half = Double::from(0.5);
+        let same = small((y.dot(y) - squared) * half) && small((z.dot(z) - squared) * half);
         let square = small(x.dot(y)) && small(y.dot(z)) && small(z.dot(x));
-        (same && square).then_some(length)
+        (same && square && !squared.is_zero()).then(|| x.length().times_power_of_two(size))
     }
 
     /// The linear part times `factor`, each number rounded once.
@@ -287,20 +322,26 @@ impl Affine {
 /// inverted.
 pub struct Transforms<'s> {
     steps: &'s [Vec<Step>],
-    spent: Vec<Option<Result<Affine, Fault>>>,
-    undone: BTreeMap<TransformId, Result<Affine, Fault>>,
+    /// What lists come to, or undone. A step by itself is not kept: it is as soon spent again.
+    spent: FxHashMap<(TransformId, bool), Result<Affine, Fault>>,
     /// Condition numbers of [`NEAR_SINGULAR`] and more.
     near_singular: BTreeMap<TransformId, f64>,
 }
 
 impl<'s> Transforms<'s> {
     pub fn new(steps: &'s [Vec<Step>]) -> Self {
-        let spent = vec![None; steps.len()];
-        Self { steps, spent, undone: BTreeMap::new(), near_singular: BTreeMap::new() }
+        Self { steps, spent: FxHashMap::default(), near_singular: BTreeMap::new() }
     }
 
     /// The map that a list comes to.
     pub fn get(&mut self, id: TransformId) -> Result<Affine, Fault> {
+        if let [Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_)] =
+            self.steps[id.index()][..]
+        {
+            let map = self.spend(id, false);
+            self.note_condition(id, map.as_ref().ok());
+            return map;
+        }
         // Lists refer to lists: an explicit stack holds what is under way.
         let mut open = vec![(id, false)];
         while let Some(&(id, undone)) = open.last() {
@@ -318,17 +359,14 @@ impl<'s> Transforms<'s> {
             if open.len() == under_way {
                 let map = self.spend(id, undone);
                 self.note_condition(id, map.as_ref().ok());
-                match undone {
-                    false => self.spent[id.index()] = Some(map),
-                    true => drop(self.undone.insert(id, map)),
-                }
+                self.spent.insert((id, undone), map);
             }
         }
         self.known(id, false).cloned().unwrap_or(Ok(Affine::IDENTITY))
     }
 
     fn known(&self, id: TransformId, undone: bool) -> Option<&Result<Affine, Fault>> {
-        if undone { self.undone.get(&id) } else { self.spent[id.index()].as_ref() }
+        self.spent.get(&(id, undone))
     }
 
     /// A list whose parts are known.
@@ -340,8 +378,10 @@ impl<'s> Transforms<'s> {
         } else {
             steps.iter().try_fold(Affine::IDENTITY, |map, step| map.then(step, false, part))?
         };
-        map.checked()?;
-        Ok(map)
+        match steps.iter().all(is_rigid) && map.is_finite() {
+            true => Ok(map),
+            false => map.checked_cofactors().map(|_| map),
+        }
     }
 
     /// Notes a list that nearly flattens space, if it does so by itself: not by a list in it.
@@ -350,12 +390,11 @@ impl<'s> Transforms<'s> {
             Step::Transform(part) | Step::InverseOf(part) => self.near_singular.contains_key(part),
             Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_) => false,
         };
-        let rigid = |step: &Step| matches!(step, Step::Translate(_) | Step::Rotate(_));
         let steps = &self.steps[id.index()];
-        if steps.iter().all(rigid) || steps.iter().any(strained) {
+        if steps.iter().all(is_rigid) || steps.iter().any(strained) {
             return;
         }
-        if let Some(condition) = map.map(Affine::condition).filter(|&n| n >= NEAR_SINGULAR) {
+        if let Some(condition) = map.and_then(Affine::near_singular) {
             self.near_singular.insert(id, condition);
         }
     }
@@ -369,6 +408,11 @@ impl<'s> Transforms<'s> {
     pub fn product(&mut self, ids: &[TransformId]) -> Result<Affine, Fault> {
         ids.iter().try_fold(Affine::IDENTITY, |map, &id| Ok(self.get(id)?.after(&map)))
     }
+}
+
+/// Whether it flattens nothing by itself.
+fn is_rigid(step: &Step) -> bool {
+    matches!(step, Step::Translate(_) | Step::Rotate(_))
 }
 
 impl Fault {

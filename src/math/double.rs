@@ -9,6 +9,7 @@
 //! of double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12, 17.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::LazyLock;
 
 use super::Vector;
 use super::elementary::fmod;
@@ -157,7 +158,8 @@ pub fn sin_cos_degrees(degrees: f64) -> (Double, Double) {
         (if rest < 0.0 { -root } else { root }, root)
     } else {
         let x = Double::from(rest) * Double::RADIANS_PER_DEGREE;
-        (x * alternating_series(x * x, 1.0), alternating_series(x * x, 0.0))
+        let [sine, cosine] = &*SERIES;
+        (x * alternating(sine, x * x), alternating(cosine, x * x))
     };
     match (quarter as i64).rem_euclid(4) {
         0 => (sine, cosine),
@@ -167,16 +169,27 @@ pub fn sin_cos_degrees(degrees: f64) -> (Double, Double) {
     }
 }
 
-/// Σ (−square)ᵏ · s! / (2k + s)!: the cosine for s = 0, and for s = 1 the sine over its argument.
-/// Fourteen terms leave less than 2⁻¹¹⁰ for an argument below π/4.
-fn alternating_series(square: Double, s: f64) -> Double {
-    let mut sum = Double::ONE;
-    for k in (1..14).rev() {
-        let n = 2.0 * f64::from(k) + s;
-        sum = Double::ONE - square * sum / Double::from(n * (n - 1.0));
-    }
-    sum
+/// Σ (−square)ᵏ · termₖ, from the smallest.
+fn alternating(terms: &[Double; TERMS], square: Double) -> Double {
+    let [first @ .., last] = terms;
+    first.iter().rev().fold(*last, |sum, &term| term - square * sum)
 }
+
+/// What is left out is less than 2⁻¹¹⁰ for an argument below π/4.
+const TERMS: usize = 14;
+
+/// 1/(2k + 1)! and 1/(2k)!: of the sine over its argument, and of the cosine.
+static SERIES: LazyLock<[[Double; TERMS]; 2]> = LazyLock::new(|| {
+    let terms = |start: f64| {
+        let mut term = Double::ONE;
+        std::array::from_fn(|k| {
+            let n = 2.0 * k as f64 + start;
+            term = if k == 0 { term } else { term / Double::from(n * (n - 1.0)) };
+            term
+        })
+    };
+    [terms(1.0), terms(0.0)]
+});
 
 /// A vector of [`Double`]s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -82,12 +82,12 @@ pub enum Solid {
         functions: [Arc<Closed>; 3],
         /// Two corners of what u and v range over.
         corners: [[f64; 2]; 2],
-        container: Container,
+        container: Box<Container>,
     },
     /// Where a function is less than a threshold, within a container.
     Isosurface {
         function: Arc<Closed>,
-        container: Container,
+        container: Box<Container>,
         threshold: f64,
         /// A length.
         accuracy: f64,

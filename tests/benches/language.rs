@@ -39,6 +39,12 @@ fn main() {
     let promised = "   promised: 5";
     row("a macro's object, placed", &turns(ball, "Ball(<I, 0, 9>, 0.5)"), promised);
     row("a macro's object, declared", &turns(ball, "#declare S = Ball(<I, 0, 9>, 0.5)"), promised);
+    let painted = "#macro Ball(P, R, C) sphere { P, R pigment { rgb C } } #end\n";
+    let call = "Ball(<I, 0, 9>, 0.5, <I/200000, 0.5, 1>)";
+    row("a macro's object, painted", &turns(painted, call), "");
+    let moved = "#macro Ball(P, R, C) sphere { 0, R pigment { rgb C } finish { phong 1 } \
+                 rotate I*y translate P } #end\n";
+    row("the same, shiny, turned and moved", &turns(moved, call), "");
     row("an object in a loop", &turns("", "sphere { <I, 0, 9>, 0.5 }"), "");
     let nested = "#macro Add(A, B) #declare A = A + B; #end\n\
                   #macro Twice(X) #local Y = 2; Add(X, Y) Add(X, 1) #end\n";

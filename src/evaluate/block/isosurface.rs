@@ -57,7 +57,7 @@ impl Evaluator<'_> {
             return Err(Reported);
         }
         let function = function?;
-        let container = container.unwrap_or(Container::DEFAULT);
+        let container = Box::new(container.unwrap_or(Container::DEFAULT));
         Ok(Solid::Isosurface { function, container, threshold, accuracy, open })
     }
 
@@ -146,7 +146,7 @@ impl Evaluator<'_> {
             self.nothing(token, &second.here, diagnostic)?;
         }
         let corners = [first.value, second.value];
-        Ok(Solid::Parametric { functions, corners, container })
+        Ok(Solid::Parametric { functions, corners, container: Box::new(container) })
     }
 
     fn corner(&mut self, token: &Token, wanted: &str) -> Outcome<Given<[f64; 2]>> {

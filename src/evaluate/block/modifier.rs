@@ -26,6 +26,10 @@ impl Evaluator<'_> {
         used: Option<ObjectId>,
         modifiers: &mut Vec<Modifier>,
     ) -> Outcome<()> {
+        // As of most objects in loops.
+        if self.peek().is_none() {
+            return Ok(());
+        }
         let is_texture = |modifier: &Modifier| matches!(modifier.kind, ModifierKind::Texture(_));
         let mut textured = used.is_some_and(|used| self.made[used.index()].textured)
             || modifiers.iter().any(is_texture);

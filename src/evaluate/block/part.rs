@@ -76,6 +76,10 @@ impl Evaluator<'_> {
     /// The token of the value after `after` (a word of the block, or what opened it), which is taken.
     fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
         let passed = self.silent.is_none() && self.pass(ItemKind::Comma);
+        // As most are written.
+        if passed && self.peeks_value() {
+            return self.next().ok_or(Reported);
+        }
         let comma = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
         if comma && let Some(reported) = self.comma_for_value(after, wanted) {
             return Err(reported);
@@ -90,11 +94,7 @@ impl Evaluator<'_> {
         if !passed && !comma && self.taken != self.blocks.last().copied() {
             self.semicolon_for_comma();
         }
-        let is_value = matches!(
-            self.peek().map(|token| &token.kind),
-            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
-        );
-        if !is_value {
+        if !self.peeks_value() {
             self.silent = self.silent.or(silent);
             if let Some(reported) = self.blame_macro(wanted) {
                 return Err(reported);
@@ -114,6 +114,11 @@ impl Evaluator<'_> {
             return Err(self.report(&after.here, diagnostic));
         }
         self.next().ok_or(Reported)
+    }
+
+    fn peeks_value(&mut self) -> bool {
+        let next = self.peek().map(|token| &token.kind);
+        matches!(next, Some(TokenKind::Expression(_) | TokenKind::Literal(_)))
     }
 
     /// The value after `after`.
@@ -300,11 +305,9 @@ impl Evaluator<'_> {
         if self.peeks_unknown_name() {
             return Ok(otherwise);
         }
-        match self.peek().map(|token| &token.kind) {
-            Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
-                Ok(self.number_after(after, "a number")?.value)
-            }
-            _ => Ok(otherwise),
+        match self.peeks_value() {
+            true => Ok(self.number_after(after, "a number")?.value),
+            false => Ok(otherwise),
         }
     }
 

@@ -120,6 +120,21 @@ pub fn call(
     if finite { Ok(value) } else { Err(arguments.not_finite()) }
 }
 
+/// The number that a function of numbers gives; `None` where [`call`] would not, or is of another family.
+pub fn number<const N: usize>(word: Word, numbers: [f64; N]) -> Option<f64> {
+    let Function { arity, body } = float::function(word)?;
+    let number = match body {
+        _ if !arity.contains(&N) => return None,
+        Body::Plain(f) => f(*numbers.first()?),
+        Body::Number(f) => {
+            let values = numbers.map(Value::Number);
+            f(&Arguments { word, values: &values, longest: 0 }).ok()?
+        }
+        Body::Vector(_) | Body::String(_) | Body::Random(_) => return None,
+    };
+    number.is_finite().then_some(number)
+}
+
 fn function(word: Word) -> Option<Function> {
     float::function(word)
         .or_else(|| vector::function(word))

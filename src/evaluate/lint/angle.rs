@@ -224,7 +224,8 @@ impl Evaluator<'_> {
         angle: f64,
     ) {
         // Nothing else is worth a look, and these are often called.
-        if angle.abs() < FEWEST_DEGREES {
+        let is_small = angle.abs() < FEWEST_DEGREES;
+        if is_small || !matches!(word, Word::Sin | Word::Cos | Word::Tan) {
             return;
         }
         let typed = angle.fract() == 0.0 && self.is_typed_in_degrees(here, id);

@@ -35,10 +35,11 @@ impl Affine {
             DoubleVector::new(x, y, z)
         });
         let symmetric = |rows: [DoubleVector; 3]| {
-            let map = Self { rows, offset: DoubleVector::ZERO, rounding: self.bound() };
+            let map = Self::new(rows, DoubleVector::ZERO, self.bound());
             let half = Double::from(0.5);
             let [x, y, z] = map.columns();
-            Self { rows: [(rows[0] + x) * half, (rows[1] + y) * half, (rows[2] + z) * half], ..map }
+            let mean = [(rows[0] + x) * half, (rows[1] + y) * half, (rows[2] + z) * half];
+            Self::new(mean, map.offset, map.rounding)
         };
         Some((symmetric(stretch), symmetric(unstretch)))
     }
@@ -51,7 +52,7 @@ impl Affine {
             let Cofactors { rows, determinant } = near.cofactors()?;
             // The columns of the inverse transpose.
             let [x, y, z] = rows.map(|row| row.map(|c| c / determinant));
-            let opposite = Self { rows: [x, y, z], ..near }.columns();
+            let opposite = Self::new([x, y, z], near.offset, near.rounding).columns();
             // A power of two that brings the two to one size makes the first steps quick.
             let balance = (opposite.iter().map(|r| r.largest()).fold(0.0, f64::max)
                 / near.rows.iter().map(|r| r.largest()).fold(0.0, f64::max))
@@ -65,6 +66,7 @@ impl Affine {
                 step = step.max((mean - *row).largest());
                 *row = mean;
             }
+            near = Self::new(near.rows, near.offset, near.rounding);
             if step < Self::STEP_ROUNDING {
                 break;
             }
