@@ -184,7 +184,8 @@ pub(super) fn advice(diagnostic: &Diagnostic, sources: &Sources) -> Vec<String> 
     // How often each is told, of fixes that read alike.
     let mut alike: Vec<(String, usize)> = Vec::new();
     for fix in &diagnostic.fixes {
-        let (old, new) = (sources.text(fix.span), visible(&fix.text));
+        // A line of its own reads as what stands in it.
+        let (old, new) = (sources.text(fix.span), visible(fix.text.trim_matches('\n')));
         let said = |line: &String| !new.is_empty() && line.contains(&format!("`{new}`"));
         if lines.iter().any(said) {
             continue;

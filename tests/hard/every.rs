@@ -81,6 +81,35 @@ fn row_6_a_ray_that_leaves_a_body_meets_what_lies_four_errors_off_it() {
     assert!(met > rays() / 20, "{met}");
 }
 
+#[test]
+fn a_ray_from_a_billion_sizes_away_meets_what_one_from_near_meets_on_the_same_line() {
+    let mut dice = Dice(46);
+    let mut met = 0;
+    for (size, placed) in placed(&mut dice, 10) {
+        let middle = placed.placement.centre;
+        let direction = dice.one_of(&[Vector::X, -Vector::Y, Vector::Z]);
+        let above = |x: f64| lucarne::math::double::power_of_two_near(x) * 2.0;
+        // On a grid on which both starts are, so that the two lines are one.
+        let grid = above(middle.abs().max_element().max(size)) / (1u64 << 20) as f64;
+        let distance = above(size) * (1u64 << 30) as f64;
+        for _ in 0..rays() / 1000 {
+            let start = middle + dice.point(size) - direction * (8.0 * size);
+            let near = Ray { origin: (start / grid).round() * grid, direction };
+            let far = Ray { origin: near.origin - direction * distance, direction };
+            assert_eq!(far.origin + direction * distance, near.origin);
+            let [here, there] = [&near, &far].map(|ray| placed.crossings(ray));
+            let case = || format!("{} {placed:?}\n{near:?}\n{here:?}\n{there:?}", placed.body.word());
+            assert_eq!(here.len(), there.len(), "{}", case());
+            for (here, there) in here.iter().zip(&there) {
+                let apart = (there.t - distance - here.t).abs();
+                assert!(apart <= here.error + there.error, "{apart:e} {}", case());
+                met += 1;
+            }
+        }
+    }
+    assert!(met > rays() / 20, "{met}");
+}
+
 /// Whole a² + b² = c².
 const TRIPLES: [[f64; 3]; 4] =
     [[3.0, 4.0, 5.0], [5.0, 12.0, 13.0], [0.0, 1.0, 1.0], [8.0, 15.0, 17.0]];

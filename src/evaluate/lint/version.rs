@@ -54,9 +54,20 @@ impl Evaluator<'_> {
                 "`#version {}` is read as 3.7, and with gamma 1: the file has no {missing}",
                 self.sources.text(old)
             ),
+            None if says.0 => format!("the file has no {missing}; it is read with gamma 1"),
             None => {
                 format!("the file has no {missing}; it is read as version 3.7 with gamma 1")
             }
+        };
+        let (label, help) = match old.is_none() && says.0 {
+            true => (
+                "POV-Ray warns of this, and may refuse it in versions to come",
+                "write `global_settings { assumed_gamma 1 }`",
+            ),
+            false => (
+                "POV-Ray would read this as an old file",
+                "write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`",
+            ),
         };
         let text = &self.sources.get(file).text;
         let settings = Word::GlobalSettings.name();
@@ -64,9 +75,7 @@ impl Evaluator<'_> {
             ((true, false), Some(at)) => Span::new(file, at, at + settings.len()),
             _ => Span::new(file, 0, 0),
         };
-        let mut diagnostic = Diagnostic::new(Code::OldVersion, message)
-            .at(place, "POV-Ray would read this as an old file")
-            .help("write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`");
+        let mut diagnostic = Diagnostic::new(Code::OldVersion, message).at(place, label).help(help);
         // What is included is not a scene, and says nothing for itself.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
             diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
