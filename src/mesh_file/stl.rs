@@ -1,7 +1,7 @@
 //! STL: triangles one by one, as text or in binary; the only file that names `stl_io`.
 //!
-//! A file is binary if it has the length that its count of triangles gives: many of those begin with the
-//! word `solid`, too. Its normals are those of the flat triangles, and tell nothing.
+//! A file is binary if it has the length that its count of triangles gives, or a zero in its head: many of
+//! those begin with the word `solid`, too. Its normals are those of the flat triangles, and tell nothing.
 //!
 //! **Source:** 3D Systems, "StereoLithography Interface Specification", 1989.
 
@@ -19,8 +19,10 @@ const EACH: usize = 50;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let mut soup = Soup { builder, known: HashMap::new() };
-    let is_text =
-        bytes.trim_ascii_start().starts_with(b"solid") && length_told(bytes) != bytes.len();
+    // No text has the zeros of a count.
+    let is_text = bytes.trim_ascii_start().starts_with(b"solid")
+        && length_told(bytes) != bytes.len()
+        && !bytes[..bytes.len().min(HEAD)].contains(&0);
     if !is_text {
         let title =
             bytes.get(HEAD - 4..).map(|rest| Pieces::new(&[b' '; HEAD - 4], rest, usize::MAX));

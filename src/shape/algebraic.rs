@@ -2,6 +2,9 @@
 //!
 //! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
 //! however far away. It may have no end, and begin inside.
+//!
+//! **Source:** P. Hanrahan, "Ray tracing algebraic surfaces", SIGGRAPH 1983, p. 83; the roots as
+//! `math::roots::polynomial` finds them.
 
 mod along;
 mod clipped;

@@ -1,5 +1,8 @@
 //! Cone: √(x² + y²) ≤ |w(z)|, |z| ≤ 1 in its own space, where the width w goes from 1 at z = −1 to
 //! `cap` at z = 1. Where `cap` is negative, two cones stand tip to tip.
+//!
+//! **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), 3.1.3 (a norm less a linear function is
+//! convex).
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};

@@ -3,6 +3,9 @@
 //!
 //! **Invariant:** its edges belong to it: a line that rounding cannot tell from one through an edge meets
 //! it, so that nothing shows between two that share one.
+//!
+//! **Source:** M. Shimrat, "Algorithm 112: position of point relative to polygon", Communications of the ACM 5
+//! (1962), p. 434.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};

@@ -2,6 +2,8 @@
 //! sheet at z = 0. Where they overlap they are one.
 //!
 //! **Invariant:** a line asks only the letters whose boxes it goes through.
+//!
+//! **Source:** POV-Ray 3.7 manual, 3.4.5.1.16; how outlines are filled: the OpenType specification, `glyf`.
 
 use smallvec::SmallVec;
 

@@ -98,7 +98,8 @@ fn a_ray_from_a_billion_sizes_away_meets_what_one_from_near_meets_on_the_same_li
             let far = Ray { origin: near.origin - direction * distance, direction };
             assert_eq!(far.origin + direction * distance, near.origin);
             let [here, there] = [&near, &far].map(|ray| placed.crossings(ray));
-            let case = || format!("{} {placed:?}\n{near:?}\n{here:?}\n{there:?}", placed.body.word());
+            let case =
+                || format!("{} {placed:?}\n{near:?}\n{here:?}\n{there:?}", placed.body.word());
             assert_eq!(here.len(), there.len(), "{}", case());
             for (here, there) in here.iter().zip(&there) {
                 let apart = (there.t - distance - here.t).abs();
