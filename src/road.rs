@@ -5,6 +5,7 @@
 
 mod dark;
 mod echo;
+mod unread;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
 use crate::evaluate::{EvaluateOptions, evaluate};
@@ -136,11 +137,12 @@ impl<'a> Road<'a> {
 
     pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
-        let before = self.diagnostics.len();
+        let mut before = self.diagnostics.len();
         // Only a tree with faults has echoes; others are large, and gone when they have run.
         let faulty = self.diagnostics.has_errors().then(|| ast.clone());
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
         if let Some(ast) = &faulty {
+            before = unread::tell_unread(&scene.skipped, before, &mut self.diagnostics);
             echo::drop_echoes(ast, &self.sources, before, &mut self.diagnostics);
         }
         if self.options.legacy {

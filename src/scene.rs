@@ -23,7 +23,7 @@ use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
 use crate::pattern::Pattern;
-use crate::source::{Expansions, Site};
+use crate::source::{Expansions, Site, Span};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
 pub use julia_fractal::JuliaFractal;
@@ -67,6 +67,8 @@ pub struct Scene {
     pub finish_origins: Vec<FinishOrigin>,
     /// Names of the main file that nothing used.
     pub unused: Vec<Unused>,
+    /// Branches of the main file that were not run, where its text had mistakes.
+    pub skipped: Vec<Span>,
     /// Shapes without size, told and left out: the word of each, and where.
     pub sizeless: Vec<(&'static str, Site)>,
     pub interiors: Vec<Interior>,

@@ -88,6 +88,7 @@ codes! {
     MalformedNumber "malformed-number" error "a number is not written as a number";
     ExpectedExpression "expected-expression" error "a value was expected here";
     NestingLimit "nesting-limit" error "brackets, directives, signs or declarations are nested deeper than the limit";
+    UnreadBranch "unread-branch" sure "a branch that is not run is not in the language";
     ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
     BadEncoding "bad-encoding" lint "the file is not UTF-8 and was read as Latin-1";
     // words and names
@@ -138,6 +139,7 @@ codes! {
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" sure "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    TakesNothing "takes-nothing" lint "what a difference takes away does not reach what it takes it from";
     OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
     ComparedSurface "compared-surface" sure "the formula of a surface is an equation, which is 0 or 1";

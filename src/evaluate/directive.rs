@@ -7,6 +7,7 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::{Family, Word};
 
+use super::branch::is_bracket;
 use super::scope::{Owner, Symbol};
 use super::stream::{Hold, Token, TokenKind};
 use super::value::Value;
@@ -34,10 +35,20 @@ impl Evaluator<'_> {
             }
             DirectiveKind::If { test, then, otherwise } => {
                 let taken = match test {
-                    Test::Condition(condition) => self.condition(here, *condition)?,
+                    Test::Condition(condition) => match self.condition(here, *condition) {
+                        // `#if (Broken) merge { #else union { #end`: one of them opens it.
+                        Err(reported)
+                            if is_bracket(here, *then) && is_bracket(here, *otherwise) =>
+                        {
+                            self.push_branch(here, *then);
+                            return Err(reported);
+                        }
+                        condition => condition?,
+                    },
                     Test::Defined(target) => self.is_defined(here, target),
                     Test::NotDefined(target) => !self.is_defined(here, target),
                 };
+                self.note_asked(here, id, taken);
                 self.push_branch(here, if taken { *then } else { *otherwise });
                 Ok(())
             }

@@ -141,7 +141,17 @@ impl Evaluator<'_> {
         let only = files.first().filter(|_| files.len() == 1).map(String::as_str);
         let near = suggest::closest(&text, files.iter().map(String::as_str));
         let Some(file) = near.or(only) else {
-            return self.undeclared_among(here, symbol, span, |_| false);
+            if !files.is_empty() || self.scopes.declared(symbol).is_some() {
+                return self.undeclared_among(here, symbol, span, |_| false);
+            }
+            let message = format!("`{text}` is not declared: no `#fopen` has opened it");
+            let diagnostic = Diagnostic::new(Code::UndeclaredName, message)
+                .at(span, "expected the name of an open file")
+                .help(format!(
+                    "`#fopen {text} \"file\" read` opens one; `write` and `append` for writing"
+                ));
+            self.scopes.assign(symbol, Value::Broken);
+            return self.report(here, diagnostic);
         };
         let message = format!("`{text}` is not declared: no `#fopen` has opened it");
         let mut diagnostic = Diagnostic::new(Code::UndeclaredName, message)

@@ -309,6 +309,8 @@ impl Evaluator<'_> {
             Callee::Word(word, word_span) => match word {
                 Word::Sum | Word::Prod => self.loop_node(here, formula, word, word_span, arguments),
                 Word::Rand | Word::Seed => Err(self.no_stream(here, word, word_span)),
+                // No value, wherever it stands.
+                Word::Pwr | Word::Sqr => self.expression(here, id).and(Err(Reported)),
                 _ if is_operation(word) => {
                     self.operation_node(here, formula, word, word_span, arguments)
                 }

@@ -8,6 +8,7 @@
 mod argument;
 mod array;
 mod block;
+mod branch;
 mod builtin;
 mod call;
 mod comparison;
@@ -55,7 +56,7 @@ use crate::scene::{
     TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, NameId};
+use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, NameId};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -239,6 +240,8 @@ struct Evaluator<'a> {
     faulty_turns: u64,
     /// A file was not understood whole, so a loop may lack what ends it.
     misread: bool,
+    /// Of each condition of such a file, whether it held, and whether it did not.
+    asked: HashMap<DirectiveId, [bool; 2]>,
     /// How often something was reported, repetitions included; and how often an error.
     reports: u64,
     faults: u64,
@@ -357,6 +360,7 @@ impl<'a> Evaluator<'a> {
             turns: 0,
             faulty_turns: 0,
             misread: false,
+            asked: HashMap::new(),
             reports: 0,
             faults: 0,
             remembered: Remembered::default(),
@@ -378,6 +382,7 @@ impl<'a> Evaluator<'a> {
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
+        self.scene.skipped = self.skipped(&here.unit.ast);
         if self.halted {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();

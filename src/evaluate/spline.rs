@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{Site, Span};
 use crate::spline::{Knot, Spline, SplineKind, replacing};
 use crate::syntax::ast::Argument;
@@ -34,6 +34,9 @@ impl SplineValue {
         Components::new(&values[..self.components]).map_or(Value::Broken, Value::Vector)
     }
 }
+
+const KINDS: [Word; 4] =
+    [Word::LinearSpline, Word::QuadraticSpline, Word::CubicSpline, Word::NaturalSpline];
 
 fn kind_of(word: Word) -> Option<SplineKind> {
     match word {
@@ -147,7 +150,10 @@ impl Evaluator<'_> {
             _ => false,
         };
         let text = self.sources.text(token.span).to_owned();
-        let word = Word::from_name(&format!("{text}_spline")).filter(|_| is_name)?;
+        let kinds = || KINDS.into_iter().map(Word::name);
+        let short = Word::from_name(&format!("{text}_spline")).filter(|_| is_name);
+        let near = || suggest::closest(&text, kinds()).and_then(Word::from_name);
+        let word = short.or_else(|| near().filter(|_| is_name))?;
         let kind = kind_of(word)?;
         let meant = word.name();
         let diagnostic =

@@ -1,4 +1,5 @@
-//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away.
+//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away; and
+//! parts that take nothing away.
 //!
 //! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
 //! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
@@ -114,6 +115,9 @@ impl Lowering<'_, '_> {
                 .entry(site.span)
                 .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
                 .or_insert(told.map(|told| (told, site)));
+            if operation == Operation::Difference {
+                self.note_idle(&parts);
+            }
         }
         self.note_known(whole(making, &parts, inverse, site).turned(inverse));
     }
@@ -161,6 +165,28 @@ impl Lowering<'_, '_> {
             true => told,
             false => told.also(a, "one of them").also(b, "another, beside it"),
         })
+    }
+
+    /// Notes what takes nothing away, and what takes something, of the parts of a difference.
+    fn note_idle(&mut self, parts: &[Known]) {
+        let [first, others @ ..] = parts else { return };
+        for other in others.iter().filter(|_| !first.is_nothing()) {
+            let site = other.site;
+            let taken = other.turned(true);
+            let apart = gap(&[*first, taken]).is_some_and(|gap| !gap.touching);
+            let is_idle = apart && !taken.is_nothing() && site.span != first.site.span;
+            let told = is_idle.then(|| {
+                let message = "this is taken away where nothing is: it does not reach the first";
+                Diagnostic::new(Code::TakesNothing, message)
+                    .at(site.span, "takes nothing away")
+                    .also(first.site.span, "of this")
+                    .help("move it to where it is to cut, or leave it out")
+            });
+            self.idle
+                .entry(site.span)
+                .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
+                .or_insert(told.map(|told| (told, site)));
+        }
     }
 
     /// Whether nothing of a part is left where `rest` is what another leaves.
@@ -252,7 +278,9 @@ impl Lowering<'_, '_> {
     }
 
     pub(super) fn lint_emptied(&mut self) {
-        for (told, site) in std::mem::take(&mut self.emptied).into_values().flatten() {
+        let emptied = std::mem::take(&mut self.emptied).into_values();
+        let idle = std::mem::take(&mut self.idle).into_values();
+        for (told, site) in emptied.chain(idle).flatten() {
             self.reporter.diagnostics.push(told.traced(site, self.reporter.expansions));
         }
     }

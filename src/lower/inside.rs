@@ -56,10 +56,10 @@ impl Lowering<'_, '_> {
         };
         let diagnostic =
             Diagnostic::new(Code::NothingInView, "the camera is inside an object, in the dark")
-                .at(site.span, "the camera stands in this, and no light does")
-                .also(camera.span, "the camera")
+                .at(camera.span, "it stands inside, and no light does")
+                .also(site.span, "this is all around it")
                 .help("move the camera's `location` out of it, or a light in");
-        let diagnostic = diagnostic.traced(site, self.reporter.expansions);
+        let diagnostic = diagnostic.traced(camera, self.reporter.expansions);
         self.reporter.diagnostics.push(diagnostic);
         true
     }

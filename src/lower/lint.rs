@@ -23,6 +23,12 @@ impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
         // What a mistake kept from being read may be what is missing.
         if !self.is_sound {
+            // A file that includes itself holds its camera twice.
+            let mut spans: Vec<_> = self.scene.cameras.iter().map(|one| one.site.span).collect();
+            spans.dedup();
+            if spans.len() == self.scene.cameras.len() {
+                self.lint_second_camera();
+            }
             let is_lit = self.options.lights_known && !self.world.lights.is_empty();
             if is_lit && !self.is_blind && !self.lacks_parts() {
                 self.lint_inside();
@@ -90,6 +96,11 @@ impl Lowering<'_, '_> {
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
             self.reporter.diagnostics.push(Diagnostic::new(Code::NoCamera, message).help(help));
         }
+        self.lint_second_camera();
+    }
+
+    fn lint_second_camera(&mut self) {
+        let cameras = &self.scene.cameras;
         if let [ignored @ .., last] = cameras.as_slice()
             && !ignored.is_empty()
         {

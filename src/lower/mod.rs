@@ -83,6 +83,7 @@ pub fn lower(
         lamps: Vec::new(),
         black: None,
         emptied: BTreeMap::new(),
+        idle: BTreeMap::new(),
         building: None,
         shared: BTreeMap::new(),
         meshes: HashMap::new(),
@@ -131,6 +132,8 @@ struct Lowering<'s, 'd> {
     black: Option<Site>,
     /// Of each operation of which nothing may be left, by its place: what is to be said, if nothing is of any.
     emptied: BTreeMap<Span, Option<(Diagnostic, Site)>>,
+    /// Likewise, of each part of a difference that may take nothing away.
+    idle: BTreeMap<Span, Option<(Diagnostic, Site)>>,
     /// The solid made of others that is under way.
     building: Option<csg::Building>,
     /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of

@@ -124,7 +124,11 @@ impl<'a> Nest<'a> {
                     "expected `(Name, from, to)` or `(Name, from, to, step)`",
                 );
                 let missing = self.add(ExpressionKind::Missing, at.after());
-                self.conditioned(head, at, missing, close);
+                let counter = values.as_deref().and_then(<[_]>::first);
+                let named = counter.and_then(|counter| self.name_of(*counter));
+                let (name, name_span) = named.unwrap_or_else(|| (self.name(""), at.after()));
+                let body = Body::For { name, name_span, from: missing, to: missing, step: None };
+                self.open(FrameKind::Body(body), at, false);
             }
             (Head::Range, Some([from, to])) => self.case(at, CaseKind::Range(*from, *to)),
             (Head::Range, _) => {

@@ -10,6 +10,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::comment::Quiet;
+use super::spelling::is_near_a_directive;
 use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
 use super::{ParseOptions, parse};
 use crate::diagnostic::Diagnostics;
@@ -25,7 +26,10 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     let unreadable = |branch: &Range<usize>| {
         let text = quiet.text.get(branch.clone()).unwrap_or("");
         // `#elif` is rather a branch of its own.
-        let unknown = |token: &Token| token.kind == TokenKind::Directive(Head::Unknown);
+        let unknown = |token: &Token| {
+            let word = text.get(token.start as usize..token.end as usize).unwrap_or("");
+            token.kind == TokenKind::Directive(Head::Unknown) && is_near_a_directive(word)
+        };
         if super::token::tokens(text).iter().any(unknown) {
             return false;
         }

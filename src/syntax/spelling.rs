@@ -34,6 +34,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("def", "declare"),
 ];
 
+/// What other languages write before a name and its parameters.
+const FUNCTIONS: &[&str] = &["function", "func", "fn", "def", "sub", "proc", "procedure"];
+
 /// Reports every unknown directive, and takes it for the one that was meant if that is likely.
 pub(super) fn correct_heads(
     tokens: &mut Vec<Token>,
@@ -43,7 +46,7 @@ pub(super) fn correct_heads(
 ) {
     let mut before = None;
     for at in 0..tokens.len() {
-        let next = tokens.get(at + 1).map(|next| next.kind);
+        let [next, behind] = [1, 2].map(|more| tokens.get(at + more).map(|next| next.kind));
         let Some(token) = tokens.get_mut(at) else { continue };
         let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
@@ -70,7 +73,9 @@ pub(super) fn correct_heads(
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
+        let is_function = FUNCTIONS.contains(&word) && opens(behind);
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
+        let foreign = if is_function { Some("macro") } else { foreign };
         let near = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()));
         // `#foo bar` is no `#for`.
         let fits = |near: &&str| {
@@ -95,6 +100,13 @@ pub(super) fn correct_heads(
         diagnostics.push(diagnostic);
     }
     drop_their_ends(tokens);
+}
+
+/// Whether `#word` is rather a directive that is misspelt, or another language's.
+pub(super) fn is_near_a_directive(head: &str) -> bool {
+    let word = directive_word(head);
+    FOREIGN.iter().any(|(theirs, _)| *theirs == word)
+        || suggest::closest(word, Head::WORDS.iter().copied()).is_some()
 }
 
 /// `# Declare the balls`: a sentence that begins with a word of the language (told in habits/sign.rs).

@@ -74,6 +74,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("carve", "difference"),
     // other languages
     ("couleur", "color"),
+    ("clr", "color"),
+    ("col", "color"),
     ("farbe", "color"),
     ("colore", "color"),
     ("sphère", "sphere"),
@@ -210,6 +212,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("move", "translate"),
     ("translation", "translate"),
     ("rotation", "rotate"),
+    ("rotation_euler", "rotate"),
+    ("euler", "rotate"),
     ("rotatex", "rotate"),
     ("rotate_x", "rotate"),
     ("rotatey", "rotate"),

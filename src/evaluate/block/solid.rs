@@ -162,6 +162,9 @@ impl Evaluator<'_> {
                 .at(radius.span, "expected a number more than 0");
             self.nothing(token, &radius.here, diagnostic)?;
         }
+        if radius.value < 0.0 {
+            self.lint_negative_radius(&radius.here, radius.span, radius.value);
+        }
         let open = self.take_word(Word::Open).is_some();
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
     }

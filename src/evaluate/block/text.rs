@@ -29,6 +29,7 @@ impl Evaluator<'_> {
     pub(super) fn text(&mut self, token: &Token) -> Outcome<Solid> {
         let font = self.font()?;
         let wanted = "a string: what is written";
+        self.skip_commas();
         if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek().cloned()
             && let Some(reported) = self.lacks_quotes(&here, id)
         {
@@ -46,7 +47,13 @@ impl Evaluator<'_> {
         }
         let given = given?;
         let Value::String(string) = &given.value else {
-            return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
+            let text = self.sources.text(given.span);
+            let help = matches!(given.value, Value::Number(_)).then(|| match text.parse::<f64>() {
+                Ok(_) => format!("write `\"{text}\"`"),
+                Err(_) => format!("a number becomes a string by `str({text}, 0, -1)`"),
+            });
+            let Given { here, span, value, .. } = &given;
+            return Err(self.wrong_type_with(here, *span, wanted, value, help));
         };
         let string = string.to_string();
         self.names_font(&given, &string)?;

@@ -1,0 +1,53 @@
+//! Branches that were never run: a mistake of form in one is none of the picture.
+//!
+//! **Invariant:** noted only of the main file, and where its text has mistakes; a branch in a macro that was
+//! not called, or in a loop that had no turn, is not among them.
+
+use crate::source::{FileId, Span};
+use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, ItemKind, Items, Test};
+
+use super::{Evaluator, Here};
+
+/// Whether a branch opens or closes what pairs only after it has run.
+pub(super) fn is_bracket(here: &Here, branch: Items) -> bool {
+    let items = here.unit.ast.items(branch);
+    items.iter().any(|item| matches!(item.kind, ItemKind::Open | ItemKind::Close))
+}
+
+impl Evaluator<'_> {
+    pub(super) fn note_asked(&mut self, here: &Here, id: DirectiveId, held: bool) {
+        if self.misread && here.unit.ast.file == FileId(0) {
+            self.asked.entry(id).or_default()[usize::from(!held)] = true;
+        }
+    }
+
+    pub(super) fn skipped(&self, ast: &Ast) -> Vec<Span> {
+        if self.asked.is_empty() {
+            return Vec::new();
+        }
+        let mut skipped = Vec::new();
+        for item in &ast.items {
+            let ItemKind::Directive(id) = item.kind else { continue };
+            let DirectiveKind::If { test, then, otherwise } = &ast.directive(id).kind else {
+                continue;
+            };
+            let head = match test {
+                Test::Condition(condition) => ast.expression(*condition).span,
+                Test::Defined(target) | Test::NotDefined(target) => target.span,
+            };
+            let end = item.span.end;
+            let ends =
+                |items: Items| ast.items(items).last().map_or(head.end, |last| last.span.end);
+            let branch = match self.asked.get(&id) {
+                Some([false, true]) if otherwise.is_empty() => Some((head.end, end)),
+                Some([false, true]) => Some((head.end, ends(*then))),
+                Some([true, false]) => {
+                    ast.items(*otherwise).first().map(|first| (first.span.start, end))
+                }
+                _ => None,
+            };
+            skipped.extend(branch.map(|(start, end)| Span { start, end, ..item.span }));
+        }
+        skipped
+    }
+}
