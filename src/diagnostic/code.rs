@@ -116,7 +116,7 @@ codes! {
     // scene as a whole
     NoCamera "no-camera" lint "the scene has no camera";
     PictureShape "picture-shape" lint "the picture and the camera have different shapes, so pixels are not square";
-    DuplicateCamera "duplicate-camera" lint "the scene has two cameras; the last one is used";
+    DuplicateCamera "duplicate-camera" sure "the scene has two cameras; the last one is used";
     MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
     DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";
     NoLight "no-light" lint "nothing gives light, so the picture is dark";
@@ -139,6 +139,8 @@ codes! {
     FresnelWithoutIor "fresnel-without-ior" lint "`fresnel` on an object without an index of refraction";
     NegativeSize "negative-size" sure "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
+    DegenerateTriangle "degenerate-triangle" sure "the corners of a triangle lie in a line";
+    NothingLeft "nothing-left" sure "nothing is left of an intersection or a difference";
     TakesNothing "takes-nothing" lint "what a difference takes away does not reach what it takes it from";
     OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";

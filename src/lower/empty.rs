@@ -135,7 +135,7 @@ impl Lowering<'_, '_> {
         let word = operation.word().name();
         let told = |why: &str| {
             let message = format!("this `{word}` is empty: {why}");
-            Diagnostic::new(Code::DegenerateShape, message).at(site.span, "nothing is left of it")
+            Diagnostic::new(Code::NothingLeft, message).at(site.span, "nothing is left of it")
         };
         if operation == Operation::Difference {
             // Each of the others is here what it leaves.

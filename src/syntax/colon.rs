@@ -4,7 +4,7 @@
 
 use super::ast::{Callee, ExpressionKind, ItemKind};
 use super::nest::{FrameKind, Nest, State};
-use super::token::{Mark, TokenKind};
+use super::token::{Bracket, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Word;
@@ -27,6 +27,9 @@ impl<'a> Nest<'a> {
             && alone
         {
             return self.finish_expression();
+        }
+        if self.is_in_unknown_block() {
+            return;
         }
         let told = Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`");
         if self.parts_nothing() {
@@ -57,6 +60,24 @@ impl<'a> Nest<'a> {
             _ => told,
         };
         self.report(told);
+    }
+
+    /// `dictionary { ["sky"]: 1 }`: the word is the mistake, and is told.
+    fn is_in_unknown_block(&self) -> bool {
+        let mut depth = 0;
+        for at in (0..self.at).rev() {
+            match self.tokens[at].kind {
+                TokenKind::Mark(Mark::Close(Bracket::Brace)) => depth += 1,
+                TokenKind::Mark(Mark::Open(Bracket::Brace)) if depth > 0 => depth -= 1,
+                TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
+                    let before = at.checked_sub(1).map(|before| self.tokens[before].kind);
+                    return before == Some(TokenKind::Name);
+                }
+                TokenKind::Directive(_) => return false,
+                _ => {}
+            }
+        }
+        false
     }
 
     fn times(&self, told: Diagnostic, direction: Word, span: Span) -> Diagnostic {

@@ -13,7 +13,7 @@ pub(in crate::evaluate) use file::MeshFiles;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
@@ -87,12 +87,15 @@ impl Evaluator<'_> {
         let mut gathered = Gathered::default();
         if !gathered.add(token, triangle, Dress::default()) {
             let [first, .., last] = &triangle.0;
-            let diagnostic = Diagnostic::new(
-                self.sizeless(),
-                "a triangle whose corners lie in a line is nothing",
-            )
-            .at(last.span, "expected a corner beside the line through the other two")
-            .also(first.span, "the first corner");
+            // POV-Ray tells it, too.
+            let code = match self.sizeless() {
+                Code::DegenerateShape => Code::DegenerateTriangle,
+                mistake => mistake,
+            };
+            let diagnostic =
+                Diagnostic::new(code, "a triangle whose corners lie in a line is nothing")
+                    .at(last.span, "expected a corner beside the line through the other two")
+                    .also(first.span, "the first corner");
             self.nothing(token, &last.here, diagnostic)?;
         }
         self.tell_of_aimless(gathered.flaws.aimless, word, token.here.site(token.span));
