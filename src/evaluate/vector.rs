@@ -29,6 +29,17 @@ impl Gathered {
     }
 }
 
+/// `-1 -1 -1`, as versions before 3 of POV-Ray had vectors, with what parts them today.
+fn with_commas(inside: &str) -> Option<String> {
+    let parts: Vec<&str> = inside.split_whitespace().collect();
+    let is_signed = |part: &&str| {
+        part.strip_prefix(['-', '+'])
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '.'))
+    };
+    let all = (2..=5).contains(&parts.len()) && parts[1..].iter().all(is_signed);
+    all.then(|| format!("<{}>", parts.join(", ")))
+}
+
 impl Evaluator<'_> {
     pub(super) fn vector_value(
         &mut self,
@@ -80,10 +91,15 @@ impl Evaluator<'_> {
                 let inside = self.sources.text(span).trim_matches(['<', '>', ',', ' ']).to_owned();
                 let message = "a vector has two to five components, this one has 1";
                 let diagnostic = Diagnostic::new(Code::WrongArity, message)
-                    .at(span, "one number between `<` and `>`")
-                    .help(format!(
+                    .at(span, "one number between `<` and `>`");
+                let diagnostic = match with_commas(&inside) {
+                    Some(vector) => diagnostic
+                        .help(format!("without commas it is a difference: write `{vector}`"))
+                        .fix(span, vector),
+                    None => diagnostic.help(format!(
                         "a place along the y axis is `<0, {inside}, 0>`; a number stands alone: `{inside}`"
-                    ));
+                    )),
+                };
                 Err(self.report(here, diagnostic))
             }
             (None, Some([])) => {

@@ -1,5 +1,6 @@
 //! Closed: a function and all that it asks; it needs nothing from outside.
 
+use super::domain::{Needed, needed};
 use super::noise::NoiseFunction;
 use super::slope::Sloped;
 use super::tape::{Function, Step};
@@ -39,6 +40,7 @@ pub enum Asked {
 pub struct Closed {
     function: Function,
     asked: Vec<Asked>,
+    needed: Vec<Needed>,
 }
 
 impl Closed {
@@ -66,7 +68,13 @@ impl Closed {
                 *id = OutsideId(place as u32);
             }
         }
-        Some(Self { function, asked: all.into_iter().map(|(_, asked)| asked).collect() })
+        let needed = needed(&function);
+        Some(Self { function, asked: all.into_iter().map(|(_, asked)| asked).collect(), needed })
+    }
+
+    /// Whether it is certainly no number wherever the arguments lie within theirs.
+    pub fn is_undefined(&self, arguments: &[Interval]) -> bool {
+        self.needed.iter().any(|needed| needed.is_missed(arguments, self))
     }
 
     pub fn function(&self) -> &Function {

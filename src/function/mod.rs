@@ -12,6 +12,7 @@
 
 mod build;
 mod closed;
+mod domain;
 mod noise;
 mod number;
 mod operation;

@@ -2,7 +2,8 @@
 //!
 //! **In:** a function's bounds over an interval or at a place. **Out:** the changes of its sign, each between
 //! two places where its sign is certain. **Invariant:** none is left out where the bounds decide; where they
-//! are infinite, the function is looked at in places no farther apart than the resolution.
+//! are infinite, the function is looked at in places no farther apart than the resolution; where it is not
+//! defined it has no sign.
 //!
 //! An interval has no root where the bounds, or the slopes from its ends on, say so; one at most where the
 //! function rises or falls throughout; any other is cut to what the ends' slopes leave of it, or into two.
@@ -17,9 +18,22 @@ use crate::math::interval::Interval;
 /// What a function can come to in an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
+    /// [`Bounds::UNDEFINED`] has no number here.
     pub value: Interval,
     /// Kinks have the slopes of both sides, jumps everything.
     pub slope: Interval,
+}
+
+impl Bounds {
+    /// Of a function that is not defined anywhere in the interval.
+    pub const UNDEFINED: Self = Self {
+        value: Interval { low: f64::NAN, high: f64::NAN },
+        slope: Interval::EVERYTHING,
+    };
+
+    fn is_undefined(&self) -> bool {
+        self.value.low.is_nan()
+    }
 }
 
 /// A change of sign.
@@ -196,6 +210,9 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
             return None;
         }
         let all = (self.function)(Interval { low: a.s, high: b.s });
+        if all.is_undefined() {
+            return None;
+        }
         let Interval { low: fall, high: rise } = all.slope;
         if sign(all.value).is_some() || fall > 0.0 || rise < 0.0 {
             return None;

@@ -40,6 +40,8 @@ struct Cell {
 pub(super) struct Known {
     /// Whether it is negative throughout, if it is of one sign.
     pub negative: Option<bool>,
+    /// It is no number throughout.
+    pub undefined: bool,
     /// At the middle.
     value: Interval,
     /// In the cell; outside of these, nothing is known.
@@ -77,7 +79,7 @@ impl fmt::Debug for Cells {
 
 impl Known {
     fn new(
-        bounds: &impl Fn([Interval; 3]) -> Sloped<3>,
+        bounds: &impl Fn([Interval; 3]) -> Option<Sloped<3>>,
         middle: Vector,
         half: Vector,
         margin: f64,
@@ -86,12 +88,18 @@ impl Known {
             let (at, far) = (middle[axis], half[axis] + margin);
             Interval { low: at - far, high: at + far }
         };
-        let Sloped { value: all, slopes } = bounds([0, 1, 2].map(around));
+        let (all, undefined) = match bounds([0, 1, 2].map(around)) {
+            Some(all) => (all, false),
+            None => (Sloped::anyhow(Interval::EVERYTHING, false), true),
+        };
+        let Sloped { value: all, slopes } = all;
         let slopes = slopes
             .map(|Interval { low, high }| [(low as f32).next_down(), (high as f32).next_up()]);
-        let mut known = Self { negative: sign(all), value: Interval::EVERYTHING, slopes };
+        let mut known =
+            Self { negative: sign(all), undefined, value: Interval::EVERYTHING, slopes };
         if known.negative.is_none() {
-            known.value = bounds(middle.to_array().map(Interval::point)).value;
+            let middle = bounds(middle.to_array().map(Interval::point));
+            known.value = middle.map_or(Interval::EVERYTHING, |all| all.value);
             let step = |axis: usize| {
                 let far = half[axis] + margin;
                 known.slope(axis) * Interval { low: -far, high: far }
@@ -158,7 +166,7 @@ impl Cells {
         ray: &LocalRay,
         half: Vector,
         (from, to): (f64, f64),
-        bounds: &impl Fn([Interval; 3]) -> Sloped<3>,
+        bounds: &impl Fn([Interval; 3]) -> Option<Sloped<3>>,
         mut show: impl FnMut(Piece) -> bool,
     ) {
         let margin = MARGIN * half.max_element();
@@ -170,7 +178,8 @@ impl Cells {
         while let Some(Visit { cell, middle, depth, from, to }) = stack.pop() {
             let half = halves[depth as usize];
             let known = cell.known.get_or_init(|| Known::new(bounds, middle, half, margin));
-            if known.negative.is_some() || depth == DEPTH || known.is_flat() {
+            let is_told = known.negative.is_some() || known.undefined;
+            if is_told || depth == DEPTH || known.is_flat() {
                 if !show(Piece { from, to, known, middle }) {
                     return;
                 }

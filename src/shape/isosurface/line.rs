@@ -42,14 +42,19 @@ impl<'a> Line<'a> {
                 slopes: [times_scale(wide(way, self.ray.turn))],
             }
         };
-        let all = self.evaluate([0, 1, 2].map(coordinate));
+        let place = [0, 1, 2].map(coordinate);
+        let all = self.evaluate(place);
         let is_known = all.value.is_finite() && all.slope.is_finite();
         match s.single() {
             Some(s) if !is_known => {
                 let here = self.at(s);
                 if here.value.is_finite() { here } else { all }
             }
-            _ => all,
+            _ if all.value.is_finite() => all,
+            _ => match self.surface.function.is_undefined(&place.map(|along| along.value)) {
+                true => Bounds::UNDEFINED,
+                false => all,
+            },
         }
     }
 

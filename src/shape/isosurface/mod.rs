@@ -80,8 +80,9 @@ impl Isosurface {
         self.run().at(point) - self.threshold
     }
 
-    /// The value and its gradient over a box, in local lengths.
-    fn bounds(&self, point: [Interval; 3]) -> Sloped<3> {
+    /// The value and its gradient over a box, in local lengths; `None` where it is certainly not defined
+    /// anywhere in it.
+    fn bounds(&self, point: [Interval; 3]) -> Option<Sloped<3>> {
         let along = |axis: usize| {
             let mut slopes = [Interval { low: 0.0, high: 0.0 }; 3];
             slopes[axis] = Interval::point(self.scale);
@@ -89,9 +90,13 @@ impl Isosurface {
             let place = Interval { low: low * self.scale, high: high * self.scale };
             Sloped { value: Interval::point(self.centre[axis]) + place, slopes }
         };
-        let mut all = self.run::<Sloped<3>>().at([0, 1, 2].map(along));
+        let place = [0, 1, 2].map(along);
+        let mut all = self.run::<Sloped<3>>().at(place);
+        if !all.value.is_finite() && self.function.is_undefined(&place.map(|along| along.value)) {
+            return None;
+        }
         all.value = all.value - Interval::point(self.threshold);
-        all
+        Some(all)
     }
 
     /// What the function rises by within `step` to both sides.
@@ -161,6 +166,7 @@ impl Isosurface {
                 }
                 match piece.known.negative {
                     Some(negative) => search.certain(piece.from, piece.to, negative),
+                    None if piece.known.undefined => {}
                     None => {
                         let from = if piece.from == ends.0 { first() } else { piece.from };
                         let to = if is_whole { last() } else { piece.to };
@@ -223,8 +229,9 @@ impl Local for Isosurface {
         if part != SURFACE {
             return self.container.height(part, point);
         }
+        let anyhow = || Sloped::anyhow(Interval::EVERYTHING, false);
         let Sloped { value: Interval { low, high }, slopes } =
-            self.bounds(point.to_array().map(Interval::point));
+            self.bounds(point.to_array().map(Interval::point)).unwrap_or_else(anyhow);
         let value = 0.5 * (low + high);
         let gradient = Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high)));
         let width = Vector::from_array(slopes.map(|slope| slope.high - slope.low)).length();

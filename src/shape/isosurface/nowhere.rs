@@ -57,7 +57,7 @@ impl Isosurface {
             low: (middle[axis] - half[axis]).next_down(),
             high: (middle[axis] + half[axis]).next_up(),
         };
-        if self.bounds([0, 1, 2].map(along)).value.low > 0.0 {
+        if self.bounds([0, 1, 2].map(along)).is_some_and(|all| all.value.low > 0.0) {
             return true;
         }
         halvings > 0

@@ -1,0 +1,110 @@
+//! Domain: where a function is certainly no number, for what it takes a root or a logarithm of.
+//!
+//! **In:** a function. **Out:** the operands that must lie within bounds for it to be a number.
+//! **Invariant:** only those that the result cannot do without: what a choice, a comparison, a minimum or a
+//! maximum may pass over is not among them.
+
+use super::Closed;
+use super::operation::{Binary, Unary};
+use super::tape::{Function, Register, Step};
+use crate::math::interval::Interval;
+
+/// What must lie in an interval.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Needed {
+    operand: Function,
+    within: Interval,
+}
+
+impl Needed {
+    /// Whether it lies outside, wherever the arguments are within theirs.
+    pub fn is_missed(&self, arguments: &[Interval], closed: &Closed) -> bool {
+        let Interval { low, high } = self.operand.run().at(arguments, closed);
+        high < self.within.low || self.within.high < low
+    }
+}
+
+/// All that a function needs to be a number.
+pub(super) fn needed(function: &Function) -> Vec<Needed> {
+    let mut found = Vec::new();
+    // Registers that the result is no number without.
+    let mut strict: Vec<Register> = vec![function.result];
+    for (at, step) in outermost(&function.steps).into_iter().rev() {
+        let to = match *step {
+            Step::Unary { to, .. } | Step::Binary { to, .. } => to,
+            Step::Choose { to, .. } | Step::Ask { to, .. } => to,
+            Step::Repeat(repeat) => repeat.to,
+        };
+        let Some(place) = strict.iter().position(|register| *register == to) else { continue };
+        strict.swap_remove(place);
+        let mut need = |operand: Register, within: Interval| {
+            let steps = function.steps[..at].to_vec();
+            let operand = Function { steps, result: operand, ..function.clone() };
+            found.push(Needed { operand, within });
+        };
+        match *step {
+            Step::Unary { operation, a, .. } => {
+                if let Some(within) = domain(operation) {
+                    need(a, within);
+                }
+                strict.extend((operation != Unary::Not).then_some(a));
+            }
+            Step::Binary { operation: Binary::Pow, a, b, .. } => {
+                let first = function.parameters;
+                let constant = b.checked_sub(first).and_then(|b| function.constants.get(b as usize));
+                // 1 to any power is 1, and any number to the power of 0.
+                if constant.is_some_and(|exponent| exponent.is_finite() && exponent.fract() != 0.0) {
+                    need(a, Interval { low: 0.0, high: f64::INFINITY });
+                    strict.push(a);
+                }
+            }
+            Step::Binary { operation, a, b, .. } => {
+                let is_strict = match operation {
+                    Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide => true,
+                    _ => false,
+                };
+                strict.extend([a, b].into_iter().filter(|_| is_strict));
+            }
+            Step::Choose { .. } | Step::Ask { .. } | Step::Repeat(_) => {}
+        }
+    }
+    found
+}
+
+/// The steps that are in no loop, each with its place.
+fn outermost(steps: &[Step]) -> Vec<(usize, &Step)> {
+    let (mut all, mut at) = (Vec::new(), 0);
+    while let Some(step) = steps.get(at) {
+        all.push((at, step));
+        at += 1;
+        if let Step::Repeat(repeat) = step {
+            at += repeat.body as usize;
+        }
+    }
+    all
+}
+
+/// Where an operation gives a number, if it is not everywhere.
+fn domain(operation: Unary) -> Option<Interval> {
+    match operation {
+        Unary::Sqrt | Unary::Ln | Unary::Log => Some(Interval { low: 0.0, high: f64::INFINITY }),
+        Unary::Asin | Unary::Acos | Unary::Atanh => Some(Interval { low: -1.0, high: 1.0 }),
+        Unary::Acosh => Some(Interval { low: 1.0, high: f64::INFINITY }),
+        Unary::Negate
+        | Unary::Not
+        | Unary::Abs
+        | Unary::Floor
+        | Unary::Ceil
+        | Unary::Int
+        | Unary::Square
+        | Unary::Exp
+        | Unary::Sin
+        | Unary::Cos
+        | Unary::Tan
+        | Unary::Atan
+        | Unary::Sinh
+        | Unary::Cosh
+        | Unary::Tanh
+        | Unary::Asinh => None,
+    }
+}
