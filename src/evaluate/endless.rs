@@ -33,6 +33,7 @@ pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
             | ExpressionKind::Index(..)
             | ExpressionKind::Component(..)
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => return false,
         }
     }
@@ -72,6 +73,7 @@ fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
             | ExpressionKind::Index(..)
             | ExpressionKind::Component(..)
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => {}
         }
     }

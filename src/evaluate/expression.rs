@@ -37,6 +37,7 @@ impl Evaluator<'_> {
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
+            ExpressionKind::Joint => Err(self.nothing_before(here, expression.span)),
             // Brackets in brackets.
             kind => {
                 if let ExpressionKind::Vector(components) = kind
@@ -112,6 +113,7 @@ impl Evaluator<'_> {
             | ExpressionKind::String
             | ExpressionKind::Name(_)
             | ExpressionKind::Word(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => self.expression(here, id),
         }
     }
@@ -132,6 +134,17 @@ impl Evaluator<'_> {
         id: ExpressionId,
         leftmost: ExpressionId,
     ) -> Outcome<Value> {
+        let value = self.operand(here, leftmost);
+        self.sum_with(here, id, value)
+    }
+
+    /// As [`Self::expression`], with this for the leftmost operand.
+    pub(super) fn sum_with(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        leftmost: Outcome<Value>,
+    ) -> Outcome<Value> {
         let mut operations = Vec::new();
         let mut innermost = id;
         while let ExpressionKind::Binary(_, left, _) = here.unit.expression(innermost).kind
@@ -140,8 +153,7 @@ impl Evaluator<'_> {
             operations.push(innermost);
             innermost = left;
         }
-        let value = self.operand(here, leftmost);
-        let value = self.operation(here, innermost, value);
+        let value = self.operation(here, innermost, leftmost);
         operations.into_iter().rev().fold(value, |value, id| self.operation(here, id, value))
     }
 
@@ -365,7 +377,7 @@ impl Evaluator<'_> {
 
     /// The one value that the current items leave.
     pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
-        let value = self.value_or(here, span)?;
+        let value = self.joined_value(here, span)?;
         while matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }

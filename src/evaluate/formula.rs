@@ -18,6 +18,7 @@ use crate::syntax::ast::{
 use crate::vocabulary::Word;
 
 use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
+use super::joint::holds_directive;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
@@ -27,15 +28,18 @@ mod operation;
 mod refused;
 
 use mention::mention;
-use operation::{is_operation, operation, operation_of};
+pub(super) use operation::operation_of;
+use operation::{is_operation, operation};
 
 /// A formula on its way to a tape.
-struct Formula {
-    builder: Builder,
+pub(super) struct Formula {
+    pub(super) builder: Builder,
     /// The newest last: counters of loops hide parameters.
     names: Vec<(ParameterName, Node)>,
     /// Something in it is not built yet.
     poison: Option<Poison>,
+    /// What stands before a directive.
+    pub(super) before: Option<Node>,
 }
 
 impl Formula {
@@ -58,25 +62,30 @@ impl Evaluator<'_> {
         };
         let names = parameters.iter().enumerate();
         let names = names.filter_map(|(at, name)| Some((*name, builder.parameter(at)?))).collect();
-        let mut formula = Formula { builder, names, poison: None };
+        let mut formula = Formula { builder, names, poison: None, before: None };
         let result = self.node(here, &mut formula, id)?;
+        let result = self.joined_node(here, &mut formula, id, result)?;
         Ok(match formula.poison {
             Some(poison) => Err(poison),
             None => Ok(formula.builder.finish(result)),
         })
     }
 
-    fn too_long(&mut self, here: &Here, span: Span) -> Reported {
-        let diagnostic = Diagnostic::new(Code::OutOfRange, "this function is too long")
-            .at(span, "it comes to more than a million operations, or 56 loops inside each other");
-        self.report(here, diagnostic)
-    }
-
-    fn built(&mut self, here: &Here, span: Span, built: Result<Node, TooLong>) -> Outcome<Node> {
+    pub(super) fn built(
+        &mut self,
+        here: &Here,
+        span: Span,
+        built: Result<Node, TooLong>,
+    ) -> Outcome<Node> {
         built.map_err(|TooLong| self.too_long(here, span))
     }
 
-    fn node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
+    pub(super) fn node(
+        &mut self,
+        here: &Here,
+        formula: &mut Formula,
+        id: ExpressionId,
+    ) -> Outcome<Node> {
         // Brackets in brackets.
         stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.node_of(here, formula, id))
     }
@@ -120,6 +129,14 @@ impl Evaluator<'_> {
                 self.component_node(here, formula, id, base, component)
             }
             ExpressionKind::Missing => Err(Reported),
+            ExpressionKind::Joint => match formula.before.take() {
+                Some(node) => Ok(node),
+                None => self.expression(here, id).and(Err(Reported)),
+            },
+            // `(x #if (A) + 1 #end)`
+            ExpressionKind::GroupItems(items) if holds_directive(here, items) => {
+                self.inside(here, items, |evaluator| evaluator.only_node(formula, (here, span)))
+            }
             ExpressionKind::Number(_)
             | ExpressionKind::String
             | ExpressionKind::Vector(_)

@@ -23,6 +23,7 @@ mod file;
 mod formula;
 mod function;
 mod include;
+mod joint;
 mod lint;
 mod options;
 mod plain;

@@ -56,6 +56,7 @@ mod deep;
 mod extent;
 mod file;
 mod internal;
+mod joint;
 mod made;
 mod promotion;
 mod told;

@@ -51,9 +51,11 @@ pub(super) fn needed(function: &Function) -> Vec<Needed> {
             }
             Step::Binary { operation: Binary::Pow, a, b, .. } => {
                 let first = function.parameters;
-                let constant = b.checked_sub(first).and_then(|b| function.constants.get(b as usize));
+                let constant =
+                    b.checked_sub(first).and_then(|b| function.constants.get(b as usize));
                 // 1 to any power is 1, and any number to the power of 0.
-                if constant.is_some_and(|exponent| exponent.is_finite() && exponent.fract() != 0.0) {
+                if constant.is_some_and(|exponent| exponent.is_finite() && exponent.fract() != 0.0)
+                {
                     need(a, Interval { low: 0.0, high: f64::INFINITY });
                     strict.push(a);
                 }

@@ -22,12 +22,17 @@ impl Lowering<'_, '_> {
     pub(super) fn lint_inside(&mut self) -> bool {
         // Without one, that is what is said.
         let Some(camera) = self.origins.camera else { return false };
+        // What glows may be in there too.
+        if self.glows() {
+            return false;
+        }
         let world = &self.world;
+        let is_starless = world.sky.is_none() && world.background.is_black();
         let is_dim = |object: &Object| {
             let material = world.materials.get(object.material as usize);
             material.is_some_and(|m| m.finish.glow.largest() <= DEFAULT_AMBIENT)
         };
-        // Under a ground it is as dark as in a room.
+        // Under a ground it is as dark as in a room, where no sky is seen.
         let is_plane = |solid: u32| {
             let object = &world.objects[solid as usize];
             object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
@@ -38,7 +43,7 @@ impl Lowering<'_, '_> {
         let is_around = |solid: u32| {
             is_certain(solid)
                 && world.parts(solid).iter().all(is_dim)
-                && (bounds(world, solid).is_some() || is_plane(solid))
+                && (bounds(world, solid).is_some() || (is_plane(solid) && is_starless))
                 && self.is_shut(solid)
                 && self.holds(solid, world.camera.location)
         };

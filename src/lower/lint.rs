@@ -271,7 +271,7 @@ impl Lowering<'_, '_> {
     }
 
     /// Whether any surface is bright without a light, by more than the default ambient.
-    fn glows(&self) -> bool {
+    pub(super) fn glows(&self) -> bool {
         self.world.materials.iter().any(|material| {
             let bright = |color: Rgb| (color * material.finish.glow).largest() > DEFAULT_AMBIENT;
             material.pigment.colors().any(|color| bright(color.rgb))

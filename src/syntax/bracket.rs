@@ -297,6 +297,27 @@ impl<'a> Nest<'a> {
         }
     }
 
+    /// `<1 #if (A) + 2 #end, 0, 0>`: what stands before the directive without a comma is read with it.
+    pub(super) fn directive_goes_on(&mut self) {
+        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        let is_parted = before.is_none_or(|before| {
+            matches!(before.kind, TokenKind::Mark(Mark::Comma | Mark::Open(_) | Mark::Less))
+        });
+        let (base, items) = (self.top().arguments, self.top().items);
+        if is_parted
+            || !self.in_vector()
+            || self.items.len() > items
+            || self.arguments.len() <= base
+        {
+            return;
+        }
+        if let Some(&Argument::Expression(id)) = self.arguments.last() {
+            self.arguments.pop();
+            let span = self.ast.expression(id).span;
+            self.items.push(Item { kind: ItemKind::Expression(id), span });
+        }
+    }
+
     pub(super) fn close_vector(&mut self, span: Span) {
         let base = self.top().arguments;
         self.end_directives_in_vector();

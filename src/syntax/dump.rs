@@ -166,6 +166,7 @@ impl<'a> Dump<'a> {
             ExpressionKind::GroupItems(items) => {
                 self.push([text("group")].into_iter().chain(inline(items)));
             }
+            ExpressionKind::Joint => self.out += "before",
             ExpressionKind::Missing => self.out += "missing",
         }
     }

@@ -130,12 +130,35 @@ impl<'a> Nest<'a> {
         if matches!(self.top().state, State::Holding { .. }) {
             return;
         }
+        let before = Span { end: span.start, ..span };
+        if self.goes_on_behind_a_directive() {
+            return self.operand(ExpressionKind::Joint, before, false);
+        }
         let text = self.slice(span);
         self.report(
             Diagnostic::new(Code::ExpectedExpression, format!("expected a value before `{text}`"))
                 .at(span, "this operator stands between two values"),
         );
-        self.operand(ExpressionKind::Missing, Span { end: span.start, ..span }, false);
+        self.operand(ExpressionKind::Missing, before, false);
+    }
+
+    /// `(2 #if (A) * 3 #end)`: inside a bracket, or a function's formula.
+    fn goes_on_behind_a_directive(&mut self) -> bool {
+        let top = self.top();
+        let (state, items, operators) = (top.state, top.items, top.operators);
+        if state != State::Idle || self.stacks.operators.len() != operators {
+            return false;
+        }
+        let is_behind = match self.items.get(items..).and_then(<[_]>::last) {
+            Some(last) => matches!(last.kind, ItemKind::Directive(_)),
+            None => matches!(self.top().kind, FrameKind::Body(_)),
+        };
+        let around = self.frames.iter().rev().find(|f| !matches!(f.kind, FrameKind::Body(_)));
+        is_behind
+            && around.is_some_and(|frame| match frame.kind {
+                FrameKind::Group | FrameKind::Vector | FrameKind::Call(_) => true,
+                _ => frame.formula,
+            })
     }
 
     /// Told once an expression.

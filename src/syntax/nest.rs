@@ -267,6 +267,7 @@ impl<'a> Nest<'a> {
                     self.leave_vectors(span);
                 }
                 self.finish_expression();
+                self.directive_goes_on();
                 self.directive(head, span);
             }
             TokenKind::LooseOpen | TokenKind::LooseClose => self.loose(token.kind, span),
@@ -323,8 +324,8 @@ impl<'a> Nest<'a> {
         if told {
             id = self.add(ExpressionKind::Missing, self.ast.expression(id).span);
         }
-        if self.in_vector() && !self.top().declaring {
-            self.end_directives_in_vector();
+        let is_behind_directive = self.items.len() > self.top().items;
+        if self.in_vector() && !self.top().declaring && !is_behind_directive {
             self.arguments.push(Argument::Expression(id));
         } else {
             let span = self.ast.expression(id).span;

@@ -160,7 +160,7 @@ impl Print<'_> {
                 let parentheses = [[Task::Text("(")].into(), inside, [Task::Text(")")].into()];
                 self.push(parentheses.into_iter().flatten().collect::<Vec<_>>());
             }
-            ExpressionKind::Missing => {}
+            ExpressionKind::Joint | ExpressionKind::Missing => {}
         }
     }
 

@@ -1,13 +1,26 @@
 //! `#write`: values into an open file.
 
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Arguments, NameId};
+use crate::syntax::ast::{
+    Argument, Arguments, BinaryOperator, ExpressionId, ExpressionKind, NameId,
+};
 
 use super::super::stream::TokenKind;
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome};
 use super::State;
 use super::bytes::{WordType, append};
+
+/// `"a" -1`: two values without a comma between them.
+fn string_and_number(here: &Here, id: ExpressionId) -> Option<(ExpressionId, ExpressionId)> {
+    let kind = |id: ExpressionId| here.unit.expression(id).kind;
+    match kind(id) {
+        ExpressionKind::Binary(BinaryOperator::Subtract, string, number) => {
+            matches!(kind(string), ExpressionKind::String).then_some((string, number))
+        }
+        _ => None,
+    }
+}
 
 impl Evaluator<'_> {
     /// `#write (Name, value, …)`: all of its values, or nothing of them.
@@ -34,9 +47,17 @@ impl Evaluator<'_> {
         let (mut bytes, mut outcome) = (Vec::new(), Ok(()));
         for argument in unit.ast.arguments(arguments) {
             let done = match *argument {
-                Argument::Expression(id) => self.expression(here, id).and_then(|value| {
-                    self.write(here, unit.expression(id).span, &value, None, &mut bytes)
-                }),
+                Argument::Expression(id) => match string_and_number(here, id) {
+                    // A string has no difference.
+                    Some((string, number)) => self.expression(here, string).and_then(|value| {
+                        self.write(here, unit.expression(string).span, &value, None, &mut bytes)?;
+                        let number = Value::Number(-self.number(here, number)?);
+                        self.write(here, unit.expression(id).span, &number, None, &mut bytes)
+                    }),
+                    None => self.expression(here, id).and_then(|value| {
+                        self.write(here, unit.expression(id).span, &value, None, &mut bytes)
+                    }),
+                },
                 Argument::Items(items) => {
                     self.inside(here, items, |evaluator| evaluator.write_items(&mut bytes))
                 }

@@ -36,13 +36,18 @@ impl Evaluator<'_> {
     }
 
     /// `#if (A) x #else y #end`: the one expression that the current items leave.
-    fn only_node(&mut self, formula: &mut Formula, otherwise: (&Here, Span)) -> Outcome<Node> {
+    pub(in crate::evaluate) fn only_node(
+        &mut self,
+        formula: &mut Formula,
+        otherwise: (&Here, Span),
+    ) -> Outcome<Node> {
         let next = self.next();
         let Some(TokenKind::Expression(id)) = next.as_ref().map(|next| next.kind.clone()) else {
             return Err(self.expected("a number", next.as_ref(), otherwise));
         };
         let here = next.map_or(otherwise.0.clone(), |next| next.here);
         let node = self.node(&here, formula, id)?;
+        let node = self.joined_node(&here, formula, id, node)?;
         if let Some(extra) = self.next() {
             let message = "one value was expected here, and there are more";
             let diagnostic = Diagnostic::new(Code::ExtraPart, message)

@@ -39,6 +39,7 @@ pub(super) fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Optio
             ExpressionKind::Number(_)
             | ExpressionKind::String
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => None,
         };
         if name.is_some_and(|name| formula.named(name).is_some()) {

@@ -5,7 +5,7 @@ use crate::math::elementary::RADIANS_PER_DEGREE;
 use crate::syntax::ast::BinaryOperator;
 use crate::vocabulary::Word;
 
-pub(super) fn operation_of(
+pub(in crate::evaluate) fn operation_of(
     operator: BinaryOperator,
     left: Node,
     right: Node,

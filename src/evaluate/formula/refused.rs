@@ -6,6 +6,12 @@ use crate::source::Span;
 use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
+    pub(super) fn too_long(&mut self, here: &Here, span: Span) -> Reported {
+        let diagnostic = Diagnostic::new(Code::OutOfRange, "this function is too long")
+            .at(span, "it comes to more than a million operations, or 56 loops inside each other");
+        self.report(here, diagnostic)
+    }
+
     pub(super) fn no_parameter(&mut self, here: &Here, span: Span) -> Reported {
         let text = self.sources.text(span).to_owned();
         let diagnostic = Diagnostic::new(

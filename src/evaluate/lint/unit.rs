@@ -93,6 +93,7 @@ impl Walk<'_> {
             | ExpressionKind::Word(_)
             | ExpressionKind::Index(..)
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => 0,
         };
         Some(power)

@@ -175,3 +175,11 @@ fn a_scene_does_not_write_itself() {
         "`a.pov` is this scene itself"
     );
 }
+
+#[test]
+fn a_string_and_a_signed_number_behind_it_are_two_values() {
+    let files = Memory::default();
+    let text = "#fopen F \"a\" write #write (F, \"a\" -1, \"b\" - 2*3) #fclose F";
+    assert_eq!(told(&files, text), "");
+    assert_eq!(files.text("a"), "a-1b-6");
+}

@@ -26,10 +26,8 @@ pub struct Bounds {
 
 impl Bounds {
     /// Of a function that is not defined anywhere in the interval.
-    pub const UNDEFINED: Self = Self {
-        value: Interval { low: f64::NAN, high: f64::NAN },
-        slope: Interval::EVERYTHING,
-    };
+    pub const UNDEFINED: Self =
+        Self { value: Interval { low: f64::NAN, high: f64::NAN }, slope: Interval::EVERYTHING };
 
     fn is_undefined(&self) -> bool {
         self.value.low.is_nan()

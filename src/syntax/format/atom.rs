@@ -154,6 +154,7 @@ fn roles(ast: &Ast, length: usize) -> Vec<Role> {
             | ExpressionKind::Component(..)
             | ExpressionKind::Group(_)
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => {}
         }
     }

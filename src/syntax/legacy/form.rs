@@ -145,6 +145,7 @@ impl Legacy<'_> {
             | ExpressionKind::Conditional(..)
             | ExpressionKind::Index(..)
             | ExpressionKind::GroupItems(_)
+            | ExpressionKind::Joint
             | ExpressionKind::Missing => false,
         }
     }
