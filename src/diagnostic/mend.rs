@@ -5,6 +5,8 @@
 //! into another. What a closer or a misspelt word hid may come out, behind it. Doing it again changes
 //! nothing, unless a limit of rounds was met.
 
+use std::collections::BTreeMap;
+
 use super::{Code, Diagnostic, Fix, Severity};
 use crate::source::FileId;
 
@@ -93,27 +95,29 @@ pub fn apply<'a>(
     text: &str,
     diagnostics: impl Iterator<Item = &'a Diagnostic>,
 ) -> (String, Vec<&'a Diagnostic>) {
-    let mut chosen: Vec<&Fix> = Vec::new();
+    // By where they start: of these, which are apart, only neighbours can touch another.
+    let mut chosen: BTreeMap<(u32, usize), &Fix> = BTreeMap::new();
     let mut mended = Vec::new();
     for diagnostic in diagnostics {
         let fixes = &diagnostic.fixes;
         let free = |fix: &Fix| {
             let (start, end) = (fix.span.start, fix.span.end);
+            let before = chosen.range(..(start, 0)).next_back();
             // Two insertions at one place have no order: the second waits too.
-            let apart = |other: &Fix| {
-                let before = other.span.end <= start && other.span.start < start;
-                before || (end <= other.span.start && start < other.span.start)
-            };
-            fix.span.file == FileId(0) && chosen.iter().all(|other| apart(other))
+            let behind = chosen.range((start, 0)..).next();
+            fix.span.file == FileId(0)
+                && before.is_none_or(|(_, other)| other.span.end <= start)
+                && behind.is_none_or(|((other, _), _)| end <= *other && start < *other)
         };
         if !fixes.is_empty() && fixes.iter().all(free) {
-            chosen.extend(fixes);
+            let count = chosen.len();
+            let keyed = fixes.iter().enumerate();
+            chosen.extend(keyed.map(|(at, fix)| ((fix.span.start, count + at), fix)));
             mended.push(diagnostic);
         }
     }
-    chosen.sort_by_key(|fix| fix.span.start);
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
-    for fix in chosen {
+    for fix in chosen.into_values() {
         out.push_str(text.get(at..fix.span.start as usize).unwrap_or(""));
         out.push_str(&fix.text);
         at = fix.span.end as usize;

@@ -3,7 +3,7 @@
 //! **Invariant:** what the first look at a place has found stays. It is reported each time all the same:
 //! the message may have been taken back, and whether it is a repetition is for `Diagnostics` to say.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use crate::diagnostic::{Diagnostic, Severity};
@@ -36,6 +36,8 @@ pub(super) struct Remembered {
     pub refused: HashMap<Span, Vec<Refused>>,
     /// The file that was last not found at a place.
     pub missing: HashMap<Span, (String, Rc<Diagnostic>)>,
+    /// Where the fixes are of what was told as an old form before anything ran.
+    pub old_forms: Option<HashSet<Span>>,
 }
 
 impl Evaluator<'_> {

@@ -57,10 +57,11 @@ impl Evaluator<'_> {
             .help("POV-Ray refuses it without")
             .fix(place, ";");
         // It may be told as an old form.
-        let told = |one: &Diagnostic| {
-            one.code == Code::LegacyForm && one.fixes.iter().any(|fix| fix.span == place)
-        };
-        if self.repeats(&diagnostic) || self.diagnostics.iter().any(told) {
+        let old_forms = self.remembered.old_forms.get_or_insert_with(|| {
+            let told = self.diagnostics.iter().filter(|one| one.code == Code::LegacyForm);
+            told.flat_map(|one| one.fixes.iter().map(|fix| fix.span)).collect()
+        });
+        if old_forms.contains(&place) || self.repeats(&diagnostic) {
             return;
         }
         self.report_in(last.expansion, diagnostic);

@@ -141,6 +141,16 @@ impl Lowering<'_, '_> {
             None if has_lights => told("the scene has no object: its lights shine on nothing"),
             None => return,
         };
+        let told = match self.scene.sizeless.as_slice() {
+            [] => told,
+            [(word, first), others @ ..] => {
+                let label = match others.len() {
+                    0 => format!("this `{word}` has no size, and is left out"),
+                    more => format!("this `{word}` has no size, and is left out, like {more} more"),
+                };
+                told.at(first.span, label).traced(*first, self.reporter.expansions)
+            }
+        };
         self.reporter.diagnostics.push(told);
     }
 

@@ -1,5 +1,8 @@
 //! The includes that come with POV-Ray, and the names that each declares.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 /// One line for each include, without its `.inc`: `colors: Aquamarine BakersChoc …`. Names that only tell
 /// that an include was read are left out. The first line that has a name is the include to name: `stones`
 /// and `glass` have those of the files that they include, too.
@@ -35,8 +38,16 @@ pub fn standard_names(file: &str) -> impl Iterator<Item = &'static str> {
 
 /// The include, as `#include` names it, that declares `name`.
 pub fn standard_include_of(name: &str) -> Option<String> {
-    let declares = |names: &str| names.split_whitespace().any(|other| other == name);
-    rows().find(|(_, names)| declares(names)).map(|(include, _)| format!("{include}.inc"))
+    static INCLUDES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| {
+        let mut all = HashMap::new();
+        for (include, names) in rows() {
+            for name in names.split_whitespace() {
+                all.entry(name).or_insert(include);
+            }
+        }
+        all
+    });
+    INCLUDES.get(name).map(|include| format!("{include}.inc"))
 }
 
 #[cfg(test)]

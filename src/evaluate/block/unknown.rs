@@ -122,7 +122,6 @@ impl Evaluator<'_> {
                 && word.family() != Family::Directive
                 && (dialect == Dialect::Scene || word.block().is_none())
         };
-        // It may stand in the include that was not found.
         let may_be_included =
             self.lacks_include && !has_block && name.starts_with(char::is_uppercase);
         let near = here
@@ -146,6 +145,11 @@ impl Evaluator<'_> {
         let custom = if near.is_none() { custom(&name, place) } else { None };
         if near.is_none() && custom.is_none() && self.lacks_include && !has_block {
             return Unknown::Included;
+        }
+        // Words of the language have no capitals.
+        let is_name = place.word.is_some() && name.starts_with(char::is_uppercase);
+        if let (None, None, Some(symbol), true) = (near, custom, symbol, is_name) {
+            return Unknown::Name(symbol);
         }
         let is_foreign = near.is_some_and(|near| suggest::foreign(&name).any(|word| word == near))
             && suggest::closest(&name, near).is_none();
