@@ -61,10 +61,10 @@ pub(super) fn needed(function: &Function) -> Vec<Needed> {
                 }
             }
             Step::Binary { operation, a, b, .. } => {
-                let is_strict = match operation {
-                    Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide => true,
-                    _ => false,
-                };
+                let is_strict = matches!(
+                    operation,
+                    Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide
+                );
                 strict.extend([a, b].into_iter().filter(|_| is_strict));
             }
             Step::Choose { .. } | Step::Ask { .. } | Step::Repeat(_) => {}

@@ -1,3 +1,4 @@
+mod algebraic;
 mod every_body;
 mod wholes;
 

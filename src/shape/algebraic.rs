@@ -1,7 +1,7 @@
 //! Algebraic surface: where a polynomial in x, y and z is 0; inside it is negative.
 //!
 //! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
-//! however far away. It may have no end, and begin inside.
+//! however far away. It may have no end, and begin inside; where it has one, that is proven.
 //!
 //! **Source:** P. Hanrahan, "Ray tracing algebraic surfaces", SIGGRAPH 1983, p. 83; the roots as
 //! `math::roots::polynomial` finds them.
@@ -9,12 +9,15 @@
 mod along;
 mod clipped;
 mod closed;
+mod ends;
+mod net;
 
 use std::fmt::Write;
 
 use along::Line;
 pub use clipped::HalfSpace;
 use closed::Closed;
+use ends::{Ends, Remembered};
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -35,8 +38,10 @@ pub struct Algebraic {
     sizes: Vec<f64>,
     /// How many zeros come first of each row: of the terms of one power of x and one of y.
     zeros: Vec<u8>,
-    /// Where it ends, if that is known.
+    /// Where it ends, if that is known: of a quadric.
     closed: Option<Closed>,
+    /// Likewise, of others.
+    ends: Remembered,
 }
 
 impl Algebraic {
@@ -46,7 +51,15 @@ impl Algebraic {
         let sizes = terms.iter().map(|term| term.abs()).collect();
         let closed = if degree == 2 { Closed::of(&terms) } else { None };
         let zeros = if fits { along::zeros(degree, &terms) } else { Vec::new() };
-        fits.then_some(Self { degree, terms, sizes, zeros, closed })
+        fits.then_some(Self { degree, terms, sizes, zeros, closed, ends: Remembered::default() })
+    }
+
+    /// Where it ends, if that is known and it is no quadric.
+    fn ends(&self) -> Option<&Ends> {
+        if self.degree == 2 {
+            return None;
+        }
+        self.ends.or(|| Ends::of(self.degree, &self.terms))
     }
 
     /// What the language calls it.
@@ -143,11 +156,19 @@ impl Local for Algebraic {
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {
-        self.closed.map_or(ENDLESS, |closed| closed.extent(along))
+        match (&self.closed, self.ends()) {
+            (Some(closed), _) => closed.extent(along),
+            (None, Some(ends)) => ends.extent(along),
+            (None, None) => ENDLESS,
+        }
     }
 
     fn nearest_extent(&self, along: Vector) -> (f64, f64) {
-        self.closed.map_or(ENDLESS, |closed| closed.nearest_extent(along))
+        match (&self.closed, self.ends()) {
+            (Some(closed), _) => closed.nearest_extent(along),
+            (None, Some(ends)) => ends.nearest_extent(along),
+            (None, None) => ENDLESS,
+        }
     }
 
     fn is_iterated(&self) -> bool {
@@ -159,7 +180,11 @@ impl Local for Algebraic {
     }
 
     fn reach(&self) -> f64 {
-        self.closed.map_or(f64::INFINITY, |closed| closed.reach())
+        match (&self.closed, self.ends()) {
+            (Some(closed), _) => closed.reach(),
+            (None, Some(ends)) if ends.is_solid => ends.reach(),
+            (None, _) => f64::INFINITY,
+        }
     }
 
     /// Its terms but those that are 0: ` 2·x^2·y`.

@@ -218,7 +218,6 @@ macro_rules! bodies {
     ($($kind:ident $word:literal)*) => {
         /// A kind of body, and its numbers.
         #[derive(Debug, Clone, PartialEq)]
-        #[expect(clippy::large_enum_variant, reason = "each stands behind an `Arc`, however often it is placed")]
         pub enum Body {
             $($kind($kind),)*
         }

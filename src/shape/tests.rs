@@ -9,6 +9,7 @@ use box_::random_box;
 use leave::assert_leaves_for_good;
 
 mod algebraic;
+mod algebraic_ends;
 mod bicubic_patch;
 mod blob;
 mod box_;

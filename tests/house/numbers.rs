@@ -30,6 +30,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ),
     ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
     ("shape/algebraic/closed.rs", "MOST_STRETCHED", "a length over a length, squared"),
+    ("shape/algebraic/net.rs", "const NARROWEST", "relative: of the first box's half width"),
+    ("shape/algebraic/net.rs", "let slack", "roundings of a value, relative, and what underflows"),
     ("shape/tree.rs", "STEEPEST", "stands for 1/0"),
     ("evaluate/turn.rs", "1e-9 * step", "relative: of a loop's step"),
     (

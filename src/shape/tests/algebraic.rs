@@ -12,9 +12,9 @@ use crate::shape::body::{Local, LocalRay, Met};
 use crate::shape::exact::Triple;
 
 /// Each coefficient and its powers.
-type Terms = Vec<(f64, [usize; 3])>;
+pub(super) type Terms = Vec<(f64, [usize; 3])>;
 
-fn surface(degree: usize, terms: &Terms) -> Algebraic {
+pub(super) fn surface(degree: usize, terms: &Terms) -> Algebraic {
     let places: BTreeMap<[usize; 3], usize> = exponents(degree).zip(0..).collect();
     let mut all = vec![0.0; count_of_terms(degree)];
     for (term, powers) in terms {
@@ -23,7 +23,7 @@ fn surface(degree: usize, terms: &Terms) -> Algebraic {
     Algebraic::new(degree, all).expect("as many terms as there are")
 }
 
-fn product(a: &Terms, b: &Terms) -> Terms {
+pub(super) fn product(a: &Terms, b: &Terms) -> Terms {
     let mut all = BTreeMap::new();
     for (x, i) in a {
         for (y, j) in b {
@@ -34,12 +34,12 @@ fn product(a: &Terms, b: &Terms) -> Terms {
 }
 
 /// ax² + by² + cz² + d.
-fn squares(a: f64, b: f64, c: f64, d: f64) -> Terms {
+pub(super) fn squares(a: f64, b: f64, c: f64, d: f64) -> Terms {
     vec![(a, [2, 0, 0]), (b, [0, 2, 0]), (c, [0, 0, 2]), (d, [0, 0, 0])]
 }
 
 /// The torus about the y axis.
-fn torus(major: f64, minor: f64) -> Terms {
+pub(super) fn torus(major: f64, minor: f64) -> Terms {
     let mut terms = product(
         &squares(1.0, 1.0, 1.0, major * major - minor * minor),
         &squares(1.0, 1.0, 1.0, major * major - minor * minor),

@@ -1,0 +1,287 @@
+//! Ends: the box, and the ball, that a surface of any degree lies in, if it has an end at all.
+//!
+//! **In:** the terms. **Out:** [`Ends`]; `None` where the surface has no end, or it takes too long to tell.
+//! **Invariant:** outside of what is said, the polynomial is proven to be nowhere 0.
+//!
+//! Of degree n, tⁿ·f is at (1, v, w) / t a polynomial in v, w and t, and alike for the other axes; its terms
+//! without t are those of the highest degree. Where it is not 0 for |v|, |w| ≤ 1 and |t| ≤ T, neither is f
+//! from a cube of half width 1 / T on. That cube's sides are then moved inward, past parts where f is not 0.
+//!
+//! **Source:** A. Neumaier, "Complete search in continuous global optimization and constraint satisfaction",
+//! Acta Numerica 13 (2004), section 11 (branch and bound).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::fmt;
+use std::sync::OnceLock;
+
+use super::super::U;
+use super::net::{Net, Sides, Term};
+use crate::math::Vector;
+use crate::math::terms::exponents;
+
+/// Sums of two numbers that all of it may take, and halvings more, for those of many terms; a search takes a part
+/// of what is left.
+const SUMS: u64 = 2_000_000;
+const HALVINGS: u64 = 400;
+const PART: u64 = 8;
+/// Of λ, at which no term outweighs those of the highest degree: smaller surfaces are looked for in a cube of that
+/// half width.
+const NEAR: f64 = 2.0;
+/// How often the cube is drawn in, at most, before its sides are placed.
+const ROUNDS: usize = 8;
+/// In half widths, how far off a side of the box may be: while it is drawn in, and at last.
+const COARSE: f64 = 0.25;
+const FINE: f64 = 1.0 / 64.0;
+/// Of the distance to the box's corners, how far off the ball may be.
+const ROUND: f64 = 1.0 / 16.0;
+/// How often what tells an end is rounded, at most, of the size of what it is made of.
+const ROUNDINGS: f64 = 64.0;
+
+/// Where a surface ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ends {
+    centre: Vector,
+    half: Vector,
+    /// Of a ball around the centre.
+    radius: f64,
+    /// It is the inside that has an end, and not all that is outside.
+    pub is_solid: bool,
+}
+
+impl Ends {
+    pub fn of(degree: usize, terms: &[f64]) -> Option<Self> {
+        let all = terms.iter().copied().zip(exponents(degree));
+        let terms: Vec<Term> = all.filter(|(term, _)| *term != 0.0).collect();
+        let degree = terms.iter().map(|(_, powers)| powers.iter().sum()).max().unwrap_or(0);
+        // What is of odd degree has both signs far out.
+        if degree == 0 || degree % 2 == 1 {
+            return None;
+        }
+        let highest = terms.iter().find(|(_, powers)| powers[0] == degree)?;
+        let is_solid = highest.0 > 0.0;
+        let mut sums = SUMS;
+        let mut far = NEAR;
+        for axis in 0..3 {
+            far = far.max(reach_of_faces(degree, &terms, axis, &mut sums)?);
+        }
+        let mut sides = [0, 1, 2].map(|axis| one_or_both(&terms, axis, far));
+        let nowhere = Self { centre: Vector::ZERO, half: Vector::ZERO, radius: 0.0, is_solid };
+        for _ in 0..ROUNDS {
+            let Some(drawn) = drawn_in(&terms, sides, COARSE, &mut sums) else {
+                return Some(nowhere);
+            };
+            let is_done = drawn.iter().zip(sides).all(|(new, old)| width(*new) > 0.5 * width(old));
+            sides = drawn;
+            if is_done {
+                break;
+            }
+        }
+        let Some(sides) = drawn_in(&terms, sides, FINE, &mut sums) else { return Some(nowhere) };
+        let all: Sides = std::array::from_fn(|axis| match sides[axis] {
+            (_, high) if is_even(&terms, axis) => (-high, high),
+            both => both,
+        });
+        let centre = Vector::from_array(all.map(|(low, high)| 0.5 * (low + high)));
+        let half = Vector::from_array(all.map(|side| 0.5 * width(side)));
+        let radius = radius(&terms, sides, centre, half.length(), &mut sums);
+        // The centre was rounded, and so were places of parts.
+        let room = ROUNDINGS * U * (centre.abs() + half);
+        let (half, radius) = (half + room, radius + room.length());
+        (half.is_finite() && centre.is_finite()).then_some(Self { centre, half, radius, is_solid })
+    }
+
+    /// The least and the greatest `along`·P, at most.
+    pub fn extent(&self, along: Vector) -> (f64, f64) {
+        let half = along.abs().dot(self.half).min(self.radius * along.length());
+        let slack = ROUNDINGS * U * (along.abs().dot(self.centre.abs()) + half);
+        self.around(along, half + slack)
+    }
+
+    /// The same, as near as it is known.
+    pub fn nearest_extent(&self, along: Vector) -> (f64, f64) {
+        self.around(along, along.abs().dot(self.half).min(self.radius * along.length()))
+    }
+
+    fn around(&self, along: Vector, half: f64) -> (f64, f64) {
+        let middle = along.dot(self.centre);
+        (middle - half, middle + half)
+    }
+
+    /// The radius of a ball around the origin that holds it.
+    pub fn reach(&self) -> f64 {
+        let farthest = (self.centre.abs() + self.half).length();
+        let reach = farthest.min(self.centre.length() + self.radius);
+        reach * (1.0 + ROUNDINGS * U)
+    }
+}
+
+fn width((low, high): (f64, f64)) -> f64 {
+    high - low
+}
+
+/// Whether the polynomial is the same on both sides of 0.
+fn is_even(terms: &[Term], axis: usize) -> bool {
+    terms.iter().all(|(_, powers)| powers[axis] % 2 == 0)
+}
+
+/// To both sides of 0, or to one where that is like the other.
+fn one_or_both(terms: &[Term], axis: usize, far: f64) -> (f64, f64) {
+    (if is_even(terms, axis) { 0.0 } else { -far }, far)
+}
+
+/// The least and the greatest distance from a place.
+fn distances((low, high): (f64, f64), from: f64) -> [f64; 2] {
+    let (low, high) = (low - from, high - from);
+    let least = if low * high <= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+    [least, low.abs().max(high.abs())]
+}
+
+/// From which coordinate along an axis on there is no surface, where no other coordinate is greater.
+fn reach_of_faces(degree: usize, terms: &[Term], axis: usize, sums: &mut u64) -> Option<f64> {
+    let others = [(axis + 1) % 3, (axis + 2) % 3];
+    let around = terms.iter().map(|(term, powers)| {
+        let sum: usize = powers.iter().sum();
+        (*term, [powers[others[0]], powers[others[1]], degree - sum])
+    });
+    let around: Vec<Term> = around.collect();
+    let most = [1.0, 1.0, 1.0 / NEAR];
+    let net = Net::new(&around, [0, 1, 2].map(|axis| one_or_both(&around, axis, most[axis])));
+    // −|t|
+    let reach = |sides: &Sides| {
+        let [least, most] = distances(sides[2], 0.0);
+        [-most, -least]
+    };
+    let tolerance = |reached: f64| if reached.is_finite() { 0.25 * -reached } else { 0.0 };
+    let nearest = farthest(net, reach, tolerance, sums).map_or(most[2], |reach| -reach);
+    (nearest > 0.0).then(|| (1.0 + ROUNDINGS * U) / nearest)
+}
+
+/// A box with its sides moved inward, by all but this share of its half widths; `None` where there is no surface
+/// in it.
+fn drawn_in(terms: &[Term], sides: Sides, share: f64, sums: &mut u64) -> Option<Sides> {
+    let net = Net::new(terms, sides);
+    let mut drawn = sides;
+    for (axis, drawn) in drawn.iter_mut().enumerate() {
+        let tolerance = 0.5 * share * width(*drawn);
+        let room = ROUNDINGS * U * drawn.0.abs().max(drawn.1.abs());
+        let upper = |sides: &Sides| [sides[axis].0, sides[axis].1];
+        let high = farthest(net.clone(), upper, |_| tolerance, sums)?;
+        drawn.1 = drawn.1.min(high + room);
+        if !is_even(terms, axis) {
+            let lower = |sides: &Sides| [-sides[axis].1, -sides[axis].0];
+            let low = -farthest(net.clone(), lower, |_| tolerance, sums)?;
+            drawn.0 = drawn.0.max(low - room);
+        }
+    }
+    Some(drawn)
+}
+
+/// Of the ball around a box's centre that holds what is in it; that to its corners is so large.
+fn radius(terms: &[Term], sides: Sides, centre: Vector, corner: f64, sums: &mut u64) -> f64 {
+    let reach = |sides: &Sides| {
+        let away = [0, 1, 2].map(|axis| distances(sides[axis], centre[axis]));
+        [0, 1].map(|end| Vector::from_array(away.map(|away| away[end])).length())
+    };
+    let tolerance = |_| corner * ROUND;
+    farthest(Net::new(terms, sides), reach, tolerance, sums).map_or(corner, |far| far.min(corner))
+}
+
+/// A part where the polynomial may be 0.
+struct Open {
+    /// How far it goes.
+    reach: [f64; 2],
+    net: Net,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.reach[1].total_cmp(&other.reach[1])
+    }
+}
+
+/// The farthest that the surface goes in a net, at most: `reach` tells the least and the greatest of a part.
+/// It is too far by the tolerance, which may depend on how far the surface goes at least; by more where it takes
+/// too many sums. `None` where there is no surface.
+fn farthest(
+    net: Net,
+    reach: impl Fn(&Sides) -> [f64; 2],
+    tolerance: impl Fn(f64) -> f64,
+    sums: &mut u64,
+) -> Option<f64> {
+    let price = net.price();
+    let most = *sums / PART + HALVINGS / PART * price;
+    let mut taken = 0;
+    let mut reached = f64::NEG_INFINITY;
+    let mut open = BinaryHeap::new();
+    let look = |net: Net, reached: &mut f64, open: &mut BinaryHeap<Open>| {
+        if net.sign().is_some() {
+            return;
+        }
+        let reach = reach(&net.sides());
+        if net.is_crossed() {
+            *reached = reached.max(reach[0]);
+        }
+        open.push(Open { reach, net });
+    };
+    look(net, &mut reached, &mut open);
+    let mut found = None;
+    while let Some(Open { reach: [least, most_far], net }) = open.pop() {
+        let enough = tolerance(reached);
+        let is_near = most_far - reached <= enough || most_far - least <= enough / 16.0;
+        let axis = net.steepest().filter(|_| !is_near && taken < most);
+        let Some(axis) = axis else {
+            found = Some(most_far);
+            break;
+        };
+        taken += price;
+        for half in net.halves(axis) {
+            look(half, &mut reached, &mut open);
+        }
+    }
+    *sums = sums.saturating_sub(taken);
+    found
+}
+
+/// What was found of where a surface ends, once it was asked for.
+#[derive(Default)]
+pub struct Remembered(OnceLock<Option<Ends>>);
+
+impl Remembered {
+    pub fn or(&self, find: impl FnOnce() -> Option<Ends>) -> Option<&Ends> {
+        self.0.get_or_init(find).as_ref()
+    }
+}
+
+impl Clone for Remembered {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+impl PartialEq for Remembered {
+    /// It is a memory, and no part of what the surface is.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl fmt::Debug for Remembered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Remembered")
+    }
+}
