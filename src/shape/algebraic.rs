@@ -144,6 +144,10 @@ impl Local for Algebraic {
         }));
     }
 
+    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+        Some(0)
+    }
+
     fn height(&self, _: u32, point: Vector) -> Height {
         let (value, gradient) = self.at(&self.terms, point);
         let (size, _) = self.at(&self.sizes, point.abs());

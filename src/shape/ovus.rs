@@ -140,6 +140,10 @@ impl Local for Ovus {
         found.extend([met(enter, false), met(leave, true)]);
     }
 
+    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+        Some(0)
+    }
+
     fn height(&self, _: u32, point: Vector) -> Height {
         let (value, gradient) = self.distance(point);
         Height { value, gradient, error: 16.0 * U * (2.0 + point.length()) }

@@ -294,7 +294,6 @@ impl Local for Superellipsoid {
         (-half, half)
     }
 
-    /// As far as it goes along some vector of length 1.
     fn price(&self) -> u64 {
         260
     }

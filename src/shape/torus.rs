@@ -216,6 +216,10 @@ impl Local for Torus {
         }
     }
 
+    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+        Some(0)
+    }
+
     fn height(&self, _: u32, point: Vector) -> Height {
         let across = Vector::new(point.x, point.y, 0.0);
         let off = across.length() - self.major;

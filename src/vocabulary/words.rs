@@ -357,8 +357,8 @@ vocabulary! {
         Eccentricity "eccentricity" statement later "the direction of scattering";
         Extinction "extinction" statement later "how scattering dims light";
         FadeColor "fade_color" | "fade_colour" statement later "the colour light takes inside";
-        FadeDistance "fade_distance" statement built "with `fade_power`: the distance at which a light has the strength of its colour";
-        FadePower "fade_power" statement built "how fast a light fades with the distance d: by 2/(1 + (d/fade_distance)^fade_power)";
+        FadeDistance "fade_distance" statement built "of lights so far: with `fade_power`: the distance at which a light has the strength of its colour";
+        FadePower "fade_power" statement built "of lights so far: how fast a light fades with the distance d: by 2/(1 + (d/fade_distance)^fade_power)";
         Interior "interior" statement built "`interior { ior n }`: what a clear object is filled with";
         Intervals "intervals" statement later "the pieces in which media are sampled";
         Ior "ior" statement built "how much slower light is inside, more than 0: water 1.33, glass 1.5, diamond 2.4; 1 bends nothing";
@@ -474,7 +474,7 @@ vocabulary! {
     }
     VectorFunction {
         MaxExtent "max_extent" function1 built "`max_extent(object)`: the upper corner of its bounding box";
-        MinExtent "min_extent" function1 built "`min_extent(object)`: the lower corner of its bounding box";
+        MinExtent "min_extent" function1 built "`min_extent(object)`: the lower corner of its bounding box, which of turned parts is tighter than POV-Ray's";
         Trace "trace" function built "`trace(object, <from>, <direction> [, Normal])`: where a ray meets it";
         VaxisRotate "vaxis_rotate" function built "`vaxis_rotate(a, b, degrees)`: a turned about b";
         Vcross "vcross" function built "`vcross(a, b)`: the cross product";

@@ -5,6 +5,8 @@
 //! left out, and a place may be off by a rounding; and as all pieces are walked through in one go, what is
 //! crossed where two of them meet is crossed once.
 
+use std::cell::Cell;
+
 use smallvec::SmallVec;
 
 use super::{Blob, Component};
@@ -131,13 +133,17 @@ impl<'a> Line<'a> {
         sample
     }
 
-    pub fn crossings(&mut self, found: &mut Crossings) {
+    /// Those between two places, or some more; where `first` is wanted, no farther than one that is certainly
+    /// behind the former.
+    pub fn crossings(&mut self, (start, end): (f64, f64), first: bool, found: &mut Crossings) {
         let mut joints: SmallVec<[f64; 32]> = self.parts.iter().flat_map(Part::joints).collect();
         joints.sort_unstable_by(f64::total_cmp);
         self.parts.sort_unstable_by(|a, b| a.ends.0.total_cmp(&b.ends.0));
         let mut walk = Walk::new(|s| self.height(s), self.ray.tolerance);
+        let is_enough = Cell::new(false);
         let mut note = |Root { t, error }: Root, leaving: bool| {
             found.push(Met { t, error, leaving, part: 0 });
+            is_enough.set(is_enough.get() || first && t - error > start);
         };
         // The parts that the line is in, and how many it has met.
         let (mut open, mut met): (SmallVec<[usize; 16]>, _) = (SmallVec::new(), 0);
@@ -148,6 +154,12 @@ impl<'a> Line<'a> {
                 met += 1;
             }
             open.retain(|i| self.parts[*i].ends.1 > from);
+            if to < start {
+                continue;
+            }
+            if from > end || is_enough.get() {
+                break;
+            }
             let most: f64 = open.iter().map(|&i| self.parts[i].component.strength.max(0.0)).sum();
             if from == to || most < 1.0 {
                 walk.advance(from, &mut note);
@@ -165,7 +177,7 @@ impl<'a> Line<'a> {
                 }
             }
         }
-        if let Some(&last) = joints.last() {
+        if let Some(&last) = joints.last().filter(|_| !is_enough.get()) {
             walk.advance(last, &mut note);
         }
     }

@@ -143,7 +143,16 @@ impl Blob {
 impl Local for Blob {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let mut line = Line::new(self, ray);
-        line.crossings(found);
+        line.crossings((f64::NEG_INFINITY, f64::INFINITY), false, found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
+        let mut line = Line::new(self, ray);
+        line.crossings(between, true, found);
+    }
+
+    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+        Some(0)
     }
 
     /// What is missing to 1.

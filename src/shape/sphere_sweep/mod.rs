@@ -15,6 +15,10 @@ use crate::math::Vector;
 
 /// A part names a segment and in which of so many stretches of it the ball is.
 const STRETCHES: f64 = 1024.0;
+/// A segment has so many boxes around it, one beside the other: one alone would be mostly empty.
+const BOXES: u32 = 8;
+/// All of a segment.
+const WHOLE: (f64, f64) = (0.0, 1.0);
 
 /// Balls whose centre and radius are c₀ + c₁u + c₂u² + c₃u³ for u from 0 to 1. A negative radius is as good
 /// as a positive one.
@@ -32,8 +36,9 @@ impl Segment {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereSweep {
-    /// In the order of the tree.
     segments: Vec<Segment>,
+    /// Of the boxes in the tree, which hold a stretch each, whose segment it is.
+    owners: Vec<u32>,
     tree: Tree,
     reach: f64,
 }
@@ -42,12 +47,12 @@ fn cubic(c: [f64; 4], u: f64) -> f64 {
     ((c[3] * u + c[2]) * u + c[1]) * u + c[0]
 }
 
-/// Where c₁ + 2c₂u + 3c₃u² is 0, and both ends.
-fn extremes([_, b, c, d]: [f64; 4]) -> impl Iterator<Item = f64> {
+/// Where c₁ + 2c₂u + 3c₃u² is 0 from `from` to `to`, and both ends.
+fn extremes([_, b, c, d]: [f64; 4], (from, to): (f64, f64)) -> impl Iterator<Item = f64> {
     let root = (c * c - 3.0 * d * b).sqrt();
     let q = -(c + root.copysign(c));
-    let within = |u: &f64| 0.0 < *u && *u < 1.0;
-    [q / (3.0 * d), b / q].into_iter().filter(within).chain([0.0, 1.0])
+    let within = move |u: &f64| from < *u && *u < to;
+    [q / (3.0 * d), b / q].into_iter().filter(within).chain([from, to])
 }
 
 impl Segment {
@@ -66,20 +71,20 @@ impl Segment {
         8.0 * U * (centre + self.radius.iter().map(|r| r.abs()).sum::<f64>())
     }
 
-    fn greatest(&self, along: Vector) -> f64 {
+    fn greatest(&self, along: Vector, stretch: (f64, f64)) -> f64 {
         let size = along.length();
         let place = self.centre.map(|c| c.dot(along));
         let reach = |way: f64| {
             let sum = [0, 1, 2, 3].map(|k| place[k] + way * size * self.radius[k]);
-            extremes(sum).map(|u| cubic(sum, u)).fold(f64::NEG_INFINITY, f64::max)
+            extremes(sum, stretch).map(|u| cubic(sum, u)).fold(f64::NEG_INFINITY, f64::max)
         };
         reach(1.0).max(reach(-1.0)) + size * self.rounding()
     }
 
-    fn bounds(&self) -> Bounds {
+    fn bounds(&self, stretch: (f64, f64)) -> Bounds {
         let axes = [Vector::X, Vector::Y, Vector::Z];
-        let high = axes.map(|axis| self.greatest(axis));
-        let low = axes.map(|axis| -self.greatest(-axis));
+        let high = axes.map(|axis| self.greatest(axis, stretch));
+        let low = axes.map(|axis| -self.greatest(-axis, stretch));
         Bounds { low: Vector::from_array(low), high: Vector::from_array(high) }
     }
 
@@ -135,16 +140,18 @@ impl SphereSweep {
         if segments.is_empty() {
             return None;
         }
-        let (tree, order) = Tree::build(&segments.iter().map(Segment::bounds).collect::<Vec<_>>());
-        let segments: Vec<_> = order.into_iter().map(|i| segments[i as usize]).collect();
+        let part = |i: u32| (f64::from(i) / f64::from(BOXES), f64::from(i + 1) / f64::from(BOXES));
+        let boxes = segments.iter().flat_map(|one| (0..BOXES).map(move |i| one.bounds(part(i))));
+        let (tree, order) = Tree::build(&boxes.collect::<Vec<_>>());
+        let owners = order.into_iter().map(|i| i / BOXES).collect();
         let reach = segments.iter().map(Segment::reach).fold(0.0, f64::max) * (1.0 + 8.0 * U);
-        Some(Self { segments, tree, reach })
+        Some(Self { segments, owners, tree, reach })
     }
 
     /// How far it goes over the radius of its greatest ball.
     pub fn slenderness(&self) -> f64 {
         let radii = |one: &Segment| {
-            extremes(one.radius).map(|u| one.radius_at(u).abs()).fold(0.0, f64::max)
+            extremes(one.radius, WHOLE).map(|u| one.radius_at(u).abs()).fold(0.0, f64::max)
         };
         self.reach / self.segments.iter().map(radii).fold(0.0, f64::max)
     }
@@ -160,19 +167,24 @@ impl Local for SphereSweep {
     /// The pieces of the line that lie in segments, of which those that touch become one.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let mut pieces: SmallVec<[(Met, Met); 8]> = SmallVec::new();
+        let mut near: SmallVec<[u32; 16]> = SmallVec::new();
         self.tree.along(ray, ray.blur_at(self.reach) + 4.0 * U, |run| {
-            for number in run {
-                along::pieces(&self.segments[number], ray, |[enter, leave]| {
-                    let met = |place: along::Place, leaving| Met {
-                        t: place.s,
-                        error: place.error,
-                        leaving,
-                        part: part(number, place.u),
-                    };
-                    pieces.push((met(enter, false), met(leave, true)));
-                });
-            }
+            near.extend_from_slice(&self.owners[run]);
         });
+        near.sort_unstable();
+        near.dedup();
+        for number in near {
+            let number = number as usize;
+            along::pieces(&self.segments[number], ray, |[enter, leave]| {
+                let met = |place: along::Place, leaving| Met {
+                    t: place.s,
+                    error: place.error,
+                    leaving,
+                    part: part(number, place.u),
+                };
+                pieces.push((met(enter, false), met(leave, true)));
+            });
+        }
         pieces.sort_unstable_by(|a, b| a.0.t.total_cmp(&b.0.t).then(a.0.part.cmp(&b.0.part)));
         let mut pieces = pieces.into_iter();
         let Some(mut last) = pieces.next() else { return };
@@ -206,7 +218,8 @@ impl Local for SphereSweep {
     fn extent(&self, along: Vector) -> (f64, f64) {
         let greatest = |along: Vector| {
             self.tree.greatest(along, |run| {
-                let reach = self.segments[run].iter().map(|segment| segment.greatest(along));
+                let owners = self.owners[run].iter().map(|&owner| &self.segments[owner as usize]);
+                let reach = owners.map(|segment| segment.greatest(along, WHOLE));
                 reach.fold(f64::NEG_INFINITY, f64::max)
             })
         };
