@@ -24,6 +24,12 @@ pub(super) struct Place {
     pub u: f64,
 }
 
+/// From which ball to which.
+type Stretches = SmallVec<[(f64, f64); 4]>;
+
+/// Stretches are looked for down to this part of a segment.
+const SHORTEST: f64 = 1.0 / 32.0;
+
 /// Polynomials in u, lowest term first.
 struct Along {
     /// a(u).
@@ -89,17 +95,45 @@ impl Along {
         Self { place, across, radius, room, turns: [0.0; 11], rounding: segment.rounding() }
     }
 
-    /// Whether the line certainly misses all balls: all Bernstein coefficients of D are negative.
-    fn is_missed(&self) -> bool {
-        let slack = 64.0 * U * self.room.iter().map(|c| c.abs()).sum::<f64>();
-        (0..=6).all(|i| {
+    /// The stretches of balls outside of which the line certainly misses all: where all Bernstein coefficients of
+    /// D are negative.
+    fn stretches(&self) -> Stretches {
+        let slack = 256.0 * U * self.room.iter().map(|c| c.abs()).sum::<f64>();
+        let all: [f64; 7] = std::array::from_fn(|i| {
             let (mut sum, mut share) = (0.0, 1.0);
             for k in 0..=i {
                 sum += share * self.room[k];
                 share *= (i - k) as f64 / (6.0 - k as f64).max(1.0);
             }
-            sum < -slack
-        })
+            sum
+        });
+        let mut found = Stretches::new();
+        let mut open: SmallVec<[([f64; 7], f64, f64); 8]> = SmallVec::new();
+        open.push((all, 0.0, 1.0));
+        while let Some((upper, from, to)) = open.pop() {
+            if upper.iter().all(|c| *c < -slack) {
+                continue;
+            }
+            if to - from <= SHORTEST {
+                match found.last_mut() {
+                    Some((_, last)) if *last == from => *last = to,
+                    _ => found.push((from, to)),
+                }
+                continue;
+            }
+            // Two halves, as P. de Casteljau finds them.
+            let (mut lower, mut upper) = (upper, upper);
+            for level in 1..7 {
+                for i in 0..7 - level {
+                    upper[i] = 0.5 * (upper[i] + upper[i + 1]);
+                }
+                lower[level] = upper[0];
+            }
+            let middle = 0.5 * (from + to);
+            open.push((upper, middle, to));
+            open.push((lower, from, middle));
+        }
+        found
     }
 
     fn ball(&self, ray: &LocalRay, u: f64) -> Ball {
@@ -133,8 +167,8 @@ impl Along {
         (slope, bend)
     }
 
-    /// All balls among which are those that the line enters first and leaves last, in order.
-    fn candidates(&mut self) -> SmallVec<[f64; 32]> {
+    /// Makes the polynomial whose zeros are such balls that the line enters first or leaves last.
+    fn turn(&mut self) {
         let place: [f64; 3] = derivative(&self.place);
         let room: [f64; 6] = derivative(&self.room);
         let mut square = [0.0; 5];
@@ -142,18 +176,22 @@ impl Along {
         self.turns = [0.0; 11];
         add_product(&mut self.turns, &square, &self.room, 1.0);
         add_product(&mut self.turns, &room, &room, -1.0);
+    }
+
+    /// All balls of a stretch among which are those that the line enters first and leaves last, in order.
+    fn candidates(&self, (from, to): (f64, f64)) -> SmallVec<[f64; 32]> {
         let mut all: SmallVec<[f64; 32]> = SmallVec::new();
         let turns = trimmed(&self.turns);
-        all.extend(turning_points(turns, 0.0, 1.0));
-        all.extend([0.0, 1.0]);
+        all.extend(turning_points(turns, from, to));
+        all.extend([from, to]);
         all.sort_unstable_by(f64::total_cmp);
         let mut roots: SmallVec<[f64; 12]> = SmallVec::new();
         for pair in all.windows(2) {
             roots.extend(root_between_ends(turns, (pair[0], pair[1])));
         }
         all.extend(roots);
-        all.extend(turning_points(trimmed(&self.room), 0.0, 1.0));
-        all.extend(turning_points(trimmed(&self.place), 0.0, 1.0));
+        all.extend(turning_points(trimmed(&self.room), from, to));
+        all.extend(turning_points(trimmed(&self.place), from, to));
         all.sort_unstable_by(f64::total_cmp);
         all.dedup();
         all
@@ -190,33 +228,37 @@ impl Along {
 /// Shows every piece of the line that lies in the segment. Pieces may touch.
 pub(super) fn pieces(segment: &Segment, ray: &LocalRay, mut found: impl FnMut([Place; 2])) {
     let mut along = Along::new(segment, ray);
-    if along.is_missed() {
+    let stretches = along.stretches();
+    if stretches.is_empty() {
         return;
     }
+    along.turn();
     let mut piece: Option<([Place; 2], bool)> = None;
     let mut end = |along: &Along, piece: Option<([Place; 2], bool)>| {
         if let Some(([enter, leave], true)) = piece {
             found([along.polish(ray, enter, -1.0), along.polish(ray, leave, 1.0)]);
         }
     };
-    for u in along.candidates() {
-        let Ball { place, room, room_error, .. } = along.ball(ray, u);
-        // A ball that may as well be touched does not part two pieces.
-        if room < -room_error || room.is_nan() {
-            end(&along, piece.take());
-            continue;
-        }
-        let half = room.max(0.0).sqrt();
-        let [enter, leave] = [-half, half].map(|half| Place { s: place + half, error: 0.0, u });
-        let is_certain = room > room_error;
-        piece = Some(match piece {
-            None => ([enter, leave], is_certain),
-            Some(([first, last], was_certain)) => {
-                let first = if enter.s < first.s { enter } else { first };
-                let last = if leave.s > last.s { leave } else { last };
-                ([first, last], was_certain || is_certain)
+    for stretch in stretches {
+        for u in along.candidates(stretch) {
+            let Ball { place, room, room_error, .. } = along.ball(ray, u);
+            // A ball that may as well be touched does not part two pieces.
+            if room < -room_error || room.is_nan() {
+                end(&along, piece.take());
+                continue;
             }
-        });
+            let half = room.max(0.0).sqrt();
+            let [enter, leave] = [-half, half].map(|half| Place { s: place + half, error: 0.0, u });
+            let is_certain = room > room_error;
+            piece = Some(match piece {
+                None => ([enter, leave], is_certain),
+                Some(([first, last], was_certain)) => {
+                    let first = if enter.s < first.s { enter } else { first };
+                    let last = if leave.s > last.s { leave } else { last };
+                    ([first, last], was_certain || is_certain)
+                }
+            });
+        }
+        end(&along, piece.take());
     }
-    end(&along, piece);
 }
