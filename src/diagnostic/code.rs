@@ -131,6 +131,7 @@ codes! {
     SuspiciousUnit "suspicious-unit" sure "an angle looks like radians where degrees are meant, or a part like a percentage";
     DeepTrace "deep-trace" warning "rays are to be followed deeper than POV-Ray follows them";
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
+    LostComma "lost-comma" sure "two numbers of a vector, of which the second has a sign, have no comma between them";
     ColorRange "color-range" sure "a colour looks as if written as 0 to 255, or is negative";
     UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
     UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";

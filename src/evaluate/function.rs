@@ -218,6 +218,16 @@ impl Evaluator<'_> {
                     _ => None,
                 })
                 .collect(),
+            ExpressionKind::Call(..) | ExpressionKind::Binary(..) if !self.is_before_block() => {
+                let text = self.sources.text(span).to_owned();
+                let right = format!("{{ {text} }}");
+                let diagnostic =
+                    Diagnostic::new(Code::MissingPart, "a function's formula stands in braces")
+                        .at(span, "expected `{` before it, and `}` behind")
+                        .help(format!("write `function {right}`"))
+                        .fix(span, right);
+                return Err(self.report(&here, diagnostic));
+            }
             _ => return Ok(None),
         };
         let mut names = Vec::with_capacity(list.len());

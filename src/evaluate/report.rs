@@ -131,7 +131,7 @@ impl Evaluator<'_> {
             && text.starts_with('"')
             && let Some(plain) = unquoted(found.trim(), wanted)
         {
-            let what = if wanted.starts_with("a number") { "a number" } else { "a vector" };
+            let what = if wanted.starts_with("a vector") { "a vector" } else { "a number" };
             let help = format!("{what} stands without quotes: `{plain}`");
             diagnostic = diagnostic.help(help).fix(span, plain);
         }
@@ -252,6 +252,10 @@ impl Evaluator<'_> {
                 .help("which dimension comes second: `dimension_size(A, 1)` is how many elements"),
             Word::Str if found == 1 => diagnostic
                 .help("how wide and how many digits: `str(A, 0, 3)` has three behind the point"),
+            // `vlength(1, 2, 3)`
+            _ if *arity.end() == 1 && found == 3 && word.sentence().contains("(v)") => diagnostic
+                .help(format!("a vector has angles: `{}(<1, 2, 3>)`", word.name()))
+                .help(word.sentence()),
             _ => diagnostic.help(word.sentence()),
         };
         self.report(here, diagnostic)

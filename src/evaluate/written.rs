@@ -77,7 +77,7 @@ pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     match (text, wanted.starts_with("a vector")) {
         ("x" | "y" | "z", true) => Some(text.to_owned()),
         (_, true) => are_numbers(text).then(|| format!("<{text}>")),
-        _ if !wanted.starts_with("a number") => None,
+        _ if !wanted.starts_with("a number") && wanted != "degrees" => None,
         _ => text.parse::<f64>().ok().map(|number| number.to_string()),
     }
 }

@@ -60,6 +60,30 @@ impl<'a> Nest<'a> {
         self.open(FrameKind::Body(body), at, false);
     }
 
+    /// What no file's name can be: `#write ("ball", 1)`.
+    fn is_value(&self, id: ExpressionId) -> bool {
+        matches!(
+            self.ast.expression(id).kind,
+            ExpressionKind::String | ExpressionKind::Number(_) | ExpressionKind::Vector(_)
+        )
+    }
+
+    fn handle_missing(&mut self, head: Head, first: Span) {
+        let opened = self.ast.directives.iter().rev().find_map(|directive| match directive.kind {
+            DirectiveKind::Fopen { name, .. } => Some(self.ast.name(name).to_owned()),
+            _ => None,
+        });
+        let message = format!("`#{}` takes a file's handle first", head.word());
+        let told = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(first, "expected the name that `#fopen` gave it");
+        self.report(match opened {
+            Some(name) => told
+                .help(format!("write `{name}, ` before it"))
+                .fix(Span { end: first.start, ..first }, format!("{name}, ")),
+            None => told,
+        });
+    }
+
     /// `#for (…)` and its like, with their arguments.
     pub(super) fn listed(&mut self, head: Head, at: Span, arguments: Vec<Argument>, close: Span) {
         let values: Option<Vec<ExpressionId>> = arguments
@@ -139,6 +163,10 @@ impl<'a> Nest<'a> {
             }
             (_, _) => {
                 let handle = match first {
+                    Some(Argument::Expression(id)) if self.is_value(id) => {
+                        self.handle_missing(head, self.ast.expression(id).span);
+                        None
+                    }
                     Some(Argument::Expression(id)) => self.name_of(id),
                     Some(Argument::Items(items)) => self.name_of_items(items),
                     None => {

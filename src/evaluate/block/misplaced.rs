@@ -190,6 +190,16 @@ impl Evaluator<'_> {
             _ => diagnostic,
         };
         self.report(&token.here, diagnostic);
+        // `material { pigment { … } finish { … } }`: one `texture` is missing around all of them.
+        let is_of_texture = |word: Word| word.family() == Family::Texture && word != Word::Texture;
+        if place.word == Some(Word::Material) && is_of_texture(word) {
+            while let Some(TokenKind::Word(word)) = self.peek().map(|next| next.kind.clone())
+                && is_of_texture(word)
+            {
+                self.next();
+                self.skip_arguments(word);
+            }
+        }
     }
 
     /// `texture { color Red phong 1 }`: what `token` began and was taken last ends, as the block that it belongs in.

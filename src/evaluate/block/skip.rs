@@ -12,7 +12,7 @@ use super::Place;
 use super::place::{home, is_at_top_level};
 
 impl Evaluator<'_> {
-    pub(super) fn is_before_block(&mut self) -> bool {
+    pub(in crate::evaluate) fn is_before_block(&mut self) -> bool {
         matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)))
     }
 

@@ -99,7 +99,7 @@ impl Evaluator<'_> {
         let behind = self.sources.text(Span { start: value.end, ..span });
         let right = format!("{before}{parted}{behind}");
         let message = "this vector has two components: its z is 0";
-        let diagnostic = Diagnostic::new(Code::ShortVector, message)
+        let diagnostic = Diagnostic::new(Code::LostComma, message)
             .at(span, format!("`{}` is one number", self.sources.text(value)))
             .help(format!("is a comma missing? write `{right}`"))
             .fix(value, parted);
