@@ -37,7 +37,7 @@ impl Evaluator<'_> {
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
-            ExpressionKind::Joint => Err(self.nothing_before(here, expression.span)),
+            ExpressionKind::Joint => Err(self.nothing_joined(here, expression.span)),
             // Brackets in brackets.
             kind => {
                 if let ExpressionKind::Vector(components) = kind
@@ -134,17 +134,6 @@ impl Evaluator<'_> {
         id: ExpressionId,
         leftmost: ExpressionId,
     ) -> Outcome<Value> {
-        let value = self.operand(here, leftmost);
-        self.sum_with(here, id, value)
-    }
-
-    /// As [`Self::expression`], with this for the leftmost operand.
-    pub(super) fn sum_with(
-        &mut self,
-        here: &Here,
-        id: ExpressionId,
-        leftmost: Outcome<Value>,
-    ) -> Outcome<Value> {
         let mut operations = Vec::new();
         let mut innermost = id;
         while let ExpressionKind::Binary(_, left, _) = here.unit.expression(innermost).kind
@@ -153,7 +142,8 @@ impl Evaluator<'_> {
             operations.push(innermost);
             innermost = left;
         }
-        let value = self.operation(here, innermost, leftmost);
+        let value = self.operand(here, leftmost);
+        let value = self.operation(here, innermost, value);
         operations.into_iter().rev().fold(value, |value, id| self.operation(here, id, value))
     }
 
@@ -261,7 +251,7 @@ impl Evaluator<'_> {
         text.strip_suffix('"').unwrap_or(text)
     }
 
-    fn operation_error(
+    pub(super) fn operation_error(
         &mut self,
         here: &Here,
         error: OperationError,

@@ -38,8 +38,6 @@ pub(super) struct Formula {
     names: Vec<(ParameterName, Node)>,
     /// Something in it is not built yet.
     poison: Option<Poison>,
-    /// What stands before a directive.
-    pub(super) before: Option<Node>,
 }
 
 impl Formula {
@@ -62,9 +60,8 @@ impl Evaluator<'_> {
         };
         let names = parameters.iter().enumerate();
         let names = names.filter_map(|(at, name)| Some((*name, builder.parameter(at)?))).collect();
-        let mut formula = Formula { builder, names, poison: None, before: None };
-        let result = self.node(here, &mut formula, id)?;
-        let result = self.joined_node(here, &mut formula, id, result)?;
+        let mut formula = Formula { builder, names, poison: None };
+        let result = self.joined_node(here, &mut formula, id)?;
         Ok(match formula.poison {
             Some(poison) => Err(poison),
             None => Ok(formula.builder.finish(result)),
@@ -129,10 +126,7 @@ impl Evaluator<'_> {
                 self.component_node(here, formula, id, base, component)
             }
             ExpressionKind::Missing => Err(Reported),
-            ExpressionKind::Joint => match formula.before.take() {
-                Some(node) => Ok(node),
-                None => self.expression(here, id).and(Err(Reported)),
-            },
+            ExpressionKind::Joint => self.expression(here, id).and(Err(Reported)),
             // `(x #if (A) + 1 #end)`
             ExpressionKind::GroupItems(items) if holds_directive(here, items) => {
                 self.inside(here, items, |evaluator| evaluator.only_node(formula, (here, span)))

@@ -1,51 +1,70 @@
-//! A calculation that goes on behind a directive: `(0 #for (I, 1, 3) + I*I #end)`, `function { x #if (A) * 2 #end }`.
+//! A calculation that goes on behind a directive: `(0 #for (I, 1, 3) + I*I #end)`, `function { x #if (A) * 2 #end }`,
+//! `(2 * #if (A) 3 #else 4 #end)`.
 //!
-//! **Invariant:** as in POV-Ray, which reads the words that a directive leaves as if they stood there; but what
-//! would take only the last operand of what stands before (`1 + 2 #if (A) * 3 #end`) is told, and not read.
+//! **Invariant:** as in POV-Ray, which reads the words that a directive leaves as if they stood there: operands are
+//! evaluated in the order in which they are read, and operators bind as they do without the directive.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::function::Node;
 use crate::source::Span;
 use crate::syntax::ast::{
-    BinaryOperator, ExpressionId, ExpressionKind, ItemKind, Items, Rank, UnaryOperator,
+    BinaryOperator, ExpressionId, ExpressionKind, ItemKind, Items, UnaryOperator,
 };
 
 use super::formula::{Formula, operation_of};
 use super::stream::TokenKind;
 use super::value::{self, Value};
 use super::{Evaluator, Here, Outcome, Reported};
-use crate::function::Node;
 
-/// How what goes on begins.
-struct Joint {
+/// An operator that has its left operand, and where it is written.
+struct Pending<T> {
+    left: T,
     operator: BinaryOperator,
-    /// A sign, which is an operand's, too; else what stands before is missing.
-    is_sign: bool,
+    site: (Here, ExpressionId),
+}
+
+/// A calculation as far as it is read: what binds tighter stands further behind.
+struct Calculation<T> {
+    pending: Vec<Pending<T>>,
+    /// The last operand; `None` where one is to follow.
+    last: Option<T>,
+}
+
+/// What a calculation is of.
+trait Arithmetic<T> {
+    fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<T>;
+    fn apply(&mut self, operation: Pending<T>, right: T) -> Outcome<T>;
+}
+
+/// What stands first in an expression, and each operation on it and on what it came to, in order.
+fn spine(
+    here: &Here,
+    id: ExpressionId,
+) -> (ExpressionId, Vec<(BinaryOperator, ExpressionId, ExpressionId)>) {
+    let (mut first, mut operations) = (id, Vec::new());
+    while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
+        operations.push((operator, right, first));
+        first = left;
+    }
+    operations.reverse();
+    (first, operations)
+}
+
+/// The sign of an operand, as an operator between it and what stands before.
+fn sign(operator: UnaryOperator) -> Option<BinaryOperator> {
+    match operator {
+        UnaryOperator::Plus => Some(BinaryOperator::Add),
+        UnaryOperator::Minus => Some(BinaryOperator::Subtract),
+        UnaryOperator::Not => None,
+    }
 }
 
 /// Whether an expression goes on with what stands before it.
-fn joint(here: &Here, id: ExpressionId) -> Option<Joint> {
-    let (mut first, mut operator) = (id, None);
-    while let ExpressionKind::Binary(operation, left, _) = here.unit.expression(first).kind {
-        (first, operator) = (left, Some(operation));
-    }
-    match here.unit.expression(first).kind {
-        ExpressionKind::Joint => operator.map(|operator| Joint { operator, is_sign: false }),
-        ExpressionKind::Unary(UnaryOperator::Plus, _) => {
-            Some(Joint { operator: BinaryOperator::Add, is_sign: true })
-        }
-        ExpressionKind::Unary(UnaryOperator::Minus, _) => {
-            Some(Joint { operator: BinaryOperator::Subtract, is_sign: true })
-        }
-        _ => None,
-    }
-}
-
-/// How tightly all of an expression holds together.
-fn rank(here: &Here, id: ExpressionId) -> Rank {
-    match here.unit.expression(id).kind {
-        ExpressionKind::Binary(operator, ..) => operator.rank(),
-        ExpressionKind::Conditional(..) => Rank::Conditional,
-        _ => Rank::Unary,
+fn goes_on(here: &Here, id: ExpressionId) -> bool {
+    match here.unit.expression(spine(here, id).0).kind {
+        ExpressionKind::Joint => true,
+        ExpressionKind::Unary(operator, _) => sign(operator).is_some(),
+        _ => false,
     }
 }
 
@@ -54,106 +73,201 @@ pub(super) fn holds_directive(here: &Here, items: Items) -> bool {
     items.iter().any(|item| matches!(item.kind, ItemKind::Directive(_)))
 }
 
+impl<T> Calculation<T> {
+    const EMPTY: Self = Self { pending: Vec::new(), last: None };
+
+    /// Reads an expression, from its first operand on.
+    fn read(&mut self, of: &mut impl Arithmetic<T>, here: &Here, id: ExpressionId) -> Outcome<()> {
+        let (first, operations) = spine(here, id);
+        match here.unit.expression(first).kind {
+            ExpressionKind::Joint if self.last.is_some() => {}
+            ExpressionKind::Unary(operator, operand)
+                if self.last.is_some()
+                    && let Some(operator) = sign(operator) =>
+            {
+                self.operator(of, operator, (here, first))?;
+                self.operand(of, here, operand)?;
+            }
+            _ => self.operand(of, here, first)?,
+        }
+        for (operator, right, id) in operations {
+            self.operator(of, operator, (here, id))?;
+            self.operand(of, here, right)?;
+        }
+        Ok(())
+    }
+
+    /// Reads an operand, of which an operator behind it may take the last part.
+    fn operand(
+        &mut self,
+        of: &mut impl Arithmetic<T>,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Outcome<()> {
+        match here.unit.expression(id).kind {
+            ExpressionKind::Binary(..) => self.read(of, here, id),
+            // What comes next.
+            ExpressionKind::Joint => Ok(()),
+            _ => {
+                self.last = Some(of.evaluate(here, id)?);
+                Ok(())
+            }
+        }
+    }
+
+    fn operator(
+        &mut self,
+        of: &mut impl Arithmetic<T>,
+        operator: BinaryOperator,
+        (here, id): (&Here, ExpressionId),
+    ) -> Outcome<()> {
+        let left = self.result(of, Some(operator))?.ok_or(Reported)?;
+        self.pending.push(Pending { left, operator, site: (here.clone(), id) });
+        Ok(())
+    }
+
+    /// All that binds at least as tight as an operator behind it; without one, all.
+    fn result(
+        &mut self,
+        of: &mut impl Arithmetic<T>,
+        behind: Option<BinaryOperator>,
+    ) -> Outcome<Option<T>> {
+        let Some(mut last) = self.last.take() else { return Ok(None) };
+        let is_first = |pending: &mut Pending<T>| {
+            behind.is_none_or(|behind| pending.operator.rank() >= behind.rank())
+        };
+        while let Some(operation) = self.pending.pop_if(is_first) {
+            last = of.apply(operation, last)?;
+        }
+        Ok(Some(last))
+    }
+}
+
+/// Values of the language.
+impl Arithmetic<Value> for Evaluator<'_> {
+    fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        self.operand(here, id)
+    }
+
+    fn apply(&mut self, operation: Pending<Value>, right: Value) -> Outcome<Value> {
+        let Pending { left, operator, site: (here, id) } = operation;
+        if let Some(poison) =
+            [&left, &right].into_iter().find(|one| matches!(one, Value::Poison(_)))
+        {
+            return Ok(poison.clone());
+        }
+        value::binary(operator, &left, &right, self.comparison()).map_err(|error| {
+            let expression = here.unit.expression(id);
+            let operands = match expression.kind {
+                ExpressionKind::Binary(_, left, right) => [left, right],
+                _ => [id; 2],
+            };
+            let symbol = format!("`{}`", operator.symbol());
+            self.operation_error(&here, error, &symbol, expression.span, operands, [&left, &right])
+        })
+    }
+}
+
+/// Steps of a function's tape.
+struct Steps<'e, 'a, 'f> {
+    evaluator: &'e mut Evaluator<'a>,
+    formula: &'f mut Formula,
+}
+
+impl Arithmetic<Node> for Steps<'_, '_, '_> {
+    fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<Node> {
+        self.evaluator.node(here, self.formula, id)
+    }
+
+    fn apply(&mut self, operation: Pending<Node>, right: Node) -> Outcome<Node> {
+        let Pending { left, operator, site: (here, id) } = operation;
+        let (operation, left, right) = operation_of(operator, left, right);
+        let built = self.formula.builder.binary(operation, left, right);
+        self.evaluator.built(&here, here.unit.expression(id).span, built)
+    }
+}
+
 impl Evaluator<'_> {
     /// The value of the current items up to the next comma: one, or what several come to that go on with each
     /// other.
     pub(super) fn joined_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
-        let first = match self.peek() {
-            Some(token) => match token.kind {
-                TokenKind::Expression(id) => Some((token.here.clone(), id)),
-                _ => None,
-            },
-            None => None,
+        let first = self.peek().map(|token| (token.kind.clone(), token.here.clone()));
+        let Some((TokenKind::Expression(id), first)) = first else {
+            return self.value_or(here, span);
         };
-        let mut value = self.value_or(here, span)?;
-        let Some((first_here, id)) = first else { return Ok(value) };
-        let mut before = rank(&first_here, id);
-        while let Some((here, id, joint)) = self.next_joint() {
-            before = self.fits(&here, id, &joint, before)?;
-            value = match joint.is_sign {
-                false => self.sum_with(&here, id, Ok(value))?,
-                true => {
-                    let more = self.expression(&here, id)?;
-                    if let Some(poison) =
-                        [&value, &more].into_iter().find(|v| matches!(v, Value::Poison(_)))
-                    {
-                        return Ok(poison.clone());
-                    }
-                    let sum = value::binary(BinaryOperator::Add, &value, &more, self.comparison());
-                    let span = here.unit.expression(id).span;
-                    sum.map_err(|_| self.wrong_type(&here, span, "a value to go on with", &more))?
-                }
-            };
+        let mut calculation = Calculation::EMPTY;
+        match first.unit.expression(id).kind {
+            ExpressionKind::Binary(..) => {
+                self.next();
+                calculation.read(self, &first, id)?;
+            }
+            _ => calculation.last = Some(self.value_or(here, span)?),
         }
-        Ok(value)
+        while let Some((here, id)) = self.next_joint(calculation.last.is_none()) {
+            calculation.read(self, &here, id)?;
+        }
+        let value = calculation.result(self, None)?;
+        value.ok_or_else(|| self.expected("a value", None, (here, span.after())))
     }
 
-    /// The same of a formula, whose first expression came to `node`.
+    /// The same of a formula, which begins with this expression.
     pub(super) fn joined_node(
         &mut self,
         here: &Here,
         formula: &mut Formula,
-        first: ExpressionId,
-        mut node: Node,
+        id: ExpressionId,
     ) -> Outcome<Node> {
-        let mut before = rank(here, first);
-        while let Some((here, id, joint)) = self.next_joint() {
-            before = self.fits(&here, id, &joint, before)?;
-            node = match joint.is_sign {
-                false => {
-                    formula.before = Some(node);
-                    self.node(&here, formula, id)?
-                }
-                true => {
-                    let more = self.node(&here, formula, id)?;
-                    let (operation, left, right) = operation_of(BinaryOperator::Add, node, more);
-                    let built = formula.builder.binary(operation, left, right);
-                    self.built(&here, here.unit.expression(id).span, built)?
-                }
-            };
+        let is_alone = !self.peeks_joint() && !ends_open(here, id);
+        if is_alone {
+            return self.node(here, formula, id);
         }
-        Ok(node)
+        let mut calculation = Calculation::EMPTY;
+        calculation.read(&mut Steps { evaluator: self, formula }, here, id)?;
+        while let Some((here, id)) = self.next_joint(calculation.last.is_none()) {
+            calculation.read(&mut Steps { evaluator: self, formula }, &here, id)?;
+        }
+        let node = calculation.result(&mut Steps { evaluator: self, formula }, None)?;
+        let span = here.unit.expression(id).span;
+        node.ok_or_else(|| self.expected("a value", None, (here, span.after())))
     }
 
-    /// An operator without what stands before it.
-    pub(super) fn nothing_before(&mut self, here: &Here, before: Span) -> Reported {
-        let span = Span { end: before.end + 1, ..before };
-        let message = format!("expected a value before `{}`", self.sources.text(span));
+    fn peeks_joint(&mut self) -> bool {
+        let Some(token) = self.peek() else { return false };
+        matches!(token.kind, TokenKind::Expression(id) if goes_on(&token.here, id))
+    }
+
+    /// What comes next, if it goes on with what stands before, or an operand is missing.
+    fn next_joint(&mut self, wanted: bool) -> Option<(Here, ExpressionId)> {
+        let token = self.peek()?;
+        let TokenKind::Expression(id) = token.kind else { return None };
+        let here = token.here.clone();
+        let is_joint = wanted || goes_on(&here, id);
+        is_joint.then(|| {
+            self.next();
+            (here, id)
+        })
+    }
+
+    /// An operand on the other side of a directive, where none is to be had.
+    pub(super) fn nothing_joined(&mut self, here: &Here, place: Span) -> Reported {
+        let text = self.sources.get(place.file).text.as_str();
+        let sign = |c: &char| "*/<>=!&|+-".contains(*c);
+        let behind = text.get(place.end as usize..).and_then(|rest| rest.chars().next());
+        let (side, span) = match behind.filter(sign) {
+            Some(_) => ("before", Span { end: place.end + 1, ..place }),
+            None => ("after", Span { start: place.start.saturating_sub(1), ..place }),
+        };
+        let message = format!("expected a value {side} `{}`", self.sources.text(span));
         let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
             .at(span, "this operator stands between two values");
         self.report(here, diagnostic)
     }
+}
 
-    fn next_joint(&mut self) -> Option<(Here, ExpressionId, Joint)> {
-        let token = self.peek()?;
-        let TokenKind::Expression(id) = token.kind else { return None };
-        let here = token.here.clone();
-        let joint = joint(&here, id)?;
-        self.next();
-        Some((here, id, joint))
+/// Whether the last operand of an expression is still to come.
+fn ends_open(here: &Here, mut id: ExpressionId) -> bool {
+    while let ExpressionKind::Binary(_, _, right) = here.unit.expression(id).kind {
+        id = right;
     }
-
-    /// How tightly what stands before and what goes on hold together; not, where an operator would take a part
-    /// of the one alone.
-    fn fits(
-        &mut self,
-        here: &Here,
-        id: ExpressionId,
-        joint: &Joint,
-        before: Rank,
-    ) -> Outcome<Rank> {
-        let whole = rank(here, id);
-        let taken = joint.operator.rank();
-        if taken <= before && (!joint.is_sign || whole >= Rank::Sum) {
-            return Ok(if joint.is_sign { Rank::Sum } else { whole });
-        }
-        let symbol = joint.operator.symbol();
-        let message =
-            format!("`{symbol}` behind a directive would take a part of what stands before it");
-        let diagnostic = Diagnostic::new(Code::NotSupportedYet, message)
-            .at(here.unit.expression(id).span, "this goes on behind a directive")
-            .help("put what stands before the directive in parentheses, or name it by a `#local`");
-        let _: Reported = self.report(here, diagnostic);
-        Err(Reported)
-    }
+    matches!(here.unit.expression(id).kind, ExpressionKind::Joint)
 }

@@ -130,7 +130,7 @@ pub enum ExpressionKind {
     Group(ExpressionId),
     /// `( … )` around anything else: directives, several values.
     GroupItems(Items),
-    /// What stands before a directive, where a calculation goes on behind it: `(2 #if (A) * 3 #end)`.
+    /// What stands on the other side of a directive: `(2 #if (A) * 3 #end)`, `(2 * #if (A) 3 #end)`.
     Joint,
     /// Something that was reported as not understood.
     Missing,

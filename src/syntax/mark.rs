@@ -153,12 +153,23 @@ impl<'a> Nest<'a> {
             Some(last) => matches!(last.kind, ItemKind::Directive(_)),
             None => matches!(self.top().kind, FrameKind::Body(_)),
         };
+        is_behind && self.is_in_bracket_or_formula()
+    }
+
+    /// `(2 * #if (A) 3 #else 4 #end)`: the directive that is reached leaves the operand.
+    pub(super) fn goes_on_in_a_directive(&self) -> bool {
+        let leaves = |head: Head| head.opens() && head != Head::Macro;
+        let kind = self.tokens.get(self.at).map(|token| token.kind);
+        matches!(kind, Some(TokenKind::Directive(head)) if leaves(head))
+            && self.is_in_bracket_or_formula()
+    }
+
+    fn is_in_bracket_or_formula(&self) -> bool {
         let around = self.frames.iter().rev().find(|f| !matches!(f.kind, FrameKind::Body(_)));
-        is_behind
-            && around.is_some_and(|frame| match frame.kind {
-                FrameKind::Group | FrameKind::Vector | FrameKind::Call(_) => true,
-                _ => frame.formula,
-            })
+        around.is_some_and(|frame| match frame.kind {
+            FrameKind::Group | FrameKind::Vector | FrameKind::Call(_) => true,
+            _ => frame.formula,
+        })
     }
 
     /// Told once an expression.

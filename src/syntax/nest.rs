@@ -283,7 +283,11 @@ impl<'a> Nest<'a> {
             State::Idle => return,
             State::Holding { .. } => {}
             State::Wanting => {
-                if let Some(&operator) = self.stacks.operators.last() {
+                if let Some(&operator) = self.stacks.operators.last()
+                    && self.goes_on_in_a_directive()
+                {
+                    self.operand(ExpressionKind::Joint, operator.span.after(), false);
+                } else if let Some(&operator) = self.stacks.operators.last() {
                     let text = self.slice(operator.span);
                     let message = format!("expected a value after `{text}`");
                     let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)

@@ -46,8 +46,7 @@ impl Evaluator<'_> {
             return Err(self.expected("a number", next.as_ref(), otherwise));
         };
         let here = next.map_or(otherwise.0.clone(), |next| next.here);
-        let node = self.node(&here, formula, id)?;
-        let node = self.joined_node(&here, formula, id, node)?;
+        let node = self.joined_node(&here, formula, id)?;
         if let Some(extra) = self.next() {
             let message = "one value was expected here, and there are more";
             let diagnostic = Diagnostic::new(Code::ExtraPart, message)

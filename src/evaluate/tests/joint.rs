@@ -29,6 +29,21 @@ fn a_calculation_goes_on_behind_a_directive_in_brackets() {
     assert_eq!(function("x #for (I, 1, 3) + I*x #end"), "14.00");
     assert_eq!(function("x #for (I, 1, 3) * (I + x) #end"), "120.00");
     assert_eq!(function("sin(x #if (0) + 1 #else - x #end) + (x #if (1) * 2 - 1 #end)"), "3.00");
-    let refused = said("(1 + 2 #if (1) * N #end)");
-    assert!(refused.contains("`*` behind a directive would take a part"), "{refused}");
+    // Operators bind as they do without the directive.
+    assert_eq!(said("(1 + 2 #if (1) * N #end)"), "7.00");
+    assert_eq!(said("(1 + 2 #if (1) * 3 - 1 #end * 2)"), "5.00");
+    assert_eq!(said("(2 - 1 #if (1) - N*2 #end)"), "-5.00");
+    assert_eq!(said("(2 * #if (1) N #else 4 #end)"), "6.00");
+    assert_eq!(said("(2 + #if (1) N #else 4 #end * 2)"), "8.00");
+    assert_eq!(said("(2 * #if (1) N + 4 #end)"), "10.00");
+    assert_eq!(said("vlength(<2 * #if (1) 2 #end, 3, 0>)"), "5.00");
+    assert_eq!(function("1 + x #if (1) * x - 1 #end * 2"), "3.00");
+    assert_eq!(function("x * #if (0) 3 #else x + 4 #end"), "8.00");
+}
+
+#[test]
+fn an_operator_whose_operand_no_directive_leaves_is_told() {
+    let said = |expression: &str| debugged(&format!("#declare A = {expression};"));
+    assert_eq!(said("(2 * #if (0) 3 #end)"), "expected a value, found nothing");
+    assert_eq!(said("(#if (1) * 3 #end)"), "expected a value before `*`");
 }

@@ -123,11 +123,11 @@ impl Along {
             }
             // Two halves, as P. de Casteljau finds them.
             let (mut lower, mut upper) = (upper, upper);
-            for level in 1..7 {
+            for (level, end) in lower.iter_mut().enumerate().skip(1) {
                 for i in 0..7 - level {
                     upper[i] = 0.5 * (upper[i] + upper[i + 1]);
                 }
-                lower[level] = upper[0];
+                *end = upper[0];
             }
             let middle = 0.5 * (from + to);
             open.push((upper, middle, to));
