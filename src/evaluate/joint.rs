@@ -81,6 +81,8 @@ impl<T> Calculation<T> {
         let (first, operations) = spine(here, id);
         match here.unit.expression(first).kind {
             ExpressionKind::Joint if self.last.is_some() => {}
+            // There is nothing: that is told.
+            ExpressionKind::Joint => drop(of.evaluate(here, first)?),
             ExpressionKind::Unary(operator, operand)
                 if self.last.is_some()
                     && let Some(operator) = sign(operator) =>

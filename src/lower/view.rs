@@ -109,6 +109,9 @@ const SEEN: f64 = 1e-3;
 impl Lowering<'_, '_> {
     /// What is in view, and so far away for its size that places there are not known to a thousandth of it.
     pub(super) fn lint_far(&mut self) {
+        if !self.reporter.diagnostics.tells(Code::FarAway) {
+            return;
+        }
         let (world, view) = (&self.world, View::of(&self.world.camera));
         let mut far = world.solids().filter(|&solid| !self.is_inverse(solid)).filter_map(|solid| {
             let bounds = bounds(world, solid)?;
