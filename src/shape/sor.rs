@@ -206,6 +206,14 @@ impl Local for Sor {
         }
     }
 
+    /// Certainly apart from both ends it is the round.
+    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+        let z = ray.at(s).z;
+        let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs()));
+        let is_apart = self.heights().iter().all(|end| (z - end).abs() > off);
+        is_apart.then_some(SIDE)
+    }
+
     fn height(&self, part: u32, point: Vector) -> Height {
         let [low, high] = self.heights();
         match part {

@@ -269,6 +269,10 @@ impl Local for Superellipsoid {
         found.extend([met(enter, false), met(leave, true)]);
     }
 
+    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+        self.is_convex().then_some(0)
+    }
+
     fn height(&self, part: u32, point: Vector) -> Height {
         if let Some(side) = part.checked_sub(PLATES) {
             let axis = (side / 2) as usize;
