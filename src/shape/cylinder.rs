@@ -25,7 +25,7 @@ impl Local for Cylinder {
     ///
     /// Across the axis, with q the nearest point and e the direction: m = |q × e| / |e| is the
     /// distance to the axis, and the chord reaches h = √((1 − m)(1 + m)) to each side. **Error** of
-    /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·|q|, and
+    /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·(|q| + |e·s|), and
     /// δ again, over |e|.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((enter, leave)) = round(ray) else { return };

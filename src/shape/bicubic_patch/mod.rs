@@ -209,7 +209,7 @@ impl Piece {
     /// held near them.
     ///
     /// **Error**: with M the inverse of the derivative and κ how far it is from linear, u and v are off by
-    /// no more than |M|·off/(1 − κ); the place along the line by that times the greatest derivative.
+    /// no more than |M|·off/(1 − κ), taken twice; the place along the line by that times the greatest derivative.
     fn root(&self, whole: &Net, inverse: [[f64; 2]; 2], bend: f64, off: f64) -> Option<Root> {
         let Self { start, size, .. } = *self;
         let global = |x: [f64; 2]| [start[0] + x[0] * size[0], start[1] + x[1] * size[1]];
