@@ -200,8 +200,8 @@ impl Along {
     /// From a ball near the one that the line enters first, or leaves last, to that one.
     ///
     /// **Error**, with r the radius and B how far the line or the ball may be off: B, and what B makes of
-    /// √D, for which about 4B·r/√D is taken, or √(4B·r + 2B²) where that is less; doubled, as it may be a ball beside this one
-    /// that was meant. What is left of the slope makes as much as one more of Newton's steps.
+    /// √D, for which about 4B·r/√D is taken, or √(4B·r + 2B²) where that is less; doubled, as it may be a ball
+    /// beside this one that was meant. What is left of the slope makes as much as one more of Newton's steps.
     fn polish(&self, ray: &LocalRay, start: Place, way: f64) -> Place {
         let Place { mut s, mut u, .. } = start;
         let mut rest = 0.0;
