@@ -1,7 +1,8 @@
-//! Branches that were never run: a mistake of form in one is none of the picture.
+//! Branches of conditions: which were never run, so that a mistake of form in one is none of the picture; and
+//! which open a block that only their own end closes.
 //!
-//! **Invariant:** noted only of the main file, and where its text has mistakes; a branch in a macro that was
-//! not called, or in a loop that had no turn, is not among them.
+//! **Invariant:** a branch that was not run is noted only of the main file, and where its text has mistakes; one
+//! in a macro that was not called, or in a loop that had no turn, is not among them.
 
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, ItemKind, Items, Test};

@@ -110,3 +110,46 @@ fn domain(operation: Unary) -> Option<Interval> {
         | Unary::Asinh => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::function::Builder;
+
+    /// A function of x.
+    fn closed(make: impl FnOnce(&mut Builder) -> super::super::Node) -> Closed {
+        let mut builder = Builder::new(1).expect("few arguments");
+        let result = make(&mut builder);
+        Closed::new(builder.finish(result), |_| None).expect("nothing is asked")
+    }
+
+    #[test]
+    fn where_a_function_is_said_to_be_no_number_it_is_none_and_beside_it_may_be_one() {
+        let built = "few operations";
+        let x = |builder: &Builder| builder.parameter(0).expect("x");
+        let root = closed(|b| {
+            let root = b.unary(Unary::Sqrt, x(b)).expect(built);
+            b.binary(Binary::Add, root, x(b)).expect(built)
+        });
+        let arc = closed(|b| b.unary(Unary::Asin, x(b)).expect(built));
+        let power = closed(|b| {
+            let half = b.constant(0.5).expect(built);
+            b.binary(Binary::Pow, x(b), half).expect(built)
+        });
+        // A minimum may pass over what is no number.
+        let least = closed(|b| {
+            let root = b.unary(Unary::Sqrt, x(b)).expect(built);
+            b.binary(Binary::Min, root, x(b)).expect(built)
+        });
+        let over = |low, high| [Interval { low, high }];
+        let cases = [(&root, 0.0), (&power, 0.0), (&arc, -1.0)];
+        for (function, from) in cases {
+            assert!(function.is_undefined(&over(from - 2.0, from - 0.1)));
+            assert!(!function.is_undefined(&over(from - 2.0, from)));
+            assert!(!function.is_undefined(&over(from, 1.0)));
+            let value: f64 = function.function().run().at(&[from - 1.0], function);
+            assert!(value.is_nan(), "{value}");
+        }
+        assert!(!least.is_undefined(&over(-2.0, -1.0)));
+    }
+}

@@ -115,7 +115,8 @@ impl Lowering<'_, '_> {
                 .entry(site.span)
                 .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
                 .or_insert(told.map(|told| (told, site)));
-            if operation == Operation::Difference {
+            let told = |code| self.reporter.diagnostics.tells(code);
+            if operation == Operation::Difference && told(Code::TakesNothing) {
                 self.note_idle(&parts);
             }
         }

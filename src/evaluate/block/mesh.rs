@@ -17,7 +17,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
 use crate::scene::mesh::{Face, Triangles};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
@@ -88,9 +88,9 @@ impl Evaluator<'_> {
         if !gathered.add(token, triangle, Dress::default()) {
             let [first, .., last] = &triangle.0;
             // POV-Ray tells it, too.
-            let code = match self.sizeless() {
-                Code::DegenerateShape => Code::DegenerateTriangle,
-                mistake => mistake,
+            let code = match self.options.dialect {
+                Dialect::Scene => Code::ZeroSize,
+                Dialect::Pov => Code::DegenerateTriangle,
             };
             let diagnostic =
                 Diagnostic::new(code, "a triangle whose corners lie in a line is nothing")
