@@ -5,8 +5,11 @@
 //! in a macro that was not called, or in a loop that had no turn, is not among them.
 
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, ItemKind, Items, Test};
+use crate::syntax::ast::{
+    Ast, Callee, DirectiveId, DirectiveKind, ExpressionKind, Item, ItemKind, Items, Test,
+};
 
+use super::value::Value;
 use super::{Evaluator, Here};
 
 /// Whether a branch opens or closes what pairs only after it has run.
@@ -16,6 +19,46 @@ pub(super) fn is_bracket(here: &Here, branch: Items) -> bool {
 }
 
 impl Evaluator<'_> {
+    /// Which branch is meant is not known: what either declares is there and not known, and what the first gives
+    /// to a block is read, since the block may need it.
+    pub(super) fn run_neither(&mut self, here: &Here, then: Items, otherwise: Items) {
+        self.declare_broken(here, then);
+        self.declare_broken(here, otherwise);
+        let plain = |item: &Item| match item.kind {
+            ItemKind::Directive(_) | ItemKind::Open | ItemKind::Close => false,
+            ItemKind::Expression(id) => {
+                !matches!(here.unit.expression(id).kind, ExpressionKind::Call(Callee::Name(..), _))
+            }
+            _ => true,
+        };
+        if !self.blocks.is_empty() && here.unit.ast.items(then).iter().all(plain) {
+            self.push_branch(here, then);
+        }
+    }
+
+    fn declare_broken(&mut self, here: &Here, items: Items) {
+        for item in here.unit.ast.items(items) {
+            let ItemKind::Directive(id) = item.kind else { continue };
+            let (name, local) = match &here.unit.ast.directive(id).kind {
+                DirectiveKind::Declare { local, target } if target.indices.is_empty() => {
+                    (target.name, *local)
+                }
+                DirectiveKind::Macro { name, .. } => (*name, false),
+                DirectiveKind::If { then, otherwise, .. } => {
+                    self.declare_broken(here, *then);
+                    self.declare_broken(here, *otherwise);
+                    continue;
+                }
+                _ => continue,
+            };
+            let symbol = here.symbol(name);
+            if self.scopes.slot(symbol).is_none() {
+                let home = self.scopes.home(symbol, local);
+                self.scopes.assign_in(home, symbol, Value::Broken);
+            }
+        }
+    }
+
     pub(super) fn note_asked(&mut self, here: &Here, id: DirectiveId, held: bool) {
         if self.misread && here.unit.ast.file == FileId(0) {
             self.asked.entry(id).or_default()[usize::from(!held)] = true;

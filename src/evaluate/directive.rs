@@ -43,6 +43,10 @@ impl Evaluator<'_> {
                             self.push_branch(here, *then);
                             return Err(reported);
                         }
+                        Err(reported) => {
+                            self.run_neither(here, *then, *otherwise);
+                            return Err(reported);
+                        }
                         condition => condition?,
                     },
                     Test::Defined(target) => self.is_defined(here, target),

@@ -4,7 +4,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Target};
+use crate::syntax::ast::{Argument, DirectiveKind, ExpressionId, ExpressionKind, Target};
 use crate::vocabulary::Word;
 
 use super::array::{NoElement, element, element_place};
@@ -236,6 +236,15 @@ impl Evaluator<'_> {
         let index = |at: usize| indices.get(at).map_or(base, |id| here.unit.expression(*id).span);
         let name = self.sources.text(base).to_owned();
         let diagnostic = match error {
+            NoElement::NoArray(0, Value::Broken)
+                if let Some((Word::Spline, site)) =
+                    self.scopes.symbol(&name).and_then(|symbol| self.declared_as(symbol)) =>
+            {
+                Diagnostic::new(Code::WrongType, format!("`{name}` is a spline, and no array"))
+                    .at(base, "expected an array before `[`")
+                    .also(site.span, "declared here")
+                    .help(format!("a spline is called: `{name}(0.5)`"))
+            }
             NoElement::NoArray(_, Value::Broken) => return Reported,
             NoElement::NoArray(0, value) => {
                 return self.wrong_type(here, base, "an array before `[`", &value);
@@ -251,7 +260,16 @@ impl Evaluator<'_> {
                 );
                 let told = Diagnostic::new(Code::OutOfRange, message)
                     .at(index(at), "outside of the array");
-                let told = self.one_too_far(here, indices.get(at).copied(), (found, size), told);
+                let counted = indices.get(at).and_then(|&index| self.counted_to(here, index));
+                // The end of one loop is one mistake, whatever is asked by its counter.
+                if let Some((end, _)) = counted
+                    && !self.ends_told.insert((end, size))
+                {
+                    return Reported;
+                }
+                let end = counted.filter(|(_, to)| *to == found).map(|(end, _)| end);
+                let index = indices.get(at).copied();
+                let told = self.one_too_far((here, index), end, (found, size), told);
                 let is_past = told.help.is_empty() && indices.len() == 1 && found >= 0.0;
                 match is_past {
                     true => told.help(format!("the last one is `{name}[{}]`", size - 1)),
@@ -297,8 +315,8 @@ impl Evaluator<'_> {
     /// `A[I]` in `#for (I, 0, dimension_size(A, 1))`, `A[frame_number - 1]` in a still: why the index is outside.
     fn one_too_far(
         &self,
-        here: &Here,
-        index: Option<ExpressionId>,
+        (here, index): (&Here, Option<ExpressionId>),
+        end: Option<Span>,
         (found, size): (f64, u32),
         told: Diagnostic,
     ) -> Diagnostic {
@@ -315,7 +333,18 @@ impl Evaluator<'_> {
                 "`frame_number` is 0 in a still: `-D frame_number=1` gives it another value",
             );
         }
-        let ExpressionKind::Name(name) = index.kind else { return told };
+        let Some(end) = end.filter(|_| found == f64::from(size)) else { return told };
+        let text = self.sources.text(end);
+        let told = told.help(format!("`#for` includes its end: write `{text} - 1` there"));
+        match text.starts_with(Word::DimensionSize.name()) && text.ends_with(')') {
+            true => told.fix(end.after(), " - 1"),
+            false => told,
+        }
+    }
+
+    /// Where the end of the `#for` is written whose counter is this index, and what it is.
+    fn counted_to(&self, here: &Here, index: ExpressionId) -> Option<(Span, f64)> {
+        let ExpressionKind::Name(name) = here.unit.expression(index).kind else { return None };
         let symbol = here.symbol(name);
         let ends = self.frames.iter().rev().take(MOST_LOOPS).find_map(|frame| match frame.kind {
             FrameKind::For { symbol: counter, directive, to, .. } if counter == symbol => {
@@ -323,23 +352,11 @@ impl Evaluator<'_> {
             }
             _ => None,
         });
-        let Some((there, directive, to)) = ends else { return told };
-        let DirectiveKind::For { to: written, .. } = there.unit.ast.directive(directive).kind
-        else {
-            return told;
+        let (there, directive, end) = ends?;
+        let DirectiveKind::For { to, .. } = there.unit.ast.directive(directive).kind else {
+            return None;
         };
-        if found != f64::from(size) || to != found {
-            return told;
-        }
-        let written = there.unit.expression(written);
-        let text = self.sources.text(written.span);
-        let told = told.help(format!("`#for` includes its end: write `{text} - 1` there"));
-        match written.kind {
-            ExpressionKind::Call(Callee::Word(Word::DimensionSize, _), _) => {
-                told.fix(written.span.after(), " - 1")
-            }
-            _ => told,
-        }
+        Some((there.unit.expression(to).span, end))
     }
 }
 

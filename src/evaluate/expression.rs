@@ -367,7 +367,7 @@ impl Evaluator<'_> {
 
     /// The one value that the current items leave.
     pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
-        let value = self.joined_value(here, span)?;
+        let value = self.value_or(here, span)?;
         while matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {
             self.next();
         }

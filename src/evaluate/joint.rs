@@ -1,5 +1,5 @@
 //! A calculation that goes on behind a directive: `(0 #for (I, 1, 3) + I*I #end)`, `function { x #if (A) * 2 #end }`,
-//! `(2 * #if (A) 3 #else 4 #end)`.
+//! `sphere { 0, 2 * #if (A) 3 #else 4 #end }`.
 //!
 //! **Invariant:** as in POV-Ray, which reads the words that a directive leaves as if they stood there: operands are
 //! evaluated in the order in which they are read, and operators bind as they do without the directive.
@@ -12,7 +12,7 @@ use crate::syntax::ast::{
 };
 
 use super::formula::{Formula, operation_of};
-use super::stream::TokenKind;
+use super::stream::{FrameKind, Hold, Token, TokenKind};
 use super::value::{self, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
@@ -190,26 +190,44 @@ impl Arithmetic<Node> for Steps<'_, '_, '_> {
 }
 
 impl Evaluator<'_> {
-    /// The value of the current items up to the next comma: one, or what several come to that go on with each
-    /// other.
-    pub(super) fn joined_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
-        let first = self.peek().map(|token| (token.kind.clone(), token.here.clone()));
-        let Some((TokenKind::Expression(id), first)) = first else {
-            return self.value_or(here, span);
-        };
+    /// The value of an item that has been taken, and of what goes on with it behind a directive.
+    pub(super) fn joined_value(&mut self, token: &Token) -> Outcome<Value> {
         let mut calculation = Calculation::EMPTY;
-        match first.unit.expression(id).kind {
-            ExpressionKind::Binary(..) => {
-                self.next();
-                calculation.read(self, &first, id)?;
+        match &token.kind {
+            TokenKind::Expression(id) if !self.is_by_directive() => {
+                if !ends_open(&token.here, *id) {
+                    return self.expression(&token.here, *id);
+                }
+                calculation.read(self, &token.here, *id)?;
             }
-            _ => calculation.last = Some(self.value_or(here, span)?),
+            TokenKind::Expression(id) => match token.here.unit.expression(*id).kind {
+                ExpressionKind::Binary(..) => calculation.read(self, &token.here, *id)?,
+                _ => calculation.last = Some(self.expression(&token.here, *id)?),
+            },
+            TokenKind::Literal(value) => calculation.last = Some(value.as_ref().clone()),
+            _ => {}
         }
         while let Some((here, id)) = self.next_joint(calculation.last.is_none()) {
             calculation.read(self, &here, id)?;
         }
-        let value = calculation.result(self, None)?;
-        value.ok_or_else(|| self.expected("a value", None, (here, span.after())))
+        match calculation.result(self, None)? {
+            Some(value) => Ok(value),
+            None => Err(self.lacks_operand(&calculation, &token.here, token.span)),
+        }
+    }
+
+    /// Whether a directive stands between the item that was taken last and the next.
+    pub(super) fn is_by_directive(&self) -> bool {
+        self.peeked.is_some()
+            || self.frames.last().is_some_and(|frame| match frame.at == frame.end {
+                true => {
+                    !matches!(frame.kind, FrameKind::Barrier | FrameKind::Block | FrameKind::Macro)
+                }
+                false => matches!(
+                    frame.here.unit.ast.items[frame.at as usize].kind,
+                    ItemKind::Directive(_)
+                ),
+            })
     }
 
     /// The same of a formula, which begins with this expression.
@@ -229,8 +247,22 @@ impl Evaluator<'_> {
             calculation.read(&mut Steps { evaluator: self, formula }, &here, id)?;
         }
         let node = calculation.result(&mut Steps { evaluator: self, formula }, None)?;
-        let span = here.unit.expression(id).span;
-        node.ok_or_else(|| self.expected("a value", None, (here, span.after())))
+        node.ok_or_else(|| self.lacks_operand(&calculation, here, here.unit.expression(id).span))
+    }
+
+    /// What no directive left.
+    fn lacks_operand<T>(
+        &mut self,
+        calculation: &Calculation<T>,
+        here: &Here,
+        span: Span,
+    ) -> Reported {
+        if let Some(Pending { site: (here, id), .. }) = calculation.pending.last()
+            && let ExpressionKind::Binary(_, _, right) = here.unit.expression(*id).kind
+        {
+            return self.nothing_joined(here, here.unit.expression(right).span);
+        }
+        self.expected("a value", None, (here, span.after()))
     }
 
     fn peeks_joint(&mut self) -> bool {
@@ -240,7 +272,12 @@ impl Evaluator<'_> {
 
     /// What comes next, if it goes on with what stands before, or an operand is missing.
     fn next_joint(&mut self, wanted: bool) -> Option<(Here, ExpressionId)> {
-        let token = self.peek()?;
+        // What is wanted stands before the end of a `#declare`.
+        let hold = if wanted { self.hold.take() } else { self.hold };
+        self.peek_on();
+        let first = self.frames.len();
+        self.hold = if wanted { hold.map(|hold| Hold { first, ..hold }) } else { hold };
+        let token = self.peeked.as_ref()?;
         let TokenKind::Expression(id) = token.kind else { return None };
         let here = token.here.clone();
         let is_joint = wanted || goes_on(&here, id);

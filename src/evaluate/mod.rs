@@ -6,6 +6,7 @@
 //! run in place, wherever they stand.
 
 mod argument;
+mod arity;
 mod array;
 mod block;
 mod branch;
@@ -57,7 +58,9 @@ use crate::scene::{
     TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, NameId};
+use crate::syntax::ast::{
+    Argument, Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, ExpressionKind, NameId,
+};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -100,6 +103,17 @@ struct Unit {
 impl Unit {
     fn expression(&self, id: ExpressionId) -> &Expression {
         self.ast.expression(id)
+    }
+
+    /// Where a component of a vector is written; `None` where its components are not written one by one.
+    fn component_span(&self, vector: ExpressionId, place: usize) -> Option<Span> {
+        let ExpressionKind::Vector(components) = self.expression(vector).kind else { return None };
+        let components = self.ast.arguments(components);
+        let one_each = components.iter().all(|one| matches!(one, Argument::Expression(_)));
+        match components.get(place) {
+            Some(&Argument::Expression(id)) if one_each => Some(self.expression(id).span),
+            _ => None,
+        }
     }
 
     /// Everything this file declares, and where.
@@ -221,6 +235,8 @@ struct Evaluator<'a> {
     unread: BTreeSet<String>,
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
+    /// The ends of loops, and how long the arrays were of which an element past them was told.
+    ends_told: BTreeSet<(Span, u32)>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
     bounds: Vec<ObjectId>,
     /// The names that were told as not declared, and count as declared since, in this order.
@@ -350,6 +366,7 @@ impl<'a> Evaluator<'a> {
             lacking: BTreeSet::new(),
             unread: BTreeSet::new(),
             missing_at: None,
+            ends_told: BTreeSet::new(),
             bounds: Vec::new(),
             assumed: Vec::new(),
             halted: false,

@@ -97,6 +97,15 @@ impl Evaluator<'_> {
             };
         }
         let meant = match (found, wanted) {
+            (Value::Array(_), "a vector or a colour before the dot") => Some(format!(
+                "how many elements it has is `dimension_size({text}, 1)`; one of them is `{text}[0]`"
+            )),
+            (Value::Vector(_) | Value::Color(_), "an array before `[`") => {
+                Some(format!("a component of it is written `{text}.x`"))
+            }
+            (Value::Spline(_), "an array before `[`") => {
+                Some(format!("a spline is called: `{text}(0.5)`"))
+            }
             (Value::Array(_), _) => Some(format!("an element of it has its place: `{text}[0]`")),
             (Value::Color(_), wanted) if wanted.starts_with("a number") && name.is_some() => {
                 Some(format!("how bright it is: `{text}.gray`"))
@@ -229,35 +238,6 @@ impl Evaluator<'_> {
         if form.ends_with("()") {
             diagnostic = diagnostic.fix(span, form);
         }
-        self.report(here, diagnostic)
-    }
-
-    pub(super) fn wrong_arity(
-        &mut self,
-        here: &Here,
-        word: Word,
-        span: Span,
-        arity: RangeInclusive<usize>,
-        found: usize,
-    ) -> Reported {
-        let diagnostic = Diagnostic::new(
-            Code::WrongArity,
-            format!("`{}` takes {}, and is given {found}", word.name(), count(&arity, "argument")),
-        )
-        .at(span, format!("expected {}", count(&arity, "argument")));
-        let diagnostic = match word {
-            Word::Rand => diagnostic
-                .help("it takes a stream: `#declare R = seed(1);` once, and then `rand(R)`"),
-            Word::DimensionSize if found == 1 => diagnostic
-                .help("which dimension comes second: `dimension_size(A, 1)` is how many elements"),
-            Word::Str if found == 1 => diagnostic
-                .help("how wide and how many digits: `str(A, 0, 3)` has three behind the point"),
-            // `vlength(1, 2, 3)`
-            _ if *arity.end() == 1 && found == 3 && word.sentence().contains("(v)") => diagnostic
-                .help(format!("a vector has angles: `{}(<1, 2, 3>)`", word.name()))
-                .help(word.sentence()),
-            _ => diagnostic.help(word.sentence()),
-        };
         self.report(here, diagnostic)
     }
 

@@ -152,7 +152,8 @@ impl Evaluator<'_> {
         let text = self.sources.text(token.span).to_owned();
         let kinds = || KINDS.into_iter().map(Word::name);
         let short = Word::from_name(&format!("{text}_spline")).filter(|_| is_name);
-        let near = || suggest::closest(&text, kinds()).and_then(Word::from_name);
+        let theirs = || suggest::foreign(&text).find(|ours| kinds().any(|kind| kind == *ours));
+        let near = || suggest::closest(&text, kinds()).or_else(theirs).and_then(Word::from_name);
         let word = short.or_else(|| near().filter(|_| is_name))?;
         let kind = kind_of(word)?;
         let meant = word.name();

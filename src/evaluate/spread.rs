@@ -34,13 +34,13 @@ impl Evaluator<'_> {
 
     /// The values that the current items leave, between commas.
     pub(super) fn values(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
-        let mut values = vec![self.joined_value(here, span)?];
+        let mut values = vec![self.value_or(here, span)?];
         loop {
             match self.next() {
                 None => return Ok(values),
                 Some(token) => match token.kind {
                     TokenKind::Semicolon => {}
-                    TokenKind::Comma => values.push(self.joined_value(here, span)?),
+                    TokenKind::Comma => values.push(self.value_or(here, span)?),
                     _ => return Err(self.more_than_one(&token)),
                 },
             }

@@ -407,9 +407,10 @@ const MAIN: FileId = FileId(0);
 /// The word of the language that an author who wrote `name` most likely meant.
 pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {
     let words = || Word::ALL.iter().filter(|word| fits(**word)).map(|word| word.name());
-    suggest::closest(name, words().filter(|word| is_likely(name, word)))
-        .or_else(|| suggest::foreign(name).find(|foreign| words().any(|word| word == *foreign)))
+    suggest::foreign(name)
+        .find(|foreign| words().any(|word| word == *foreign))
         .or_else(|| suggest::reworded(name, words()))
+        .or_else(|| suggest::closest(name, words().filter(|word| is_likely(name, word))))
         .or_else(|| suggest::abridged(name, words()))
 }
 

@@ -172,7 +172,7 @@ impl Evaluator<'_> {
                 None => return Ok(numbers),
                 Some((TokenKind::Comma, ..)) => drop(self.next()),
                 Some((_, here_of_it, place)) => {
-                    let value = self.joined_value(here, span)?;
+                    let value = self.value_or(here, span)?;
                     numbers.push(self.as_number(&here_of_it, place, &value, "a number")?);
                 }
             }

@@ -38,9 +38,14 @@ impl Evaluator<'_> {
             && (!digits.is_empty() || begins_number(after))
         {
             let message = format!("`{name}` is no exponent");
+            let digits_before = |c: char| c.is_ascii_digit() || c == '.';
+            let number = before.trim_end_matches(digits_before).len() as u32;
             return Some(
                 Diagnostic::new(Code::MalformedNumber, message)
-                    .at(span, "an exponent is written with `e`: `1.5e+00`")
+                    .at(
+                        Span { start: number, ..span },
+                        "an exponent is written with `e`: `1.5e+00`",
+                    )
                     .fix(span, format!("e{digits}")),
             );
         }

@@ -239,7 +239,7 @@ impl<'a> Nest<'a> {
         let name = self.slice(target.span);
         self.report(
             Diagnostic::new(Code::UnexpectedCharacter, "a name gets its value in a `#declare`")
-                .at(equals, "`=` has no meaning here")
+                .at(span.to(equals), "`=` has no meaning here")
                 .help(format!("write `#declare {name} = …`"))
                 .fix(Span { end: span.start, ..span }, "#declare "),
         );

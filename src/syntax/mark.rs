@@ -1,8 +1,9 @@
 //! Operators and separators.
 
 use super::ast::{Argument, Callee, Component, ExpressionKind, ItemKind, UnaryOperator};
+use super::directive::Body;
 use super::expression::{self, Operator, OperatorKind};
-use super::nest::{FrameKind, Nest, State};
+use super::nest::{Frame, FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -142,7 +143,7 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Missing, before, false);
     }
 
-    /// `(2 #if (A) * 3 #end)`: inside a bracket, or a function's formula.
+    /// `sphere { 0, 2 #if (A) * 3 #end }`: inside a bracket or a block, or a function's formula.
     fn goes_on_behind_a_directive(&mut self) -> bool {
         let top = self.top();
         let (state, items, operators) = (top.state, top.items, top.operators);
@@ -153,23 +154,24 @@ impl<'a> Nest<'a> {
             Some(last) => matches!(last.kind, ItemKind::Directive(_)),
             None => matches!(self.top().kind, FrameKind::Body(_)),
         };
-        is_behind && self.is_in_bracket_or_formula()
+        is_behind && !self.is_at_top_level()
     }
 
     /// `(2 * #if (A) 3 #else 4 #end)`: the directive that is reached leaves the operand.
     pub(super) fn goes_on_in_a_directive(&self) -> bool {
         let leaves = |head: Head| head.opens() && head != Head::Macro;
         let kind = self.tokens.get(self.at).map(|token| token.kind);
-        matches!(kind, Some(TokenKind::Directive(head)) if leaves(head))
-            && self.is_in_bracket_or_formula()
+        matches!(kind, Some(TokenKind::Directive(head)) if leaves(head)) && !self.is_at_top_level()
     }
 
-    fn is_in_bracket_or_formula(&self) -> bool {
-        let around = self.frames.iter().rev().find(|f| !matches!(f.kind, FrameKind::Body(_)));
-        around.is_some_and(|frame| match frame.kind {
-            FrameKind::Group | FrameKind::Vector | FrameKind::Call(_) => true,
-            _ => frame.formula,
-        })
+    /// Where only statements stand: neither in a block nor in a macro.
+    fn is_at_top_level(&self) -> bool {
+        let is_branch = |frame: &&Frame| match frame.kind {
+            FrameKind::Body(ref body) => !matches!(body, Body::Macro { .. }),
+            _ => false,
+        };
+        let around = self.frames.iter().rev().find(|frame| !is_branch(frame));
+        around.is_none_or(|frame| matches!(frame.kind, FrameKind::File))
     }
 
     /// Told once an expression.

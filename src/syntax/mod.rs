@@ -34,6 +34,7 @@ mod prose;
 mod repair;
 mod skipped;
 mod spelling;
+mod stray;
 mod tally;
 mod target;
 mod token;

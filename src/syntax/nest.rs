@@ -156,9 +156,6 @@ pub(super) fn nest<'a>(
     nest.ast
 }
 
-/// Quotes that no language of programs has, as word processors write them in some country.
-const QUOTES: [char; 10] = ['“', '”', '„', '‟', '«', '»', '‘', '’', '‚', '‛'];
-
 impl<'a> Nest<'a> {
     pub(super) fn span(&self, token: Token) -> Span {
         // A quote that was put in to close a string may lie behind the end.
@@ -335,67 +332,6 @@ impl<'a> Nest<'a> {
             let span = self.ast.expression(id).span;
             self.items.push(Item { kind: ItemKind::Expression(id), span });
         }
-    }
-
-    pub(super) fn stray(&mut self, token: Token) {
-        let span = self.span(token);
-        let text = self.slice(span);
-        let previous = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
-        if previous.is_some_and(|p| p.kind == TokenKind::Stray && p.end == token.start) {
-            return;
-        }
-        if text == "#" {
-            return self.report(
-                Diagnostic::new(Code::LegacyForm, "this `#` stands alone")
-                    .at(span, "expected a directive's word after it; it is left out")
-                    .fix(span, ""),
-            );
-        }
-        if text.chars().all(|c| QUOTES.contains(&c))
-            && let Some(rest) = self.text.get(span.end as usize..)
-            && let Some(close) = rest.find(|c| c == '\n' || QUOTES.contains(&c))
-            && let Some(quote) = rest[close..].chars().next().filter(|quote| *quote != '\n')
-        {
-            return self.curly_string(span, span.end as usize + close, quote);
-        }
-        let shown: String = text.chars().flat_map(char::escape_debug).collect();
-        let diagnostic = Diagnostic::new(
-            Code::UnexpectedCharacter,
-            format!("the character `{shown}` has no meaning here"),
-        )
-        .at(span, "outside strings and comments only the language's own signs can stand");
-        let diagnostic = match text {
-            "'" | "‘" | "’" | "“" | "”" => {
-                diagnostic.help("strings stand between `\"` and `\"`")
-            }
-            "\"" => diagnostic.help("a string begins here and does not end"),
-            "^" => diagnostic.help("a power is written `pow(a, b)`"),
-            "%" => diagnostic.help("a remainder is written `mod(a, b)`"),
-            "\u{a0}" => diagnostic.help("it is a no-break space: write a plain one"),
-            _ => diagnostic,
-        };
-        self.report(diagnostic);
-    }
-
-    /// `“…”`, as word processors write it: one mistake, and taken as a string that is not known.
-    fn curly_string(&mut self, open: Span, close: usize, quote: char) {
-        let close = Span::new(self.file, close, close + quote.len_utf8());
-        let opening = self.slice(open);
-        let inside = self.slice(Span { start: open.end, end: close.start, ..open });
-        let label = format!("expected a straight quote instead of `{opening}`");
-        self.report(
-            Diagnostic::new(Code::UnexpectedCharacter, "curly quotes do not make a string")
-                .at(open, label)
-                .also(close, format!("and instead of `{quote}`"))
-                .help("strings stand between straight quotes: `\"…\"`")
-                .help(format!("write `\"{inside}\"`"))
-                .fix(open, "\"")
-                .fix(close, "\""),
-        );
-        while self.tokens.get(self.at).is_some_and(|token| token.end < close.end) {
-            self.at += 1;
-        }
-        self.operand(ExpressionKind::Missing, open.to(close), false);
     }
 
     pub(super) fn end_of_file(&mut self) {

@@ -45,6 +45,7 @@ impl Evaluator<'_> {
                 }
                 Word::Accuracy => self.positive_after(&item).map(|value| accuracy = value),
                 Word::ContainedBy => self.contained_by(&item).map(|held| container = Some(held)),
+                Word::MaxGradient => self.positive_after(&item).map(drop),
                 Word::Open => {
                     open = true;
                     Ok(())
@@ -163,7 +164,9 @@ impl Evaluator<'_> {
             return Ok(given.value);
         }
         let name = self.describe(item);
-        let diagnostic = Diagnostic::new(Code::OutOfRange, format!("{name} is a length"))
+        let what = if item.kind == TokenKind::Word(Word::MaxGradient) { "slope" } else { "length" };
+        let message = format!("{name} is {}, and must be a {what}", given.value);
+        let diagnostic = Diagnostic::new(Code::OutOfRange, message)
             .at(given.span, "expected a number more than 0");
         Err(self.report(&given.here, diagnostic))
     }

@@ -12,6 +12,18 @@ use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
 impl Evaluator<'_> {
+    /// `{ drawn by my father }`, a comment of the oldest versions: words, of which none is one of the language.
+    pub(super) fn is_prose(&self, block: Span) -> bool {
+        let text = self.sources.text(block);
+        let signs = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_.,:;-!?'{}".contains(c);
+        let mut words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let is_ours = |word: &str| {
+            Word::from_name(word).is_some()
+                || self.scopes.symbol(word).is_some_and(|symbol| self.scopes.slot(symbol).is_some())
+        };
+        text.chars().all(signs) && words.clone().count() > 1 && !words.any(is_ours)
+    }
+
     /// Tells of what stands among the parts of a blob or a mesh and is none: a name that nothing has, or another
     /// shape. What follows are its parts as before.
     pub(super) fn passes_no_part(&mut self, place: Place, parts: &[Word]) -> bool {

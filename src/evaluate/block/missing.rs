@@ -27,6 +27,12 @@ impl Evaluator<'_> {
                     .also(found.span_head(), format!("expected {wanted}"))
                     .also(after.span, "for this")
             }
+            // What is missing belongs at the end of the line before.
+            (Some(found), Some(end), None) if self.is_on_a_later_line(found, end) => {
+                Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
+                    .at(end, format!("expected {wanted} here"))
+                    .also(after.span, "for this")
+            }
             (Some(found), _, None) => {
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
                     .at(found.span_head(), format!("expected {wanted}"))
@@ -58,6 +64,10 @@ impl Evaluator<'_> {
                 diagnostic.help(format!(
                     "`{number}` was read as the middle of the cap: is a point missing before it?"
                 ))
+            }
+            Some(number) if after.kind == TokenKind::Word(Word::Quadric) && place.is_some() => {
+                diagnostic
+                    .help(format!("`{number}` was read as a vector: is one missing before it?"))
             }
             _ => diagnostic,
         };
@@ -139,6 +149,14 @@ impl Evaluator<'_> {
             && taken.span.start >= after.span.end
             && self.taken != self.blocks.last().copied();
         is_part.then(|| taken.span.after())
+    }
+
+    /// Whether lines end between a place and what was found behind it.
+    fn is_on_a_later_line(&self, found: &Token, place: Span) -> bool {
+        let between = Span { start: place.start, end: found.span.start, ..place };
+        found.span.file == place.file
+            && between.start < between.end
+            && self.sources.text(between).contains('\n')
     }
 
     /// How what `word` begins is written where it stands: the parts of a blob have a strength.

@@ -174,9 +174,9 @@ impl Evaluator<'_> {
         let value = match &token.kind {
             TokenKind::Expression(id) => match self.misspelt_block(token, *id) {
                 Some(reported) => Err(reported),
-                None => self.expression(&token.here, *id),
+                None => self.joined_value(token),
             },
-            TokenKind::Literal(value) => Ok(value.as_ref().clone()),
+            TokenKind::Literal(_) => self.joined_value(token),
             TokenKind::Word(word) => self.word_block(token, *word),
             TokenKind::Block(_) | TokenKind::Entry(_) if self.list_meant(token).is_some() => {
                 let help = self.list_meant(token).unwrap_or_default();

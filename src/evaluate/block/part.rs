@@ -132,9 +132,9 @@ impl Evaluator<'_> {
             TokenKind::Expression(id) => match self.misspelt_block(&token, *id) {
                 // `sphere { 0 pigmant { … } }`
                 Some(reported) => return Err(reported),
-                None => (self.expression(&token.here, *id)?, Some(*id)),
+                None => (self.joined_value(&token)?, Some(*id)),
             },
-            TokenKind::Literal(value) => (value.as_ref().clone(), None),
+            TokenKind::Literal(_) => (self.joined_value(&token)?, None),
             _ => return Err(Reported),
         };
         match value {
@@ -151,6 +151,7 @@ impl Evaluator<'_> {
     pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
         let token = self.value_token(after, wanted)?;
         if let TokenKind::Expression(id) = token.kind
+            && !self.is_by_directive()
             && let Some(value) = self.plain_number(&token.here, id)
         {
             return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });

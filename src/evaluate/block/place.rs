@@ -175,9 +175,21 @@ impl Place {
 
     /// Whether a word fits: by its family, and by its block if it has one.
     pub(super) fn holds(self, word: Word) -> bool {
+        // `samples` of a medium is no setting of the scene.
+        let is_of_a_setting = self.word == Some(Word::GlobalSettings)
+            && home(word).is_some_and(|home| home != word && home != Word::GlobalSettings);
         (self.families.contains(&word.family()) || self.others.contains(&word))
             && matches!(word.role(), Role::Statement)
             && word.block().is_none_or(|block| Some(block) == self.word)
+            && !is_of_a_setting
+    }
+
+    /// Whether a word can be meant here by what another tool calls so.
+    pub(super) fn may_mean(self, word: &str, dialect: Dialect) -> bool {
+        let is_object = word == "object" && self.word.is_none();
+        let is_itself = self.word.is_some_and(|own| own.name() == word);
+        let is_here = || !is_itself && self.words(dialect).any(|own| own == word);
+        is_object || word == "transmit" || is_here()
     }
 
     /// The words to suggest here.
@@ -223,6 +235,7 @@ pub(super) fn home(word: Word) -> Option<Word> {
     Some(match word {
         _ if word.block().is_some() => return word.block(),
         // Reserved, and nobody knows what for.
+        W::IridWavelength => W::GlobalSettings,
         W::Size | W::Altitude | W::Tile2 => return None,
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
         W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,

@@ -353,12 +353,15 @@ impl Evaluator<'_> {
             }
             None => return Err(self.wrong_type(&given.here, given.span, WANTED, &given.value)),
         };
-        if let Some(exponent) = exponents.into_iter().find(|exponent| *exponent <= 0.0) {
-            return Err(self.out_of_range(
-                &given.with(exponent),
-                Word::Superellipsoid,
-                "two exponents of more than 0",
-            ));
+        if let Some(place) = exponents.into_iter().position(|exponent| exponent <= 0.0) {
+            let exponent = exponents[place];
+            let component =
+                given.expression.and_then(|id| given.here.unit.component_span(id, place));
+            let message = format!("an exponent of this superellipsoid is {exponent}");
+            let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+                .at(component.unwrap_or(given.span), "expected more than 0")
+                .help("from near 0, a box, over 1, round, to 2 and more, a star");
+            return Err(self.report(&given.here, diagnostic));
         }
         Ok(Solid::Superellipsoid { exponents })
     }

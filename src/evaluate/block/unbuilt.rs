@@ -7,13 +7,13 @@ mod picture;
 mod ranges;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
-use super::super::{Evaluator, Outcome, Reported};
+use super::super::{Evaluator, Outcome, Reported, Symbol};
 use super::Place;
 use super::place::home;
 
@@ -289,15 +289,19 @@ impl Evaluator<'_> {
     /// was to be.
     pub(super) fn broken_of_place(&mut self, token: &Token, id: ExpressionId, place: Place) {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
-        let Some(declared) = self.scopes.declared(token.here.symbol(name)) else { return };
-        let site = declared.site;
-        let text = &self.sources.get(site.span.file).text;
-        let behind = text.get(site.span.end as usize..).unwrap_or("").trim_start();
-        let Some(value) = behind.strip_prefix('=').map(str::trim_start) else { return };
-        let end = value.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-        if let Some(word) = Word::from_name(&value[..end.unwrap_or(value.len())]) {
+        if let Some((word, site)) = self.declared_as(token.here.symbol(name)) {
             self.is_of_place(token, Poison::new(word, site), place);
         }
+    }
+
+    /// The word behind the `=` of a declaration, and where the name stands.
+    pub(in crate::evaluate) fn declared_as(&self, name: Symbol) -> Option<(Word, Site)> {
+        let site = self.scopes.declared(name)?.site;
+        let text = &self.sources.get(site.span.file).text;
+        let behind = text.get(site.span.end as usize..)?.trim_start();
+        let value = behind.strip_prefix('=')?.trim_start();
+        let end = value.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        Word::from_name(&value[..end.unwrap_or(value.len())]).map(|word| (word, site))
     }
 
     /// Says of a name that stands for something not built what it is, in a block that has another use for it.
@@ -317,7 +321,7 @@ impl Evaluator<'_> {
             Word::Texture => is_other,
             Word::Finish => (is_layer || is_other) && word != Word::Finish,
             Word::Material => (is_layer || is_other) && word != Word::Material,
-            _ => of_object && (is_layer || is_other),
+            _ => of_object && (is_layer || is_other || word == Word::TransformWord),
         };
         if !is_wrong {
             return;

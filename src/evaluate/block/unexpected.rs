@@ -95,9 +95,19 @@ impl Evaluator<'_> {
                                 self.run_arguments(&token.here, arguments);
                                 let text = self.sources.text(span).to_owned();
                                 // `translate(…)`, as other languages write it, or a macro.
-                                let words = place.words(self.options.dialect);
-                                let near =
-                                    self.near(span, Asked::Call, || suggest::closest(&text, words));
+                                let dialect = self.options.dialect;
+                                let words = || place.words(dialect);
+                                let near = self.near(span, Asked::Call, || {
+                                    // What takes no block.
+                                    let moves = |word: Word| word.family() == Family::Transform;
+                                    let ours = |word: &&str| {
+                                        Word::from_name(word).is_some_and(moves)
+                                            && words().any(|own| own == *word)
+                                    };
+                                    suggest::foreign(&text)
+                                        .find(ours)
+                                        .or_else(|| suggest::closest(&text, words()))
+                                });
                                 match near.filter(|near| is_built(near)) {
                                     Some(_) => self.unknown_word(token, span, place),
                                     None => match told_directive(&text, span, place) {
@@ -137,6 +147,12 @@ impl Evaluator<'_> {
                         self.braced_colors(token.span, told)
                     }
                 };
+                if place.word.is_none() && self.is_prose(token.span) {
+                    let diagnostic =
+                        diagnostic.help("a comment stands behind `//`, or between `/*` and `*/`");
+                    self.report(&token.here, diagnostic);
+                    return;
+                }
                 self.report(&token.here, diagnostic);
                 self.inside_block(&token.here, *contents, token.span, Self::run_items);
             }

@@ -103,12 +103,9 @@ impl Evaluator<'_> {
         // A word that another tool has is meant as there, whatever it resembles.
         let is_known = suggest::foreign(&name).any(is_built);
         let here = suggest::foreign(&name)
-            .find(|word| {
-                let is_object = *word == "object" && place.word.is_none();
-                is_object || *word == "transmit" || words().any(|other| other == *word)
-            })
-            .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
+            .find(|word| place.may_mean(word, dialect))
             .or_else(|| suggest::reworded(&name, words()))
+            .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
             .or_else(|| suggest::abridged(&name, words()))
             .or_else(|| suggest::begun(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);

@@ -334,12 +334,14 @@ impl Reader<'_> {
         if !(self.is(1, mark) && self.touches(1)) {
             return false;
         }
-        let span = self.span(0, 1);
+        // `===`, as one other language has it.
+        let last = if mark == Mark::Equal && self.is(2, mark) && self.touches(2) { 2 } else { 1 };
+        let span = self.span(0, last);
         let (message, help, fix) = match mark {
             Mark::Equal if self.declares() => {
                 ("a name gets its value by a single `=`", "replace it with `=`", Some("="))
             }
-            Mark::Equal => ("equality is written `=`", "replace it with `=`", Some("=")),
+            Mark::Equal => ("equality is written `=`, not `==`", "replace it with `=`", Some("=")),
             Mark::And => ("`&&` is written `&`", "replace it with `&`", Some("&")),
             Mark::Or => ("`||` is written `|`", "replace it with `|`", Some("|")),
             _ => {
@@ -354,7 +356,7 @@ impl Reader<'_> {
             diagnostic = diagnostic.fix(span, fix);
         } else if mark == Mark::Equal {
             diagnostic = diagnostic.help("a comparison stands in parentheses: `(a = b)`");
-            if self.between_single_values() {
+            if last == 1 && self.between_single_values() {
                 let (before, after) = (self.tokens[self.at - 1], self.tokens[self.at + 2]);
                 let at = |place: u32| Span::new(self.file, place as usize, place as usize);
                 diagnostic =
@@ -364,7 +366,7 @@ impl Reader<'_> {
         self.diagnostics.push(diagnostic);
         // As long as it is written: where it stands alone it is told no second time.
         meant.push(Token { end: span.end, ..self.tokens[self.at] });
-        self.at += 2;
+        self.at += last + 1;
         true
     }
 

@@ -129,7 +129,7 @@ impl Reader<'_> {
         let part = format!("{}", value / 100.0);
         let message = format!("`{text}%` is not a number of the language");
         let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
-            .at(self.span(0, 0), "percent have no sign")
+            .at(span, "percent have no sign")
             .help(format!("write the part of 1: `{part}`"))
             .fix(span, part);
         self.diagnostics.push(diagnostic);
@@ -150,7 +150,7 @@ impl Reader<'_> {
         let text = self.text.get(number.start as usize..number.end as usize).unwrap_or("");
         let diagnostic =
             Diagnostic::new(Code::MalformedNumber, format!("`{text}{name}` is not a number"))
-                .at(self.span(0, 0), *why)
+                .at(Span { start: number.start, ..self.span(0, 0) }, *why)
                 .help(format!("write `{text}`"))
                 .fix(self.span(0, 0), "");
         self.diagnostics.push(diagnostic);

@@ -328,12 +328,15 @@ impl Evaluator<'_> {
         let fits = |index: f64| index > -1.0 && index < count as f64;
         let stray = indices.iter().enumerate().find(|(_, all)| !all.iter().all(|&i| fits(i)));
         if let Some((face, &[a, b, c])) = stray {
-            let message = format!("face {face}, `<{a}, {b}, {c}>`, is not of `{of}`");
+            let stray = [a, b, c].iter().position(|&index| !fits(index)).unwrap_or(0);
+            let index = [a, b, c][stray];
+            let message = format!(
+                "face {face}, `<{a}, {b}, {c}>`, uses entry {index} of `{of}`, which has none"
+            );
             let label = match count {
                 0 => format!("there are no `{of}`"),
                 _ => format!("`{of}` has entries 0 to {}", count - 1),
             };
-            let stray = [a, b, c].iter().position(|&index| !fits(index)).unwrap_or(0);
             let place = self.place_in(list, indices.len(), face, stray).unwrap_or(list.span);
             let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(place, label);
             return Err(self.report(&list.here, diagnostic));

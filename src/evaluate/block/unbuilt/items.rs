@@ -278,11 +278,13 @@ impl Evaluator<'_> {
             return false;
         }
         let name = self.sources.text(token.span).to_owned();
-        let of_block =
-            |word: &&Word| home(**word) == Some(block) || numbers(**word, block).is_some();
+        let of_block = |word: &&Word| {
+            let is_map = **word == Word::ColorMap && block == Word::Rainbow;
+            is_map || home(**word) == Some(block) || numbers(**word, block).is_some()
+        };
         let words = || Word::ALL.iter().filter(of_block).map(|word| word.name());
-        let near = suggest::closest(&name, words())
-            .or_else(|| suggest::reworded(&name, words()))
+        let near = suggest::reworded(&name, words())
+            .or_else(|| suggest::closest(&name, words()))
             .or_else(|| suggest::abridged(&name, words()))
             .or_else(|| suggest::begun(&name, words()));
         let Some(near) = near else { return false };

@@ -46,6 +46,7 @@ pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
         (W::Media, W::Confidence) => {
             Range { holds: |n| (0.0..1.0).contains(&n), wanted: "0 or more, and less than 1" }
         }
+        (W::Photons, W::Target | W::Media) => NOT_NEGATIVE,
         (W::Fog, W::FogType) => Range {
             holds: |n| n == 1.0 || n == 2.0,
             wanted: "1, the same everywhere, or 2, on the ground",
