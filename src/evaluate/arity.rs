@@ -10,6 +10,32 @@ use super::report::count;
 use super::{Evaluator, Here, Reported};
 
 impl Evaluator<'_> {
+    /// The bracket that closes a call, a vector or an array, where what is missing belongs; all of it where it does not
+    /// end with one.
+    pub(super) fn end_of_call(&self, span: Span) -> Span {
+        if self.sources.text(span).ends_with([')', '>', '}']) {
+            return Span { start: span.end - 1, ..span };
+        }
+        // The name alone of what is called.
+        let text = &self.sources.get(span.file).text;
+        let behind = text.get(span.end as usize..).unwrap_or("");
+        let (mut depth, mut quoted) = (0, false);
+        for (at, sign) in behind.char_indices() {
+            match sign {
+                '"' => quoted = !quoted,
+                '(' if !quoted => depth += 1,
+                ')' if !quoted && depth == 1 => {
+                    let start = span.end + at as u32;
+                    return Span { start, end: start + 1, ..span };
+                }
+                ')' if !quoted => depth -= 1,
+                _ if depth == 0 && !sign.is_whitespace() => break,
+                _ => {}
+            }
+        }
+        span
+    }
+
     pub(super) fn wrong_arity(
         &mut self,
         here: &Here,
@@ -22,16 +48,19 @@ impl Evaluator<'_> {
             Code::WrongArity,
             format!("`{}` takes {}, and is given {found}", word.name(), count(&arity, "argument")),
         )
-        .at(span, format!("expected {}", count(&arity, "argument")));
+        .at(
+            if found < *arity.start() { self.end_of_call(span) } else { span },
+            format!("expected {}", count(&arity, "argument")),
+        );
         let diagnostic = match word {
             Word::Rand => diagnostic
                 .help("it takes a stream: `#declare R = seed(1);` once, and then `rand(R)`"),
             Word::DimensionSize if found == 1 => diagnostic
                 .help("which dimension comes second: `dimension_size(A, 1)` is how many elements"),
             Word::Str if found == 1 => {
-                let call = self.sources.text(span);
-                let asked = call.split_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
-                let asked = asked.map(str::trim).filter(|asked| !asked.contains('\n'));
+                let inside = Span { start: span.start, end: self.end_of_call(span).start, ..span };
+                let asked = self.sources.text(inside).split_once('(').map(|(_, rest)| rest.trim());
+                let asked = asked.filter(|asked| !asked.contains('\n'));
                 diagnostic.help(format!(
                     "how wide and how many digits: `str({}, 0, 3)` has three behind the point",
                     asked.unwrap_or("A")

@@ -275,7 +275,7 @@ impl Evaluator<'_> {
         let text: String = self.sources.text(span).split_whitespace().collect();
         let layered = text.contains("}texture{");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
-            .at(surplus.unwrap_or(span), format!("expected {wanted}"))
+            .at(surplus.unwrap_or_else(|| self.end_of_call(span)), format!("expected {wanted}"))
             .help(match surplus {
                 Some(_) if array.dimensions.len() == 1 => {
                     format!("write `array[{found}]`, or leave out what is too many")

@@ -5,11 +5,8 @@
 //! in a macro that was not called, or in a loop that had no turn, is not among them.
 
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{
-    Ast, Callee, DirectiveId, DirectiveKind, ExpressionKind, Item, ItemKind, Items, Test,
-};
+use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, ItemKind, Items, Test};
 
-use super::value::Value;
 use super::{Evaluator, Here};
 
 /// Whether a branch opens or closes what pairs only after it has run.
@@ -19,46 +16,6 @@ pub(super) fn is_bracket(here: &Here, branch: Items) -> bool {
 }
 
 impl Evaluator<'_> {
-    /// Which branch is meant is not known: what either declares is there and not known, and what the first gives
-    /// to a block is read, since the block may need it.
-    pub(super) fn run_neither(&mut self, here: &Here, then: Items, otherwise: Items) {
-        self.declare_broken(here, then);
-        self.declare_broken(here, otherwise);
-        let plain = |item: &Item| match item.kind {
-            ItemKind::Directive(_) | ItemKind::Open | ItemKind::Close => false,
-            ItemKind::Expression(id) => {
-                !matches!(here.unit.expression(id).kind, ExpressionKind::Call(Callee::Name(..), _))
-            }
-            _ => true,
-        };
-        if !self.blocks.is_empty() && here.unit.ast.items(then).iter().all(plain) {
-            self.push_branch(here, then);
-        }
-    }
-
-    fn declare_broken(&mut self, here: &Here, items: Items) {
-        for item in here.unit.ast.items(items) {
-            let ItemKind::Directive(id) = item.kind else { continue };
-            let (name, local) = match &here.unit.ast.directive(id).kind {
-                DirectiveKind::Declare { local, target } if target.indices.is_empty() => {
-                    (target.name, *local)
-                }
-                DirectiveKind::Macro { name, .. } => (*name, false),
-                DirectiveKind::If { then, otherwise, .. } => {
-                    self.declare_broken(here, *then);
-                    self.declare_broken(here, *otherwise);
-                    continue;
-                }
-                _ => continue,
-            };
-            let symbol = here.symbol(name);
-            if self.scopes.slot(symbol).is_none() {
-                let home = self.scopes.home(symbol, local);
-                self.scopes.assign_in(home, symbol, Value::Broken);
-            }
-        }
-    }
-
     pub(super) fn note_asked(&mut self, here: &Here, id: DirectiveId, held: bool) {
         if self.misread && here.unit.ast.file == FileId(0) {
             self.asked.entry(id).or_default()[usize::from(!held)] = true;
@@ -72,7 +29,7 @@ impl Evaluator<'_> {
         let mut skipped = Vec::new();
         for item in &ast.items {
             let ItemKind::Directive(id) = item.kind else { continue };
-            let DirectiveKind::If { test, then, otherwise } = &ast.directive(id).kind else {
+            let DirectiveKind::If { test, otherwise, .. } = &ast.directive(id).kind else {
                 continue;
             };
             let head = match test {
@@ -80,11 +37,12 @@ impl Evaluator<'_> {
                 Test::Defined(target) | Test::NotDefined(target) => target.span,
             };
             let end = item.span.end;
-            let ends =
-                |items: Items| ast.items(items).last().map_or(head.end, |last| last.span.end);
             let branch = match self.asked.get(&id) {
                 Some([false, true]) if otherwise.is_empty() => Some((head.end, end)),
-                Some([false, true]) => Some((head.end, ends(*then))),
+                // Up to its `#else`: what could not be read may be the last of it.
+                Some([false, true]) => {
+                    ast.items(*otherwise).first().map(|first| (head.end, first.span.start))
+                }
                 Some([true, false]) => {
                     ast.items(*otherwise).first().map(|first| (first.span.start, end))
                 }

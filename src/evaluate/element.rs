@@ -18,12 +18,18 @@ impl Evaluator<'_> {
     /// `a[i][j]` as a value.
     pub(super) fn indexed(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let (base, indices) = chain(here, id);
-        let value = self.expression(here, base)?;
+        let span = here.unit.expression(base).span;
+        let value = match self.expression(here, base) {
+            Err(Reported) if matches!(here.unit.expression(base).kind, ExpressionKind::Name(_)) => {
+                let broken = NoElement::NoArray(0, Value::Broken);
+                return Err(self.no_element(here, broken, &indices, span));
+            }
+            value => value?,
+        };
         let numbers = match self.indices(here, &indices, matches!(value, Value::Array(_)))? {
             Indices::Numbers(numbers) => numbers,
             Indices::Poison(poison) => return Ok(poison),
         };
-        let span = here.unit.expression(base).span;
         match (&value, element(&value, &numbers)) {
             (Value::Poison(_), _) => Ok(value),
             (_, Ok(Value::Broken)) => Err(Reported),
@@ -237,12 +243,12 @@ impl Evaluator<'_> {
         let name = self.sources.text(base).to_owned();
         let diagnostic = match error {
             NoElement::NoArray(0, Value::Broken)
-                if let Some((Word::Spline, site)) =
+                if let Some((Word::Spline, _)) =
                     self.scopes.symbol(&name).and_then(|symbol| self.declared_as(symbol)) =>
             {
-                Diagnostic::new(Code::WrongType, format!("`{name}` is a spline, and no array"))
-                    .at(base, "expected an array before `[`")
-                    .also(site.span, "declared here")
+                let message = "expected an array before `[`, found a spline";
+                Diagnostic::new(Code::WrongType, message)
+                    .at(base, format!("`{name}` is a spline"))
                     .help(format!("a spline is called: `{name}(0.5)`"))
             }
             NoElement::NoArray(_, Value::Broken) => return Reported,

@@ -97,9 +97,10 @@ impl Evaluator<'_> {
         body: &Body,
     ) {
         let symbol = here.symbol(name);
-        // Told already: its body would read the language's own word.
-        let is_reserved = |p: &Parameter| Word::from_name(here.unit.ast.name(p.name)).is_some();
-        let reserved = parameters.iter().any(is_reserved);
+        // Told already: its body would read the language's own word, or what no parameter gives.
+        let is_word = |p: &Parameter| Word::from_name(here.unit.ast.name(p.name)).is_some();
+        let lacks = parameters.is_empty() && self.lacks_parameters(name_span);
+        let broken = lacks || parameters.iter().any(is_word);
         let id = MacroId(self.macros.len() as u32);
         let required = parameters.iter().rposition(|p| !p.optional).map_or(0, |last| last + 1);
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
@@ -124,7 +125,7 @@ impl Evaluator<'_> {
         }
         let owner = if self.in_main() { Owner::Main } else { Owner::Other };
         self.scopes.note_declaration(symbol, here.site(name_span), owner);
-        self.scopes.assign(symbol, if reserved { Value::Broken } else { Value::Macro(id) });
+        self.scopes.assign(symbol, if broken { Value::Broken } else { Value::Macro(id) });
     }
 
     /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
@@ -307,8 +308,9 @@ impl Evaluator<'_> {
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
             let more = list.get(parameters.len()..).and_then(|more| surplus(here, more));
-            let told = Diagnostic::new(Code::WrongArity, message)
-                .at(more.unwrap_or(span), format!("expected {wanted}"));
+            let at = more.unwrap_or_else(|| self.end_of_call(span));
+            let told =
+                Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
             // `Ball(0, 1, 2, 3)` of two: three numbers without their angle brackets.
             let vector = parameters
                 .len()

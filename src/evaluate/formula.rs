@@ -98,6 +98,7 @@ impl Evaluator<'_> {
                     None => self.constant(here, formula, id),
                 }
             }
+            ExpressionKind::Word(Word::T) => Err(self.no_parameter(here, span)),
             ExpressionKind::Word(word) => match ParameterName::of_word(word) {
                 Some(name) => formula.named(name).ok_or_else(|| self.no_parameter(here, span)),
                 None => self.constant(here, formula, id),

@@ -98,6 +98,11 @@ impl Evaluator<'_> {
                     Some(_) => diagnostic.help(format!(
                         "the parameters stand before the brace: `function{text} {{ … }}`"
                     )),
+                    None if matches!(extra.kind, TokenKind::Expression(_)) => {
+                        let text = evaluator.sources.text(extra.span).to_owned();
+                        diagnostic
+                            .help(format!("is an operator missing before `{text}`, such as `*`?"))
+                    }
                     None => diagnostic,
                 };
                 return Err(evaluator.report(&extra.here, diagnostic));
@@ -361,8 +366,9 @@ impl Evaluator<'_> {
             None => "this function".to_owned(),
         };
         let message = format!("{name} takes {wanted}, and is given {found}");
+        let at = if found < least { self.end_of_call(span) } else { span };
         let diagnostic =
-            Diagnostic::new(Code::WrongArity, message).at(span, format!("expected {wanted}"));
+            Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
         // `F(x, y)` of a function of a place.
         let place: String = call.split_whitespace().collect();
         let diagnostic = match place.strip_suffix("(x,y)") {

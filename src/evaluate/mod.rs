@@ -42,6 +42,7 @@ mod stream;
 mod tests;
 mod turn;
 mod undeclared;
+mod unrun;
 pub mod value;
 mod vector;
 mod way;

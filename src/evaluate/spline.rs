@@ -78,6 +78,7 @@ impl Evaluator<'_> {
                 }
                 Value::Number(time) => {
                     self.skip_commas();
+                    let place = self.peek().map_or(token.span, |next| next.span);
                     let value = self.value_or(&token.here, token.span)?;
                     if let Value::Poison(_) = value {
                         poison = poison.or(Some(value));
@@ -85,7 +86,7 @@ impl Evaluator<'_> {
                     }
                     let Some(numbers) = value.numbers() else {
                         let wanted = "a vector after its time";
-                        return Err(self.wrong_type(&token.here, token.span, wanted, &value));
+                        return Err(self.wrong_type(&token.here, place, wanted, &value));
                     };
                     components = components.max(numbers.len());
                     let mut values = [0.0; 5];

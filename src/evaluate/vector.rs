@@ -222,9 +222,24 @@ impl Evaluator<'_> {
                 let text = self.sources.text(span).to_owned();
                 let diagnostic = Diagnostic::new(
                     Code::WrongArity,
-                    format!("`.{text}` is no component of {} with {} components", value.kind(), numbers.len()),
+                    format!(
+                        "`.{text}` is no component of {} with {} components",
+                        value.kind(),
+                        numbers.len()
+                    ),
                 )
-                .at(span, "no such component")
+                .at(span, "no such component");
+                let base = self.sources.text(base);
+                let diagnostic = match text.to_lowercase().as_str() {
+                    "length" | "len" | "magnitude" => {
+                        diagnostic.help(format!("how long a vector is: `vlength({base})`"))
+                    }
+                    "normalized" | "unit" => {
+                        diagnostic.help(format!("of length 1: `vnormalize({base})`"))
+                    }
+                    _ => diagnostic,
+                };
+                let diagnostic = diagnostic
                 .help("vectors have `.x .y .z .t`, or `.u .v`; colours have `.red .green .blue .filter .transmit .gray`");
                 Err(self.report(here, diagnostic))
             }

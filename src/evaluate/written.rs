@@ -81,8 +81,8 @@ pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     let are_numbers = |text: &str| text.split(',').all(|part| part.trim().parse::<f64>().is_ok());
     match (text, wanted.starts_with("a vector")) {
         ("x" | "y" | "z", true) => Some(text.to_owned()),
-        (_, true) => are_numbers(text).then(|| format!("<{text}>")),
-        _ if !wanted.starts_with("a number") && wanted != "degrees" => None,
+        (_, true) if text.contains(',') => are_numbers(text).then(|| format!("<{text}>")),
+        (_, false) if !wanted.starts_with("a number") && wanted != "degrees" => None,
         _ => text.parse::<f64>().ok().map(|number| number.to_string()),
     }
 }

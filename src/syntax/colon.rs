@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** one message a sign, with what it was rather meant for.
 
-use super::ast::{Callee, ExpressionKind, ItemKind};
+use super::ast::{Callee, DirectiveKind, ExpressionKind, Item, ItemKind};
 use super::nest::{FrameKind, Nest, State};
 use super::token::{Bracket, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
@@ -47,6 +47,15 @@ impl<'a> Nest<'a> {
         {
             return self.named_argument(held.span.to(span));
         }
+        if alone && self.ends_a_declaration() {
+            self.report(
+                Diagnostic::new(Code::Semicolon, "a declaration ends with `;`, and not with `:`")
+                    .at(span, "expected `;` here")
+                    .fix(span, ";"),
+            );
+            self.finish_expression();
+            return self.item(ItemKind::Semicolon, span);
+        }
         let told = told.at(span, "expected `condition ? one : other`");
         let told = match kind {
             // `translate y: 2`: a direction, and how far.
@@ -60,6 +69,17 @@ impl<'a> Nest<'a> {
             _ => told,
         };
         self.report(told);
+    }
+
+    /// `#declare A = 3:` before another line.
+    fn ends_a_declaration(&self) -> bool {
+        let Some(Item { kind: ItemKind::Directive(id), .. }) = self.items.last() else {
+            return false;
+        };
+        let next = self.tokens.get(self.at + 1).map_or(self.end, |next| next.start as usize);
+        let here = self.span(self.tokens[self.at]);
+        matches!(self.ast.directive(*id).kind, DirectiveKind::Declare { .. })
+            && self.text.get(here.end as usize..next).is_none_or(|gap| gap.contains('\n'))
     }
 
     /// `dictionary { ["sky"]: 1 }`: the word is the mistake, and is told.

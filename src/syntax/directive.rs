@@ -192,7 +192,8 @@ impl<'a> Nest<'a> {
             {
                 done.push((place, old, then));
             }
-        } else {
+        } else if self.slice(at) != "#else" {
+            // `#else if`, which has been told, is none of them.
             self.stray_directive(at, "an `#if` without `#else`");
         }
     }

@@ -23,6 +23,7 @@ mod layout;
 mod leftover;
 mod legacy;
 mod list;
+mod listing;
 mod loose;
 mod mark;
 mod nest;
@@ -100,6 +101,7 @@ pub fn parse(
     quiet.text = control::blank(quiet.text, file, &mut found);
     quiet.text = entity::translate(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);
+    quiet.text = listing::blank(quiet.text, file, &mut found);
     quiet.text = prose::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
     spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);

@@ -1,8 +1,8 @@
 //! Characters that mean nothing where they stand.
 
 use super::ast::ExpressionKind;
-use super::nest::Nest;
-use super::token::{Token, TokenKind};
+use super::nest::{Nest, State};
+use super::token::{Bracket, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -57,6 +57,15 @@ impl Nest<'_> {
             _ => diagnostic,
         };
         self.report(diagnostic);
+        let goes_on = self.tokens.get(self.at + 1).is_some_and(|next| {
+            let open = TokenKind::Mark(Mark::Open(Bracket::Round));
+            matches!(next.kind, TokenKind::Number | TokenKind::Name) || next.kind == open
+        });
+        // Told: what stands behind it is no other value.
+        if goes_on && matches!(text, "%" | "^") && matches!(self.top().state, State::Holding { .. })
+        {
+            self.mark(Mark::Star, token);
+        }
     }
 
     /// The `n` of a `\n` outside of strings.

@@ -67,6 +67,9 @@ impl<'a> Nest<'a> {
             Some((name, parameters)) => diagnostic
                 .at(span, "parameters stand behind `function`")
                 .help(format!("write `#declare {name} = function({parameters} {{ … }};`")),
+            None if text.split_once('.').is_some_and(|(name, _)| is_name(name)) => diagnostic
+                .at(span, "a component cannot be declared alone")
+                .help("a vector is declared whole: `#declare V = <1, 2, 3>;`"),
             None => diagnostic.at(span, "a name starts with a letter or `_`"),
         };
         self.report(diagnostic);

@@ -355,6 +355,7 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         );
     }
     match (place.word?, name.as_str()) {
+        (_, "mirror" | "flip") => Some("scaled by -1 a thing is mirrored: `scale <-1, 1, 1>`"),
         (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
             Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
         }

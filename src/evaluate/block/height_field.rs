@@ -74,7 +74,9 @@ impl Evaluator<'_> {
     }
 
     fn heights_of_picture(&mut self, token: &Token) -> Outcome<(String, Heights)> {
-        let kind = TYPES.into_iter().find(|(word, _)| self.take_word(*word).is_some());
+        let said = self.next_part(Word::HeightField, &TYPES.map(|(word, _)| word));
+        let kind =
+            TYPES.into_iter().find(|(word, _)| said.as_ref().is_some_and(|(_, said)| said == word));
         let file = self.named_file(token, "the name of a picture's file, or a function")?;
         let mut gamma = Gamma::LINEAR;
         if let Some(word) = self.take_word(Word::GammaWord) {

@@ -119,8 +119,8 @@ impl Evaluator<'_> {
 
     /// Three functions of u and v, and two corners of what these range over.
     pub(super) fn parametric(&mut self, token: &Token) -> Outcome<Solid> {
-        let functions =
-            [self.function_part(token)?, self.function_part(token)?, self.function_part(token)?];
+        // What follows is read for its own mistakes.
+        let functions = [(); 3].map(|()| self.function_part(token));
         let first = self.corner(token, "a vector <u, v> for a corner")?;
         let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
         self.lint_range(token, [&first, &second]);
@@ -135,6 +135,8 @@ impl Evaluator<'_> {
             };
             failed |= outcome.is_err();
         }
+        let [Ok(x), Ok(y), Ok(z)] = functions else { return Err(Reported) };
+        let functions = [x, y, z];
         if failed {
             return Err(Reported);
         }

@@ -9,6 +9,14 @@ use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
 
+/// What may stand behind the parameter, beside the functions.
+const ITEMS: &[Word] =
+    &[Word::Quaternion, Word::Hypercomplex, Word::MaxIteration, Word::Precision, Word::Slice];
+
+fn is_item(word: Word) -> bool {
+    is_function(word) || ITEMS.contains(&word)
+}
+
 impl Evaluator<'_> {
     /// `<x, y, z, w>` first, then the other items, in any order.
     pub(super) fn julia_fractal(&mut self, token: &Token) -> Outcome<Solid> {
@@ -21,8 +29,12 @@ impl Evaluator<'_> {
         loop {
             self.skip_commas();
             let Some(next) = self.peek().cloned() else { break };
-            let word = match &next.kind {
-                TokenKind::Word(word) => *word,
+            let (item, word) = match &next.kind {
+                TokenKind::Word(word) if is_item(*word) => {
+                    let word = *word;
+                    self.next();
+                    (next, word)
+                }
                 TokenKind::Expression(id) => match next.here.unit.expression(*id).kind {
                     ExpressionKind::Call(Callee::Word(Word::Pwr, _), list) => {
                         self.next();
@@ -34,23 +46,14 @@ impl Evaluator<'_> {
                         function = Some((Word::Pwr, next));
                         continue;
                     }
-                    _ => break,
+                    // A misspelt one.
+                    _ => match self.next_part(Word::JuliaFractal, ITEMS) {
+                        Some(part) => part,
+                        None => break,
+                    },
                 },
                 _ => break,
             };
-            let is_item = is_function(word)
-                || matches!(
-                    word,
-                    Word::Quaternion
-                        | Word::Hypercomplex
-                        | Word::MaxIteration
-                        | Word::Precision
-                        | Word::Slice
-                );
-            if !is_item {
-                break;
-            }
-            let Some(item) = self.next() else { break };
             let outcome = match word {
                 Word::Quaternion | Word::Hypercomplex => {
                     fractal.hypercomplex = word == Word::Hypercomplex;

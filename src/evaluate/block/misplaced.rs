@@ -12,6 +12,16 @@ use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
 impl Evaluator<'_> {
+    /// `finish { alpha 0.5 }`, as other tools have it.
+    fn clear_finish(&mut self, token: &Token, place: Place) {
+        let message = format!("`alpha` is not a word {}", place.name());
+        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(token.span, "how clear a surface is stands in the colour of its pigment")
+            .help("write `pigment { rgbt <r, g, b, 0.5> }`, or `… transmit 0.5` behind a colour");
+        self.report(&token.here, diagnostic);
+        self.skip_values();
+    }
+
     /// `{ drawn by my father }`, a comment of the oldest versions: words, of which none is one of the language.
     pub(super) fn is_prose(&self, block: Span) -> bool {
         let text = self.sources.text(block);
@@ -41,6 +51,9 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
+        if word == Word::Alpha && !place.holds(Word::Filter) {
+            return self.clear_finish(token, place);
+        }
         if let Some(today) = word.today() {
             self.old_word(token, word, today);
             return;
@@ -54,7 +67,10 @@ impl Evaluator<'_> {
         // `pigment { … normal { … } }`.
         let is_part = is_part
             || place.word == Some(Word::Pigment)
-                && matches!(word, Word::Normal | Word::NormalMap | Word::InteriorTexture);
+                && matches!(
+                    word,
+                    Word::Normal | Word::NormalMap | Word::TextureMap | Word::InteriorTexture
+                );
         if !is_part && place.holds(word) && (!word.is_built() || place.others.contains(&word)) {
             let poison = Poison::new(word, token.here.site(token.span));
             self.pass_not_built(token, word);
@@ -182,6 +198,7 @@ impl Evaluator<'_> {
         };
         match near {
             Some(near) if is_transform(near) => self.skip_values(),
+            _ if has_block && Self::knows_items(word) => self.pass_not_built(token, word),
             _ => self.skip_arguments(word),
         }
         let own = home(word).filter(|home| *home != word && Some(*home) != place.word);

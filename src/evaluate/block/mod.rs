@@ -124,7 +124,9 @@ impl Evaluator<'_> {
                     self.place(object, token);
                     return Ok(());
                 }
-                self.unexpected(token, Place::SCENE);
+                if !self.changed_object(token, id) {
+                    self.unexpected(token, Place::SCENE);
+                }
                 self.needs_poison()
             }
             _ => {
@@ -146,6 +148,33 @@ impl Evaluator<'_> {
             _ => false,
         };
         (!follows).then_some(object)
+    }
+
+    /// `Tower translate x`, of a `Tower` whose declaration was told to be wrong.
+    fn changed_object(&mut self, token: &Token, id: ExpressionId) -> bool {
+        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return false };
+        let symbol = token.here.symbol(name);
+        let is_broken = matches!(self.scopes.read(symbol), Some(Value::Broken));
+        let changes = |word: Word| matches!(word.family(), Family::Transform | Family::Texture);
+        let first = self.peek_on().map(|next| next.kind.clone());
+        let Some(TokenKind::Word(first)) = first.filter(|_| is_broken) else { return false };
+        if !changes(first) {
+            return false;
+        }
+        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on()
+            && changes(*word)
+        {
+            let word = *word;
+            self.next();
+            self.skip_arguments(word);
+        }
+        let text = self.sources.text(token.span).to_owned();
+        let message = "an object has no meaning here at the top level";
+        let told = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "expected an object, a light, a camera, or settings")
+            .help(format!("write `object {{ {text} {} … }}`", first.name()));
+        self.report(&token.here, told);
+        true
     }
 
     /// Poison that stands in the scene itself has reached it.

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, Operation};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -148,7 +148,14 @@ impl Evaluator<'_> {
                 Some(Err(Reported))
             }
             Value::Broken => {
-                self.next();
+                let token = self.next()?;
+                // Its own mistake is told; what it was to be is known.
+                let symbol = self.scopes.symbol(self.sources.text(token.span));
+                let own = symbol.and_then(|symbol| self.declared_as(symbol)).map(|(own, _)| own);
+                let is_object = |own: &Word| matches!(own.family(), Family::Shape | Family::Csg);
+                if let Some(own) = own.filter(is_object) {
+                    self.wrong_kind_of(&token, word, own);
+                }
                 Some(Err(Reported))
             }
             _ => None,
@@ -162,7 +169,10 @@ impl Evaluator<'_> {
         word: Word,
         object: ObjectId,
     ) -> Option<Reported> {
-        let own = self.made[object.index()].word;
+        self.wrong_kind_of(token, word, self.made[object.index()].word)
+    }
+
+    fn wrong_kind_of(&mut self, token: &Token, word: Word, own: Word) -> Option<Reported> {
         if own == word || matches!(word, Word::Object | Word::Union) {
             return None;
         }
@@ -285,6 +295,12 @@ impl Evaluator<'_> {
                 }
                 continue;
             }
+            if !children.is_empty()
+                && let Some(child) = self.lone_child()
+            {
+                children.extend(child);
+                continue;
+            }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
             if !(matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)) {
@@ -302,5 +318,18 @@ impl Evaluator<'_> {
             }
         }
         children
+    }
+
+    /// `union { sphere { … } Ball }`, as POV-Ray takes `Ball` for `object { Ball }` behind the first child.
+    fn lone_child(&mut self) -> Option<Option<ObjectId>> {
+        if self.options.dialect != Dialect::Pov {
+            return None;
+        }
+        let &Value::Object(used) = self.peek_declared()? else { return None };
+        let token = self.next()?;
+        let site = token.here.site(token.span);
+        let kind = ObjectKind::Use(used);
+        let child = self.add_object(Object { kind, modifiers: Vec::new(), site, item: None });
+        Some(child.ok().inspect(|child| self.note_item(*child, &token)))
     }
 }

@@ -132,7 +132,13 @@ impl Evaluator<'_> {
             TokenKind::Expression(id) => match self.misspelt_block(&token, *id) {
                 // `sphere { 0 pigmant { … } }`
                 Some(reported) => return Err(reported),
-                None => (self.joined_value(&token)?, Some(*id)),
+                None => match self.joined_value(&token) {
+                    Ok(value) => (value, Some(*id)),
+                    Err(reported) => {
+                        self.tell_broken_object(&token, *id);
+                        return Err(reported);
+                    }
+                },
             },
             TokenKind::Literal(_) => (self.joined_value(&token)?, None),
             _ => return Err(Reported),

@@ -178,18 +178,19 @@ impl Place {
         // `samples` of a medium is no setting of the scene.
         let is_of_a_setting = self.word == Some(Word::GlobalSettings)
             && home(word).is_some_and(|home| home != word && home != Word::GlobalSettings);
-        (self.families.contains(&word.family()) || self.others.contains(&word))
+        let is_of_family = self.families.contains(&word.family()) && !is_of_a_setting;
+        (is_of_family || self.others.contains(&word))
             && matches!(word.role(), Role::Statement)
             && word.block().is_none_or(|block| Some(block) == self.word)
-            && !is_of_a_setting
     }
 
     /// Whether a word can be meant here by what another tool calls so.
     pub(super) fn may_mean(self, word: &str, dialect: Dialect) -> bool {
         let is_object = word == "object" && self.word.is_none();
         let is_itself = self.word.is_some_and(|own| own.name() == word);
+        let is_component = self.word == Some(Word::Blob) && matches!(word, "sphere" | "cylinder");
         let is_here = || !is_itself && self.words(dialect).any(|own| own == word);
-        is_object || word == "transmit" || is_here()
+        is_object || is_component || word == "transmit" || is_here()
     }
 
     /// The words to suggest here.
@@ -240,6 +241,7 @@ pub(super) fn home(word: Word) -> Option<Word> {
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
         W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,
         W::PigmentMap => W::Pigment,
+        W::TextureMap => W::Texture,
         W::BlackHole | W::DistExp | W::Flip | W::Offset | W::Repeat | W::Toroidal => W::Warp,
         W::Eccentricity | W::Extinction => W::Scattering,
         W::Absorption | W::Density | W::Intervals | W::Method | W::Ratio | W::Samples => W::Media,

@@ -175,6 +175,15 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `checkerboard texture { … }, texture { … }`: the textures of a misspelt pattern.
+    pub(super) fn skip_textures(&mut self, near: Option<&str>) {
+        let near = near.and_then(Word::from_name).map(Word::family);
+        while near == Some(Family::Pattern) && self.take_word(Word::Texture).is_some() {
+            self.skip_arguments(Word::Texture);
+            self.skip_commas();
+        }
+    }
+
     /// Passes over the values and the block that belong to a word, running what is in them.
     pub(in crate::evaluate) fn skip_arguments(&mut self, word: Word) {
         if word == Word::Function {

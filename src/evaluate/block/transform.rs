@@ -157,12 +157,17 @@ impl Evaluator<'_> {
             }
         }
         let Ok(numbers) = <[f64; 12]>::try_from(numbers.as_slice()) else {
+            let lost = self.commas_lost(next.span);
+            let place = match lost.first() {
+                Some((at, _)) => *at,
+                None if numbers.len() < 12 => self.end_of_call(next.span),
+                None => next.span,
+            };
             let diagnostic = Diagnostic::new(
                 Code::WrongArity,
                 format!("a matrix has 12 numbers, this one has {}", numbers.len()),
             )
-            .at(next.span, "expected four rows of three numbers");
-            let lost = self.commas_lost(next.span);
+            .at(place, "expected four rows of three numbers");
             let diagnostic = match lost.len() {
                 0 => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
                 // Of several differences only the author knows which are meant.

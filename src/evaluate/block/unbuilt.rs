@@ -179,6 +179,14 @@ impl Evaluator<'_> {
                 TokenKind::Word(word) if home(word) == Some(Word::Finish) => {
                     self.unexpected_word(&token, word, PLACE);
                 }
+                TokenKind::Word(word) if word.family() == Family::Color => {
+                    let message = "a `normal` is made of a pattern, and has no colour";
+                    let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+                        .at(token.span, "expected a pattern, such as `bumps 0.5`")
+                        .help("colours belong in `pigment { … }`");
+                    self.report(&token.here, diagnostic);
+                    self.skip_arguments(word);
+                }
                 TokenKind::Word(word) => self.skip_arguments(word),
                 TokenKind::Expression(id) => self.run_expression(&token.here, id),
                 TokenKind::Block(contents) => {
@@ -291,6 +299,20 @@ impl Evaluator<'_> {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
         if let Some((word, site)) = self.declared_as(token.here.symbol(name)) {
             self.is_of_place(token, Poison::new(word, site), place);
+        }
+    }
+
+    /// `sphere { Chair, 1 }`, where `Chair` was to be an object, and its own mistake is told.
+    pub(super) fn tell_broken_object(&mut self, token: &Token, id: ExpressionId) {
+        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
+        let Some((word, site)) = self.declared_as(token.here.symbol(name)) else { return };
+        if matches!(word.family(), Family::Shape | Family::Csg) {
+            let text = self.sources.text(token.span).to_owned();
+            let message = format!("`{text}` is an object, and no value");
+            let told = Diagnostic::new(Code::WrongType, message)
+                .at(token.span, "expected a number or a vector")
+                .also(site.span, "declared here");
+            self.report(&token.here, told);
         }
     }
 

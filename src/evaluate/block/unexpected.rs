@@ -414,6 +414,7 @@ fn is_of_no_part(word: Word, place: Place) -> bool {
             true
         }
         (Some(Word::Texture), _) if matches!(word, Word::ColorMap) => true,
+        (Some(Word::GlobalSettings | Word::Finish | Word::Camera), _) => !place.holds(word),
         (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
             family == Family::FinishItem || of_interior
         }

@@ -55,12 +55,14 @@ impl Evaluator<'_> {
     ) {
         let meant = near.filter(|_| has_block).and_then(Word::from_name);
         let meant = meant.filter(|word| !has_other_parts(self.sources.text(token.span), *word));
-        if let Some(word) = meant
+        // A blob's parts are not those of shapes.
+        if let Some(word) = meant.filter(|_| place.word != Some(Word::Blob))
             && self.judge_block(token, word)
         {
             return;
         }
         self.skip_values();
+        self.skip_textures(near.filter(|_| place.word == Some(Word::Texture)));
         while place.word.is_none()
             && matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Entry(_)))
         {
@@ -243,8 +245,8 @@ impl Evaluator<'_> {
                     break;
                 }
                 TokenKind::Semicolon => break,
+                TokenKind::Expression(id) => self.meet_names(&next.here, id),
                 TokenKind::Word(_)
-                | TokenKind::Expression(_)
                 | TokenKind::Entry(_)
                 | TokenKind::Comma
                 | TokenKind::Literal(_) => {}

@@ -13,6 +13,7 @@ mod called;
 mod case;
 mod condition;
 mod counting;
+mod dotted;
 mod head;
 mod letter;
 mod map;
@@ -179,6 +180,7 @@ impl Reader<'_> {
                     || self.head_without_hash(word, meant)
                     || self.scad(meant)
                     || self.empty_parentheses(word, meant)
+                    || self.member(meant)
                     || self.assigned_block(word, meant)
                     || self.part(meant)
             }
@@ -186,6 +188,8 @@ impl Reader<'_> {
                 self.suffix(meant)
                     || self.letter_in_number(meant)
                     || self.parted_exponent(meant)
+                    || self.numbered_name(meant)
+                    || self.member(meant)
                     || self.number_of_python(meant)
                     || self.times(meant)
                     || self.space_of_names()

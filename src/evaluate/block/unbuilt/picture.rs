@@ -43,8 +43,13 @@ impl Evaluator<'_> {
             return false;
         }
         let name = self.sources.text(token.span).to_owned();
-        let kinds = Word::ALL.iter().filter(|word| word.family() == Family::FileKind);
-        let near = suggest::closest(&name, kinds.map(|word| word.name()));
+        let kinds = || {
+            let kinds = Word::ALL.iter().filter(|word| word.family() == Family::FileKind);
+            kinds.map(|word| word.name())
+        };
+        let near = suggest::foreign(&name)
+            .find(|ours| kinds().any(|kind| kind == *ours))
+            .or_else(|| suggest::closest(&name, kinds()));
         let Some(near) = near else { return false };
         let message = format!("`{name}` is not a kind of picture");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message)

@@ -1,0 +1,63 @@
+//! Names with points in them, as other languages have them: `mesh.position.x = 2;`, `Material.001`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::token::{Mark, Token, TokenKind};
+
+impl Reader<'_> {
+    /// `Material.001`, as Blender names a copy.
+    pub(super) fn numbered_name(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_number = self.kind(1) == Some(TokenKind::Number) && self.touches(1);
+        let is_copy =
+            |number: &str| number.len() == 3 && number.bytes().all(|b| b.is_ascii_digit());
+        if !is_number
+            || !self.slice(0).starts_with(|c: char| c.is_ascii_alphabetic())
+            || !self.slice(1).strip_prefix('.').is_some_and(is_copy)
+        {
+            return false;
+        }
+        let whole = self.span(0, 1);
+        let (name, number) = (self.slice(0).to_owned(), self.slice(1)[1..].to_owned());
+        let told = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            format!("`{name}.{number}` is no name: a name has no point"),
+        )
+        .at(whole, "names are made of letters, digits and `_`")
+        .help(format!("write `{name}_{number}`, here and where it is declared"));
+        self.diagnostics.push(told);
+        meant.push(self.tokens[self.at]);
+        self.at += 2;
+        true
+    }
+
+    /// `mesh.position.x = 2;`, a statement.
+    pub(super) fn member(&mut self, meant: &[Token]) -> bool {
+        let first = self.tokens[self.at];
+        let behind = meant.last().map_or(0, |last| last.end as usize);
+        let gap = self.text.get(behind..first.start as usize).unwrap_or("");
+        if !self.inside.is_empty() || !(meant.is_empty() || gap.contains('\n')) {
+            return false;
+        }
+        let is_name = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+        let mut ahead = 1;
+        while self.is(ahead, Mark::Dot) && self.touches(ahead) && is_name(self.kind(ahead + 1)) {
+            ahead += 2;
+        }
+        if ahead == 1 || !self.is(ahead, Mark::Equal) {
+            return false;
+        }
+        let whole = self.span(0, ahead - 1);
+        let text = self.text.get(whole.range()).unwrap_or("").to_owned();
+        let told = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            format!("`{text}` cannot be given a value"),
+        )
+        .at(whole, "nothing is changed from outside once it is made")
+        .help("an object is moved and turned in its own block: `translate`, `rotate`, `scale`")
+        .help("a vector is declared whole: `#declare V = <1, 2, 3>;`");
+        self.diagnostics.push(told);
+        let end = self.line_end(ahead);
+        self.at += if self.is(end, Mark::Semicolon) { end + 1 } else { end };
+        true
+    }
+}
