@@ -268,10 +268,11 @@ impl Evaluator<'_> {
                     .at(index(at), "outside of the array");
                 let counted = indices.get(at).and_then(|&index| self.counted_to(here, index));
                 // The end of one loop is one mistake, whatever is asked by its counter.
-                if let Some((end, _)) = counted
-                    && !self.ends_told.insert((end, size))
-                {
-                    return Reported;
+                if let Some((end, _)) = counted {
+                    if self.ends_told.contains(&(end, size)) {
+                        return Reported;
+                    }
+                    self.ends_told.push((end, size));
                 }
                 let end = counted.filter(|(_, to)| *to == found).map(|(end, _)| end);
                 let index = indices.get(at).copied();

@@ -181,12 +181,13 @@ impl Evaluator<'_> {
     }
 
     fn arm(&mut self, here: &Here, id: ExpressionId, taken: bool) -> Outcome<Value> {
-        let before = self.diagnostics.len();
+        let (before, ends) = (self.diagnostics.len(), self.ends_told.len());
         let value = self.expression(here, id);
         // Only what a calculation complains of: `B = 0 ? 0 : A / B`. A name that is not declared is a
         // mistake in either arm, and what halts the scene has halted it.
         if !taken && !self.halted {
             self.diagnostics.retain_after(before, |said| !said.code.is_about_calculation());
+            self.ends_told.truncate(ends);
         }
         value
     }

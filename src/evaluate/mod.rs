@@ -40,6 +40,7 @@ mod spread;
 mod stream;
 #[cfg(test)]
 mod tests;
+mod told;
 mod turn;
 mod undeclared;
 mod unrun;
@@ -237,7 +238,7 @@ struct Evaluator<'a> {
     /// Where a part was last found missing: what else is missing there says no more.
     missing_at: Option<Site>,
     /// The ends of loops, and how long the arrays were of which an element past them was told.
-    ends_told: BTreeSet<(Span, u32)>,
+    ends_told: Vec<(Span, u32)>,
     /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
     bounds: Vec<ObjectId>,
     /// The names that were told as not declared, and count as declared since, in this order.
@@ -367,7 +368,7 @@ impl<'a> Evaluator<'a> {
             lacking: BTreeSet::new(),
             unread: BTreeSet::new(),
             missing_at: None,
-            ends_told: BTreeSet::new(),
+            ends_told: Vec::new(),
             bounds: Vec::new(),
             assumed: Vec::new(),
             halted: false,

@@ -72,22 +72,6 @@ impl Evaluator<'_> {
         name.starts_with(char::is_uppercase).then(|| suggest::alike(name, own))?
     }
 
-    /// How much was told so far, for [`Self::take_back`].
-    pub(super) fn told(&self) -> Told {
-        Told { diagnostics: self.diagnostics.len(), assumed: self.assumed.len() }
-    }
-
-    /// Takes back what was told since: it was about text that does not count. A name that was told there is
-    /// told where it stands next.
-    pub(super) fn take_back(&mut self, since: Told) {
-        self.diagnostics.forget_after(since.diagnostics);
-        for symbol in self.assumed.drain(since.assumed.min(self.assumed.len())..) {
-            if let Some(Value::Broken) = self.scopes.read(symbol) {
-                self.scopes.undefine(symbol);
-            }
-        }
-    }
-
     /// `None` where it may be the lack of an include, which was told.
     fn not_declared(
         &mut self,
@@ -380,13 +364,6 @@ impl Evaluator<'_> {
             _ => None,
         }
     }
-}
-
-/// How much was told at some time.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Told {
-    diagnostics: usize,
-    assumed: usize,
 }
 
 /// What to write for a call of another language.

@@ -41,6 +41,15 @@ impl Evaluator<'_> {
                     self.declare_broken(here, *otherwise);
                     continue;
                 }
+                DirectiveKind::While { body, .. } | DirectiveKind::For { body, .. } => {
+                    self.declare_broken(here, *body);
+                    continue;
+                }
+                DirectiveKind::Switch { lead, cases, .. } => {
+                    let bodies = cases.iter().map(|case| case.body);
+                    std::iter::once(*lead).chain(bodies).for_each(|b| self.declare_broken(here, b));
+                    continue;
+                }
                 _ => continue,
             };
             self.break_name(here.symbol(name), local);

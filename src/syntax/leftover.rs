@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::blank::blanked;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Family, Role, Word};
@@ -81,14 +82,7 @@ pub(super) fn blank<'a>(
         diagnostics.push(diagnostic);
     }
     gone.append(&mut fences);
-    let mut bytes = text.into_owned().into_bytes();
-    for range in gone {
-        for byte in bytes[range].iter_mut().filter(|byte| !matches!(**byte, b'\n' | b'\r')) {
-            // Each byte of a character becomes one blank: still UTF-8.
-            *byte = b' ';
-        }
-    }
-    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+    blanked(text, gone)
 }
 
 /// The sign at the beginning of a line of a diff, if it is one: behind it something begins that no value is.

@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::blank::blanked;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 
@@ -68,10 +69,7 @@ pub(super) fn blank<'a>(
     if numbers.is_empty() && settings.is_empty() {
         return text;
     }
-    let mut bytes = text.into_owned().into_bytes();
-    // Each byte of a character becomes one blank: still UTF-8.
-    numbers.into_iter().chain(settings).for_each(|range| bytes[range].fill(b' '));
-    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+    blanked(text, numbers.into_iter().chain(settings))
 }
 
 /// Each line without the blanks around it.

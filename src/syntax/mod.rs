@@ -7,6 +7,7 @@
 mod around;
 pub mod ast;
 mod balance;
+mod blank;
 mod bracket;
 mod colon;
 mod comment;

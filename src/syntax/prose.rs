@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::blank::blanked;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::Word;
@@ -152,10 +153,7 @@ pub(super) fn blank<'a>(
             .fold(told, |told, line| told.fix(Span::new(file, line.start, line.start), "// "));
         diagnostics.push(told);
     }
-    let mut bytes = text.into_owned().into_bytes();
-    // Each byte of a character becomes one blank: still UTF-8.
-    sentences.into_iter().for_each(|line| bytes[line].fill(b' '));
-    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+    blanked(text, sentences)
 }
 
 /// The lines that are sentences, without the blanks around them.

@@ -5,10 +5,10 @@
 //! **Invariant:** a branch that reads without mistakes stays, and so does one that may be run. POV-Ray 3.7
 //! skips such a branch word by word, whatever stands there (measured).
 
-use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use super::blank::blanked;
 use super::comment::Quiet;
 use super::spelling::is_near_a_directive;
 use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
@@ -47,17 +47,12 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     if branches.is_empty() {
         return;
     }
-    let mut bytes = std::mem::take(&mut quiet.text).into_owned().into_bytes();
-    for branch in branches {
+    for branch in &branches {
         quiet.comments.retain(|comment| !branch.contains(&(comment.start as usize)));
         let after = quiet.comments.partition_point(|c| (c.start as usize) < branch.start);
         quiet.comments.insert(after, Span::new(file, branch.start, branch.end));
-        for byte in bytes[branch].iter_mut().filter(|byte| !matches!(**byte, b'\n' | b'\r')) {
-            // Each byte of a character becomes one blank: still UTF-8.
-            *byte = b' ';
-        }
     }
-    quiet.text = Cow::Owned(String::from_utf8(bytes).unwrap_or_default());
+    quiet.text = blanked(std::mem::take(&mut quiet.text), branches);
 }
 
 /// What a name stands for at a place.

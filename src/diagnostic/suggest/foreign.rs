@@ -23,9 +23,6 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("subtraction", "difference"),
     ("substract", "difference"),
     ("substraction", "difference"),
-    ("jpg", "jpeg"),
-    ("tif", "tiff"),
-    ("targa", "tga"),
     ("minus", "difference"),
     ("intersect", "intersection"),
     ("tube", "cylinder"),
@@ -103,6 +100,7 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("arealight", "area_light"),
     ("sun", "light_source"),
     ("directional", "parallel"),
+    ("sun", "parallel"),
     ("directionallight", "parallel"),
     ("target", "point_at"),
     ("target", "look_at"),
@@ -208,6 +206,9 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("hexagons", "hexagon"),
     ("gradient_map", "color_map"),
     // files of pictures
+    ("jpg", "jpeg"),
+    ("tif", "tiff"),
+    ("targa", "tga"),
     // the sky
     ("skybox", "sky_sphere"),
     ("skydome", "sky_sphere"),
@@ -237,13 +238,13 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("displace", "translate"),
     ("stretch", "scale"),
     ("spin", "rotate"),
-    ("sun", "parallel"),
     ("roll", "rotate"),
     ("pitch", "rotate"),
     ("yaw", "rotate"),
     ("rotx", "rotate"),
     ("roty", "rotate"),
     ("rotz", "rotate"),
+    // splines
     ("catmull_rom", "cubic_spline"),
     ("catmullrom", "cubic_spline"),
     // directives and functions

@@ -235,8 +235,8 @@ pub(super) fn home(word: Word) -> Option<Word> {
     use Word as W;
     Some(match word {
         _ if word.block().is_some() => return word.block(),
-        // Reserved, and nobody knows what for.
         W::IridWavelength => W::GlobalSettings,
+        // Reserved, and nobody knows what for.
         W::Size | W::Altitude | W::Tile2 => return None,
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
         W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,

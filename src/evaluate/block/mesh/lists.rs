@@ -331,7 +331,7 @@ impl Evaluator<'_> {
             let stray = [a, b, c].iter().position(|&index| !fits(index)).unwrap_or(0);
             let index = [a, b, c][stray];
             let message = format!(
-                "face {face}, `<{a}, {b}, {c}>`, uses entry {index} of `{of}`, which has none"
+                "face {face}, `<{a}, {b}, {c}>`, uses entry {index} of `{of}`, which is not there"
             );
             let label = match count {
                 0 => format!("there are no `{of}`"),

@@ -1,0 +1,19 @@
+//! Blanks in the place of what is no part of a scene.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// The same text, with a blank for each byte of `ranges` but for line breaks.
+pub(super) fn blanked(
+    text: Cow<'_, str>,
+    ranges: impl IntoIterator<Item = Range<usize>>,
+) -> Cow<'static, str> {
+    let mut bytes = text.into_owned().into_bytes();
+    for range in ranges {
+        for byte in bytes[range].iter_mut().filter(|byte| !matches!(**byte, b'\n' | b'\r')) {
+            // Each byte of a character becomes one blank: still UTF-8.
+            *byte = b' ';
+        }
+    }
+    Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
+}
