@@ -242,6 +242,17 @@ impl Sources {
         &self.get(span.file).text[span.range()]
     }
 
+    /// The character before a place, where something is missing behind it; the place, where none stands there.
+    pub fn sign_before(&self, place: Span) -> Span {
+        let before = self.get(place.file).text.get(..place.start as usize).unwrap_or("");
+        let last = before.chars().next_back().filter(|last| !last.is_whitespace());
+        last.map_or(place, |last| Span {
+            start: place.start - last.len_utf8() as u32,
+            end: place.start,
+            ..place
+        })
+    }
+
     /// `file:line:column` of where a span starts.
     pub fn place(&self, span: Span) -> String {
         let source = self.get(span.file);

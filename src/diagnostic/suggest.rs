@@ -45,7 +45,9 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             // Another spelling of it changes no more than this.
             let respelt = other_count.abs_diff(count) <= 2 && (other_set ^ set).count_ones() <= 4;
             let other = (!far || respelt).then(|| candidate.to_lowercase())?;
-            let distance = match other == lower || (respelt && spelling(&other) == spelled) {
+            let same = other == lower
+                || (respelt && (spelling(&other) == spelled || look_alike(word, candidate)));
+            let distance = match same {
                 true => 0,
                 false if far => return None,
                 false => strsim::osa_distance(&lower, &other).max(1),
@@ -106,6 +108,17 @@ pub fn are_of_a_series(a: &str, b: &str) -> bool {
         _ => false,
     };
     a != b && (numbered || (lettered && !a.eq_ignore_ascii_case(b)))
+}
+
+/// Whether two words look alike: `T_0` and `T_O`, `l1` and `ll`.
+fn look_alike(a: &str, b: &str) -> bool {
+    let shape = |c: char| match c {
+        'O' | 'o' => '0',
+        'I' | 'l' | '|' => '1',
+        'S' => '5',
+        c => c,
+    };
+    a.chars().map(shape).eq(b.chars().map(shape))
 }
 
 /// A word in lower case as it is spelt in America, its numbers without zeros before them: `Grey5` and
@@ -188,6 +201,29 @@ pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
     };
     let mut fitting = candidates.into_iter().filter(fits);
     // Of several none is likely.
+    fitting.next().filter(|_| fitting.next().is_none())
+}
+
+/// The candidate that has the first letter of `word` and its consonants, where one of the two has no vowels: `Count`
+/// for `Cnt`.
+pub fn contracted<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let consonants = |word: &str| {
+        let vowel = |c: char| matches!(c, 'a' | 'e' | 'i' | 'o' | 'u' | 'y');
+        let lower = word.to_lowercase();
+        let mut letters = lower.chars();
+        letters.next().into_iter().chain(letters.filter(|c| !vowel(*c))).collect::<String>()
+    };
+    let bare = consonants(word);
+    let fits = |candidate: &&str| {
+        let is_short = |a: &str, b: &str| a.len() < b.len() && a.to_lowercase() == bare;
+        bare.len() >= 3
+            && consonants(candidate) == bare
+            && (is_short(word, candidate) || is_short(candidate, word))
+    };
+    let mut fitting = candidates.into_iter().filter(fits);
     fitting.next().filter(|_| fitting.next().is_none())
 }
 

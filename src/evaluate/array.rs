@@ -125,12 +125,31 @@ pub(super) fn element_mut<'v>(value: &'v mut Value, indices: &[f64]) -> Option<&
 }
 
 impl Evaluator<'_> {
+    /// `array[] { 1, 2, 3 }`: takes the values, too.
+    fn no_size(&mut self, here: &Here, brackets: Span) -> Reported {
+        let values = self.next_if(|kind| matches!(kind, TokenKind::Block(_)));
+        let told = Diagnostic::new(Code::MissingPart, "an array says how many elements it has")
+            .at(brackets, "expected a number between `[` and `]`");
+        let count = values.and_then(|values| count_values(self.sources.text(values.span)));
+        let told = match count {
+            Some(count) => {
+                let right = format!("[{count}]");
+                told.help(format!("write `array{right}`")).fix(brackets, right)
+            }
+            None => told.help("as in `array[3]`"),
+        };
+        self.report(here, told)
+    }
+
     /// `array[n] … { … }`, after its word.
     pub(super) fn array(&mut self, token: &Token) -> Outcome<Value> {
         let mut dimensions = Vec::new();
         while let Some(Token { kind: TokenKind::Entry(items), here, span }) =
             self.next_if(|kind| matches!(kind, TokenKind::Entry(_)))
         {
+            if here.unit.ast.items(items).is_empty() {
+                return Err(self.no_size(&here, span));
+            }
             let size = self.inside(&here, items, |evaluator| evaluator.only_value(&here, span))?;
             if let Value::Poison(_) = size {
                 return Ok(size);
@@ -314,4 +333,19 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::WrongType, message).at(span, format!("expected {first}"));
         self.report(here, diagnostic)
     }
+}
+
+/// How many values stand side by side in braces, where commas part them and no directive makes more.
+fn count_values(block: &str) -> Option<usize> {
+    let inside = block.strip_prefix('{')?.strip_suffix('}')?.trim().trim_end_matches(',');
+    let (mut depth, mut commas) = (0, 0);
+    for sign in inside.chars() {
+        match sign {
+            '<' | '(' | '[' | '{' => depth += 1,
+            '>' | ')' | ']' | '}' => depth -= 1,
+            ',' if depth == 0 => commas += 1,
+            _ => {}
+        }
+    }
+    (!inside.is_empty() && !inside.contains(['#', '"', '/'])).then_some(commas + 1)
 }

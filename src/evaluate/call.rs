@@ -60,6 +60,12 @@ impl Evaluator<'_> {
                             format!("`{name}` is {kind}, and cannot be called"),
                         )
                         .at(name_span, "expected the name of a macro, a function or a spline");
+                        let parentheses = Span { start: name_span.end, ..span };
+                        if is_array && parentheses.start < parentheses.end {
+                            diagnostic = Diagnostic::new(Code::NotCallable, diagnostic.message)
+                                .at(parentheses, "an element is chosen by `[` and `]`")
+                                .also(name_span, "this is the array");
+                        }
                         if let Some(declared) = self.scopes.declared(symbol) {
                             diagnostic = diagnostic.also(declared.site.span, "declared here");
                         }

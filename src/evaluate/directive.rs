@@ -138,8 +138,10 @@ impl Evaluator<'_> {
                 self.say(here, Code::AuthorWarning, *text, directive.head)
             }
             DirectiveKind::Error(text) => {
+                // Behind a mistake it is rather what comes of that: the rest is read for its own.
+                let goes_on = self.diagnostics.has_errors();
                 let said = self.say(here, Code::AuthorError, *text, directive.head);
-                self.halted = true;
+                self.halted = !goes_on;
                 said
             }
             DirectiveKind::Fopen { name, name_span, file, mode } => {

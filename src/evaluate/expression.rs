@@ -102,8 +102,9 @@ impl Evaluator<'_> {
             }
             ExpressionKind::Index(..) => self.indexed(here, id),
             ExpressionKind::Component(base, component) => {
-                let value = self.operand(here, base)?;
-                self.component_value(here, &value, component, here.unit.expression(base).span)
+                let value = self.operand(here, base);
+                self.check_component(here, base, component)?;
+                self.component_value(here, &value?, component, here.unit.expression(base).span)
             }
             ExpressionKind::Group(inner) => self.expression(here, inner),
             ExpressionKind::GroupItems(items) => {

@@ -256,7 +256,10 @@ impl Evaluator<'_> {
                 None => {
                     let message = match parameter.kind {
                         ExpressionKind::Word(word) => {
-                            format!("`{}` is a word of the language, and no name", word.name())
+                            format!(
+                                "`{}` is a word of the language, and no name of a parameter",
+                                word.name()
+                            )
                         }
                         _ => "a parameter of a function is a name".to_owned(),
                     };
@@ -366,7 +369,10 @@ impl Evaluator<'_> {
             None => "this function".to_owned(),
         };
         let message = format!("{name} takes {wanted}, and is given {found}");
-        let at = if found < least { self.end_of_call(span) } else { span };
+        let at = match found < least {
+            true => self.end_of_call(span),
+            false => self.first_extra(span, least).unwrap_or(span),
+        };
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
         // `F(x, y)` of a function of a place.

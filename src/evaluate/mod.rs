@@ -261,6 +261,8 @@ struct Evaluator<'a> {
     misread: bool,
     /// Of each condition of such a file, whether it held, and whether it did not.
     asked: HashMap<DirectiveId, [bool; 2]>,
+    /// How many children of unions and the like could not be made.
+    lost_children: u64,
     /// How often something was reported, repetitions included; and how often an error.
     reports: u64,
     faults: u64,
@@ -381,6 +383,7 @@ impl<'a> Evaluator<'a> {
             faulty_turns: 0,
             misread: false,
             asked: HashMap::new(),
+            lost_children: 0,
             reports: 0,
             faults: 0,
             remembered: Remembered::default(),

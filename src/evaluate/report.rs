@@ -229,8 +229,14 @@ impl Evaluator<'_> {
             _ => format!("{name}()"),
         };
         let message = format!("`{name}` is a macro, and is called with parentheses");
-        let mut diagnostic =
-            Diagnostic::new(Code::WrongType, message).at(span, "expected `(` after this");
+        let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
+        let gap = behind.len() - behind.trim_start_matches([' ', '\t']).len();
+        let brace = Span { start: span.end + gap as u32, end: span.end + gap as u32 + 1, ..span };
+        let told = Diagnostic::new(Code::WrongType, message);
+        let mut diagnostic = match behind[gap..].starts_with('{') {
+            true => told.at(brace, "expected `(`").also(span, "the macro"),
+            false => told.at(span, "expected `(` after this"),
+        };
         if let Some(declared) = self.scopes.declared(symbol) {
             diagnostic = diagnostic.also(declared.site.span, "defined here");
         }

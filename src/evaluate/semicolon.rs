@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         let Some(last) = last.filter(|last| wanted && is_here(last)) else { return };
         let place = last.span.after();
         let diagnostic = Diagnostic::new(Code::Semicolon, "a declared number ends with `;`")
-            .at(place, "expected `;` here")
+            .at(self.sources.sign_before(place), "expected `;` after this")
             .help("POV-Ray refuses it without")
             .fix(place, ";");
         // It may be told as an old form.
@@ -87,6 +87,17 @@ impl Evaluator<'_> {
             return false;
         }
         self.next();
+        // `2 x 3`
+        while let Some(Token { kind: TokenKind::Expression(_), span: more, .. }) = self.peek_on() {
+            let gap = Span { start: span.end, end: more.start, ..span };
+            let on_line = more.file == span.file
+                && span.end < more.start
+                && !self.sources.text(gap).contains(['\n', '\r']);
+            if !on_line {
+                break;
+            }
+            self.next();
+        }
         self.pass(ItemKind::Semicolon);
         let [one, other] = [last, span].map(|span| self.sources.text(span).to_owned());
         let diagnostic = Diagnostic::new(Code::ExtraPart, "no sign stands between two values")
@@ -108,7 +119,7 @@ impl Evaluator<'_> {
         }
         let place = span.after();
         let diagnostic = Diagnostic::new(Code::Semicolon, "`#version` ends with `;`")
-            .at(place, "expected `;` here")
+            .at(self.sources.sign_before(place), "expected `;` after this")
             .help("POV-Ray warns of it")
             .fix(place, ";");
         self.report(here, diagnostic);

@@ -154,7 +154,13 @@ impl Evaluator<'_> {
         let kinds = || KINDS.into_iter().map(Word::name);
         let short = Word::from_name(&format!("{text}_spline")).filter(|_| is_name);
         let theirs = || suggest::foreign(&text).find(|ours| kinds().any(|kind| kind == *ours));
-        let near = || suggest::closest(&text, kinds()).or_else(theirs).and_then(Word::from_name);
+        // Of a shape, and none of these.
+        let of_shape =
+            || matches!(text.as_str(), "bezier_spline" | "b_spline").then_some("cubic_spline");
+        let near = || {
+            let near = suggest::closest(&text, kinds()).filter(|_| of_shape().is_none());
+            near.or_else(theirs).or_else(of_shape).and_then(Word::from_name)
+        };
         let word = short.or_else(|| near().filter(|_| is_name))?;
         let kind = kind_of(word)?;
         let meant = word.name();

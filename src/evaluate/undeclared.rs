@@ -5,6 +5,7 @@
 //! word of the language.
 
 mod lacking;
+mod parameter;
 
 use std::collections::HashSet;
 use std::rc::Rc;
@@ -13,9 +14,8 @@ use std::sync::LazyLock;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word, is_standard_source, standard_include_of};
+use crate::vocabulary::{Family, Role, Word, standard_include_of};
 
-use super::expand::Macro;
 use super::stream::{Token, TokenKind};
 use super::value::Value;
 use super::written::number_as_a_name;
@@ -36,6 +36,11 @@ impl Evaluator<'_> {
         fits: impl Fn(Word) -> bool,
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
+        // `Arm_001`, where `Arm.001` is declared: that has been told.
+        let is_dotted = |other: &str| other.contains('.') && other.replace('.', "_") == name;
+        if name.contains('_') && self.scopes.visible().any(is_dotted) {
+            return Reported;
+        }
         if let Some(diagnostic) = self.of_another_writing(&name, span) {
             let reported = self.report(here, diagnostic);
             self.skip_behind(span);
@@ -93,6 +98,7 @@ impl Evaluator<'_> {
             && rest.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '<');
         let text = &self.sources.get(span.file).text[..span.start as usize];
         let line = text.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
+        let begins = text.trim_end().ends_with('{');
         let counts_a_loop = line.strip_prefix("#while").is_some_and(|rest| !rest.contains(')'));
         let standard = self.lacking_include(name);
         // What the files that the main file includes lack of another one is one mistake.
@@ -104,6 +110,7 @@ impl Evaluator<'_> {
         let of_others = is_called && suggest::foreign(name).next().is_some();
         let close = suggest::closest(name, self.scopes.visible())
             .or_else(|| suggest::abridged(name, self.scopes.visible()))
+            .or_else(|| suggest::contracted(name, self.scopes.visible()))
             .or_else(|| self.one_alike(name))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
             // `arctan(b, a)` is rather another language's function than a colour.
@@ -201,6 +208,11 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
+        } else if let Some(word) = self.word_of_block(name) {
+            diagnostic = diagnostic
+                .at(span, "not declared, and not a word of the language")
+                .help(format!("did you mean `{word}`?"))
+                .fix(span, word);
         } else if let Some(word) = word_like(name, |word| {
             // A function without its arguments is rarely meant.
             fits(word) && (is_called || !matches!(word.role(), Role::Function { .. }))
@@ -214,10 +226,21 @@ impl Evaluator<'_> {
             return None;
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
+            // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
+            let theirs = suggest::foreign(name).find(|ours| {
+                Word::from_name(ours).is_some_and(|word| word.role() == Role::Statement)
+            });
+            if let Some(ours) = theirs.filter(|_| begins) {
+                let meant = format!("did you mean `{ours}`?");
+                return Some(diagnostic.help(meant).fix(span, ours));
+            }
             // `box { center 0 size 2 }`: what was meant for a word of the block.
             let opener = self.openers.last().map(|opener| self.sources.text(*opener));
             if let Some(word) = opener.and_then(Word::from_name).filter(|_| names_a_value) {
                 diagnostic = diagnostic.help(self.form_of(word));
+            } else if let Some(parameters) = self.parameters_around(span) {
+                diagnostic =
+                    diagnostic.help(format!("the parameters of this function: {parameters}"));
             }
         }
         if counts_a_loop && diagnostic.help.is_empty() {
@@ -240,18 +263,6 @@ impl Evaluator<'_> {
         let fits =
             |word: Word| word.role() == Role::Statement && word.family() != Family::Directive;
         word_like(name, fits).filter(|_| stands_alone)
-    }
-
-    /// A macro that has a parameter of this name, and the parameter's place.
-    fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
-        let has =
-            |declared: &&Rc<Macro>| declared.parameters.iter().any(|&(name, _)| name == symbol);
-        let found = self.macros.iter().rev().find(has)?;
-        if is_standard_source(&self.sources.get(found.defined.file).name) {
-            return None;
-        }
-        let owner = self.sources.text(found.defined).to_owned();
-        Some((owner, found.defined))
     }
 
     /// `Hello`, `grass.png` where a string should stand: quotes are missing.

@@ -109,8 +109,13 @@ impl Evaluator<'_> {
             }
             (None, _) => {
                 let message = format!("a vector has two to five components, this one has {count}");
-                let diagnostic =
-                    Diagnostic::new(Code::WrongArity, message).at(span, "too many components");
+                let diagnostic = Diagnostic::new(Code::WrongArity, message);
+                let diagnostic = match self.first_extra(span, 5) {
+                    Some(sixth) => {
+                        diagnostic.at(sixth, "too many components").also(span, "in this vector")
+                    }
+                    None => diagnostic.at(span, "too many components"),
+                };
                 let diagnostic = match self.commas_within(span) {
                     Some(vector) => diagnostic
                         .help(format!("a fraction is written with a point: `{vector}`"))
@@ -120,6 +125,31 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
         }
+    }
+
+    /// A name that is no component of anything is one whatever stands before it.
+    pub(super) fn check_component(
+        &mut self,
+        here: &Here,
+        base: ExpressionId,
+        component: Component,
+    ) -> Outcome<()> {
+        let Component::Name(_, span) = component else { return Ok(()) };
+        let ours = match self.sources.text(span) {
+            "r" => "red",
+            "g" => "green",
+            "b" => "blue",
+            "w" | "a" => "t",
+            _ => return Ok(()),
+        };
+        let before = self.sources.text(here.unit.expression(base).span);
+        let message = format!("`.{}` is no component", self.sources.text(span));
+        let diagnostic = Diagnostic::new(Code::WrongArity, message)
+            .at(span, "no such component")
+            .help(format!("did you mean `{before}.{ours}`?"))
+            .help("vectors have `.x .y .z .t`, or `.u .v`; colours have `.red .green .blue .filter .transmit .gray`")
+            .fix(span, ours);
+        Err(self.report(here, diagnostic))
     }
 
     /// Takes a component of a vector, which an expression came to.

@@ -26,6 +26,7 @@ pub use surface::{shading_normal, spread, surface};
 pub use work::Work;
 
 use crate::shape::body::{Local, Met};
+use crate::shape::compiled::compiled;
 use crate::shape::{
     Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
 };
@@ -98,6 +99,21 @@ enum Solid {
     Ellipsoid(u32),
     Placed(u32),
     Whole(u32),
+}
+
+impl Solid {
+    /// See [`compiled`](crate::shape::compiled).
+    #[inline(always)]
+    fn compiled(&self) {
+        match self {
+            Self::Sphere(_) => compiled!("sphere"),
+            Self::Plane(_) => compiled!("plane"),
+            Self::Box(_) => compiled!("box"),
+            Self::Ellipsoid(_) => compiled!("ellipsoid"),
+            Self::Placed(_) => compiled!("body"),
+            Self::Whole(_) => compiled!("csg"),
+        }
+    }
 }
 
 /// Which crossings of a solid are seen.
@@ -302,6 +318,7 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
     ) -> Option<(Crossing, bool)> {
+        entry.solid.compiled();
         let chord = match &entry.solid {
             Solid::Sphere(Sphere { centre, radius }) => {
                 let roots = sphere::roots_ahead(*centre, *radius, ray)?;

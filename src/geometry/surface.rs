@@ -11,7 +11,9 @@ use crate::world::World;
 #[inline(always)]
 pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let Hit { object, t, leaving, .. } = *hit;
-    match world.objects[object as usize].shape {
+    let shape = world.objects[object as usize].shape;
+    shape.compiled();
+    match shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
         Shape::Box(i) => edge::surface(world, ray, hit, &world.boxes[i as usize]),
@@ -23,7 +25,9 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
 /// The unit normal by which the surface at a hit is lit, on either side; `None` where that is its own.
 #[inline(always)]
 pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Option<Vector> {
-    match world.objects[hit.object as usize].shape {
+    let shape = world.objects[hit.object as usize].shape;
+    shape.compiled();
+    match shape {
         Shape::Placed(i) => world.placed[i as usize].shading_normal(surface),
         Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => None,
     }
@@ -33,7 +37,9 @@ pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Optio
 /// distance where that is not known.
 #[inline(never)]
 pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
-    let chord = match world.objects[hit.object as usize].shape {
+    let shape = world.objects[hit.object as usize].shape;
+    shape.compiled();
+    let chord = match shape {
         Shape::Sphere(i) => world.spheres[i as usize].chord(ray),
         Shape::Plane(i) => world.planes[i as usize].chord(ray),
         Shape::Box(i) => world.boxes[i as usize].chord(ray),

@@ -140,6 +140,7 @@ impl Geometry {
     pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
         let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
         let from_inside = Met { part: Met::UNSEEN, ..met(Crossing::BEFORE_ALL, false) };
+        solid.compiled();
         let chord = match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),

@@ -77,6 +77,13 @@ pub(super) fn drop_echoes(
             && Word::from_name(sources.text(place)).is_none()
             // A file that ends in the middle of a block may end in the middle of a word.
             && !rest.trim().is_empty();
+        // How many numbers a vector has does not depend on what is around it.
+        let in_vector = |span: Span| {
+            let text = sources.text(span);
+            text.starts_with('<') && text.ends_with('>')
+        };
+        let is_whole = later.code == Code::WrongArity
+            && later.labels.iter().any(|label| in_vector(label.span));
         let is_block = is_name && rest.trim_start().starts_with('{');
         let (reach, on_line) = (reach(sources, place), line(place));
         !faults.iter().any(|fault| {
@@ -87,6 +94,7 @@ pub(super) fn drop_echoes(
             match shifts {
                 _ if fault.span.file != place.file => false,
                 true if is_name => fault.code == Code::UnclosedString && beside,
+                true if is_whole => beside,
                 true => beside || fault.doubt.contains(&place.start),
                 false if is_block => false,
                 false => beside && place.start < fault.others,

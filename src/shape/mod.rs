@@ -9,6 +9,7 @@ pub mod blob;
 pub mod body;
 mod bounds;
 pub mod box_;
+pub(crate) mod compiled;
 pub mod cone;
 pub mod csg;
 pub mod curve;
@@ -63,6 +64,7 @@ pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
 
+use self::compiled::compiled;
 use crate::math::{Real, Vector, Vector3};
 
 /// Names one shape of the World: its kind, and its place in that kind's list.
@@ -73,6 +75,20 @@ pub enum Shape {
     Box(u32),
     Ellipsoid(u32),
     Placed(u32),
+}
+
+impl Shape {
+    /// See [`compiled`].
+    #[inline(always)]
+    pub(crate) fn compiled(self) {
+        match self {
+            Self::Sphere(_) => compiled!("sphere"),
+            Self::Plane(_) => compiled!("plane"),
+            Self::Box(_) => compiled!("box"),
+            Self::Ellipsoid(_) => compiled!("ellipsoid"),
+            Self::Placed(_) => compiled!("body"),
+        }
+    }
 }
 
 /// A half-line: `origin + t · direction`, t > 0.

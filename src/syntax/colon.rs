@@ -2,7 +2,8 @@
 //!
 //! **Invariant:** one message a sign, with what it was rather meant for.
 
-use super::ast::{Callee, DirectiveKind, ExpressionKind, Item, ItemKind};
+use super::ast::{BinaryOperator, Callee, DirectiveKind, ExpressionKind, Item, ItemKind};
+use super::expression::OperatorKind;
 use super::nest::{FrameKind, Nest, State};
 use super::token::{Bracket, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
@@ -62,6 +63,12 @@ impl<'a> Nest<'a> {
             Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => {
                 self.times(told, word, span)
             }
+            // `right 16:9*x`: how wide for its height.
+            Some(ExpressionKind::Number(wide)) if self.is_ratio(wide) => {
+                let told = told.help("a ratio is a quotient: write `/`").fix(span, "/");
+                self.report(told);
+                return self.operator(OperatorKind::Binary(BinaryOperator::Divide), span);
+            }
             // `spline { 0: x, 1: y }`.
             Some(ExpressionKind::Number(_)) => {
                 told.help("values are parted by commas").fix(span, ",")
@@ -69,6 +76,14 @@ impl<'a> Nest<'a> {
             _ => told,
         };
         self.report(told);
+    }
+
+    /// `16:9`: how wide and how high pictures are.
+    fn is_ratio(&self, wide: f64) -> bool {
+        let next = self.tokens.get(self.at + 1).map(|next| self.span(*next));
+        let high = next.and_then(|next| self.slice(next).parse::<f64>().ok());
+        let ratios = [(4.0, 3.0), (5.0, 4.0), (3.0, 2.0), (16.0, 9.0), (16.0, 10.0), (21.0, 9.0)];
+        high.is_some_and(|high| ratios.contains(&(wide, high)))
     }
 
     /// `#declare A = 3:` before another line.

@@ -73,11 +73,7 @@ impl<'a> Nest<'a> {
                     self.at += 1;
                     self.open(FrameKind::Default(span), span, false);
                 } else {
-                    self.expected_in_head(
-                        span,
-                        "`#default` takes a block",
-                        "expected `{` after it",
-                    );
+                    self.default_without_block(span);
                     self.add_directive(DirectiveKind::Malformed, span, span);
                 }
             }
@@ -116,6 +112,27 @@ impl<'a> Nest<'a> {
                 self.conditioned(head, span, missing, span);
             }
         }
+    }
+
+    /// `#default pigment { … }`: what it sets stands in no block.
+    fn default_without_block(&mut self, span: Span) {
+        let message = "`#default` takes a block";
+        let next = self.tokens.get(self.at + 1).copied();
+        let sets =
+            |word| matches!(word, Word::Texture | Word::Pigment | Word::Finish | Word::Normal);
+        let Some(next) =
+            next.filter(|next| matches!(next.kind, TokenKind::Word(word) if sets(word)))
+        else {
+            return self.expected_in_head(span, message, "expected `{` after it");
+        };
+        let word = self.span(next);
+        let name = self.slice(word);
+        self.report(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(word, "expected `{` before this")
+                .also(span, "for this")
+                .help(format!("write `#default {{ {name} {{ … }} }}`")),
+        );
     }
 
     pub(super) fn expected_in_head(&mut self, span: Span, message: &str, label: &str) {

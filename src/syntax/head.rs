@@ -337,6 +337,11 @@ impl<'a> Nest<'a> {
                     }
                     optional = None;
                 }
+                _ if self.is_type(parameters.last(), span) => {
+                    if let Some(last) = parameters.last_mut() {
+                        *last = Parameter { name, span, optional: false };
+                    }
+                }
                 _ => {
                     optional = (self.slice(span) == "optional").then_some(span);
                     parameters.push(Parameter { name, span, optional: false });
@@ -345,6 +350,24 @@ impl<'a> Nest<'a> {
         }
         self.lint_repeated(&parameters);
         parameters
+    }
+
+    /// `float N`, where nothing parts the parameter before from this one: tells that it is no type.
+    fn is_type(&mut self, before: Option<&Parameter>, span: Span) -> bool {
+        let Some(before) = before.map(|before| before.span) else { return false };
+        let gap = Span { start: before.end, end: span.start, ..span };
+        if before.end > span.start || !self.slice(gap).trim().is_empty() {
+            return false;
+        }
+        let (theirs, name) = (self.slice(before), self.slice(span));
+        let message = format!("`{theirs}` is no parameter of its own: parameters have no types");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(before, "a type, as in other languages")
+            .also(span, format!("taken as the parameter `{name}`"))
+            .help(format!("write `{name}` alone; or a comma between, if both are parameters"))
+            .fix(before.to(gap), "");
+        self.report(diagnostic);
+        true
     }
 
     /// As POV-Ray has it (measured), the last parameter of a name is the one that is seen.

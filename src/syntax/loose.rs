@@ -30,7 +30,9 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
         done = body.end;
         match loose_braces(inside) {
             Some(loose) => mark(&mut tokens[body.clone()], &loose),
-            None => raw.push(body.clone()),
+            // A parenthesis that one branch alone lacks is a mistake.
+            None if paths(inside)[..2] == [[0; 3]; 2] => raw.push(body.clone()),
+            None => {}
         }
     }
     for body in raw.into_iter().rev() {
@@ -207,6 +209,12 @@ impl Branches {
 }
 
 fn pairs_on_some_path(tokens: &[Token]) -> bool {
+    paths(tokens).contains(&[0; 3])
+}
+
+/// How many more brackets of each kind a text opens than it closes, where all first branches are run, where all
+/// others are, and as it is written.
+fn paths(tokens: &[Token]) -> [[i32; 3]; 3] {
     let [mut first, mut otherwise, mut all] = [[0_i32; 3]; 3];
     let mut branches = Branches::default();
     for &token in tokens {
@@ -220,7 +228,7 @@ fn pairs_on_some_path(tokens: &[Token]) -> bool {
         first[bracket] += if branches.on_first() { change } else { 0 };
         otherwise[bracket] += if branches.on_otherwise() { change } else { 0 };
     }
-    [first, otherwise, all].contains(&[0; 3])
+    [first, otherwise, all]
 }
 
 /// What running a text does to the braces around it: closes some, then opens some.

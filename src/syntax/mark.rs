@@ -7,7 +7,7 @@ use super::nest::{Frame, FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::Role;
+use crate::vocabulary::{Dialect, Role};
 
 /// How many tokens after a `;` the end of its vector is looked for.
 const LONGEST_VECTOR: usize = 40;
@@ -105,8 +105,8 @@ impl<'a> Nest<'a> {
         let full = self.top().full || self.top().of_color;
         self.before_operator(span);
         if !in_sums && !full {
-            // `==` has been told.
-            self.top().level_told |= mark == Mark::Equal && span.end - span.start > 1;
+            // `==` and `&&` have been told.
+            self.top().level_told |= span.end - span.start > 1;
             self.only_in_parentheses(span);
         }
         self.operator(OperatorKind::Binary(operator), span);
@@ -220,6 +220,9 @@ impl<'a> Nest<'a> {
             if !full {
                 self.only_in_parentheses(span);
             }
+            if self.dialect == Dialect::Pov && self.frames.iter().any(|frame| frame.formula) {
+                self.choice_in_function(span);
+            }
             return self.operator(OperatorKind::Question, span);
         }
         if self.stacks.open_question(base).is_none() {
@@ -228,6 +231,16 @@ impl<'a> Nest<'a> {
         self.before_operator(span);
         self.stacks.colon(base, &mut self.ast.expressions);
         self.top().state = State::Wanting;
+    }
+
+    /// `function { x > 0 ? 1 : 2 }`, which POV-Ray refuses.
+    fn choice_in_function(&mut self, span: Span) {
+        let message = "a function has no `?` and `:` in POV-Ray";
+        self.report(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "expected an operator of numbers")
+                .help("one of two values: `select(A, B, C)` is B where A is negative, else C"),
+        );
     }
 
     pub(super) fn component(&mut self, dot: Span) {

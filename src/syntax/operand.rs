@@ -100,7 +100,10 @@ impl<'a> Nest<'a> {
     pub(super) fn word(&mut self, word: Word, span: Span) {
         // One that was declared though it cannot be, where a value is wanted: that has been told.
         let is_name = match word.role() {
-            Role::Statement => self.top().state == State::Wanting,
+            Role::Statement => {
+                self.top().state == State::Wanting
+                    || matches!(self.top().kind, FrameKind::Vector | FrameKind::Call(_))
+            }
             Role::Value => !matches!(word, Word::X | Word::Y | Word::Z),
             Role::Function { .. } => false,
         };
@@ -159,6 +162,11 @@ impl<'a> Nest<'a> {
             let continues = match next.kind {
                 TokenKind::Number => text.starts_with('.'),
                 TokenKind::Name => text == "e" || text == "E",
+                // `1e-`, with no digits behind.
+                TokenKind::Mark(Mark::Minus | Mark::Plus) => {
+                    let behind = self.tokens.get(self.at + 2).map(|token| token.start);
+                    self.slice(span).ends_with(['e', 'E']) && behind != Some(next.end)
+                }
                 _ => false,
             };
             if next.start != span.end || !continues {
@@ -175,7 +183,9 @@ impl<'a> Nest<'a> {
             parsed => {
                 let why = match parsed {
                     Ok(_) => "larger than any number that can be stored",
-                    Err(_) if text.ends_with(['e', 'E']) => "expected digits after the exponent",
+                    Err(_) if text.ends_with(['e', 'E', '-', '+']) => {
+                        "expected digits after the exponent"
+                    }
                     Err(_) => "expected one decimal point at most",
                 };
                 let message = format!("`{text}` is not a number");

@@ -1,5 +1,6 @@
-//! What an effect costs where nothing calls for it: instructions of the frame loop, in the shipped program
-//! and in the same source built with one kernel alone.
+//! What an effect or a kind of shape costs where nothing calls for it: instructions of the frame loop, in the
+//! shipped program and in the same source built with one kernel alone, and with those shapes alone that the
+//! scenes hold.
 //!
 //! `cargo bench --bench effects`, with valgrind installed. **In:** scenes of `scenes/`. **Out:** a table,
 //! and exit code 1 where a row differs by more than 0.1 %.
@@ -13,12 +14,30 @@ use std::{fs, thread};
 /// The most that a row may differ, in per cent.
 const BAR: f64 = 0.1;
 
-/// Each kernel, and scenes below `scenes/` that it traces.
-const SCENES: [(&str, &[&str]); 4] = [
-    ("bare", &["seed/ambient", "atmosphere/background"]),
-    ("shadows", &["directives/for", "transforms/rotate"]),
-    ("secondary", &["seed/mirror"]),
-    ("shadows+secondary", &["gallery/first", "finishes/reflection", "seed/mirror"]),
+/// A program to measure against: its kernel, the shapes it has code for, and scenes below `scenes/`.
+struct Alone {
+    kernel: &'static str,
+    shapes: &'static [&'static str],
+    scenes: &'static [&'static str],
+}
+
+const ALONE: [Alone; 4] = [
+    Alone {
+        kernel: "bare",
+        shapes: &["sphere", "box"],
+        scenes: &["seed/ambient", "atmosphere/background"],
+    },
+    Alone {
+        kernel: "shadows",
+        shapes: &["sphere", "plane", "box"],
+        scenes: &["directives/for", "transforms/rotate"],
+    },
+    Alone { kernel: "secondary", shapes: &["sphere", "plane", "box"], scenes: &["seed/mirror"] },
+    Alone {
+        kernel: "shadows+secondary",
+        shapes: &["sphere", "plane", "box", "body", "torus"],
+        scenes: &["gallery/first", "finishes/reflection", "seed/mirror", "shapes/torus"],
+    },
 ];
 
 /// The function whose instructions are counted, with all that it calls.
@@ -41,13 +60,14 @@ fn main() -> ExitCode {
     thread::scope(|scope| {
         let folder = folder.path();
         scope.spawn(move || {
-            for (kernel, scenes) in SCENES {
-                if send.send((kernel, scenes, build(folder, kernel))).is_err() {
+            for alone in ALONE {
+                let program = build(folder, &alone);
+                if send.send((alone, program)).is_err() {
                     return;
                 }
             }
         });
-        for (kernel, scenes, alone) in built {
+        for (Alone { kernel, scenes, .. }, alone) in built {
             for name in scenes {
                 let scene = scene(folder, kernel, name);
                 let [shipped, alone] =
@@ -92,15 +112,19 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The program with one kernel alone. The flag is given to this crate only, and what it takes to build is
+/// The program with one kernel alone, and few shapes. The flags are given to this crate only, and what it takes to build is
 /// kept where the shipped program's is: the dependencies are built once.
-fn build(folder: &Path, kernel: &str) -> PathBuf {
+fn build(folder: &Path, Alone { kernel, shapes, .. }: &Alone) -> PathBuf {
     let shipped = Path::new(env!("CARGO_BIN_EXE_lucarne"));
     let shared = shipped.ancestors().nth(2).expect("target/release/lucarne");
     let target = shared.join("one-kernel");
     fs::create_dir_all(&target).expect("a folder");
     let wrapper = target.join(format!("rustc-{kernel}"));
-    let script = format!("#!/bin/sh\nexec \"$@\" --cfg 'lucarne_only_kernel=\"{kernel}\"'\n");
+    let shapes = shapes.iter().map(|shape| format!(" --cfg 'lucarne_shape=\"{shape}\"'"));
+    let script = format!(
+        "#!/bin/sh\nexec \"$@\" --cfg 'lucarne_only_kernel=\"{kernel}\"' --cfg lucarne_only_shapes{}\n",
+        shapes.collect::<String>()
+    );
     fs::write(&wrapper, script).expect("a script written");
     executable(&wrapper);
     let status = Command::new(env!("CARGO"))

@@ -94,8 +94,8 @@ impl Evaluator<'_> {
         let message = "`rotate` takes one vector: degrees about x, y and z";
         Some(
             Diagnostic::new(Code::ExtraPart, message)
-                .at(Span { end: start + 6, ..whole }, "an axis and an angle stand behind it")
-                .also(token.span, "expected no number after the vector")
+                .at(token.span, "expected no number after the vector")
+                .also(Span { end: start + 6, ..whole }, "an axis and an angle stand behind it")
                 .help(format!("write `{right}`"))
                 .fix(whole, right),
         )
@@ -374,10 +374,19 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
 
 /// `0,5` where a number stands.
 pub(super) fn told_comma(text: &str, span: Span, number: String) -> Diagnostic {
-    Diagnostic::new(Code::ExtraPart, format!("`{text}` is no number"))
+    let thousands = text.split_once(',').filter(|(whole, rest)| {
+        rest.len() == 3 && !whole.trim_start_matches('-').starts_with('0') && !rest.contains('.')
+    });
+    let told = Diagnostic::new(Code::ExtraPart, format!("`{text}` is no number"))
         .at(span, "expected a point, not a comma")
         .help(format!("a fraction is written with a point: `{number}`"))
-        .fix(span, number)
+        .fix(span, number);
+    match thousands {
+        Some((whole, rest)) => {
+            told.help(format!("or, where the comma parts thousands, without it: `{whole}{rest}`"))
+        }
+        None => told,
+    }
 }
 
 fn digits(text: &str) -> Option<&str> {

@@ -22,6 +22,15 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
+    /// What others call a word of the block around, whether that is built or not.
+    pub(in crate::evaluate) fn word_of_block(&self, name: &str) -> Option<&'static str> {
+        let opener = self.openers.last().map(|opener| self.sources.text(*opener))?;
+        let block = Word::from_name(opener)?;
+        let of_block =
+            |ours: &&str| Word::from_name(ours).is_some_and(|word| home(word) == Some(block));
+        suggest::foreign(name).find(of_block)
+    }
+
     /// `{ drawn by my father }`, a comment of the oldest versions: words, of which none is one of the language.
     pub(super) fn is_prose(&self, block: Span) -> bool {
         let text = self.sources.text(block);
@@ -134,6 +143,12 @@ impl Evaluator<'_> {
             let is_object =
                 matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object;
             let label = match home(word).filter(|home| *home != word) {
+                _ if is_object && place.word == Some(Word::Blob) => {
+                    "a blob is made of `sphere` and `cylinder` only".to_owned()
+                }
+                _ if is_object && place.word == Some(Word::Mesh) => {
+                    "a mesh is made of `triangle` and `smooth_triangle` only".to_owned()
+                }
                 _ if is_object && place.word.is_some() => {
                     "objects are put together in a `union`".to_owned()
                 }

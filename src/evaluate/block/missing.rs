@@ -30,7 +30,7 @@ impl Evaluator<'_> {
             // What is missing belongs at the end of the line before.
             (Some(found), Some(end), None) if self.is_on_a_later_line(found, end) => {
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
-                    .at(end, format!("expected {wanted} here"))
+                    .at(self.sources.sign_before(end), format!("expected {wanted} after this"))
                     .also(after.span, "for this")
             }
             (Some(found), _, None) => {
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
                     .also(after.span, "for this")
             }
             (None, Some(end), _) => Diagnostic::new(code, message)
-                .at(end, format!("expected {wanted} here"))
+                .at(self.sources.sign_before(end), format!("expected {wanted} after this"))
                 .also(after.span, "for this"),
             (None, None, _) => Diagnostic::new(code, message)
                 .at(after.span, format!("{wanted} is missing after this")),
@@ -52,7 +52,12 @@ impl Evaluator<'_> {
             Some((count, found)) if found > 0 && count.file == after.span.file => {
                 let text = self.sources.text(count).to_owned();
                 let help = format!("if these are all, write `{found}` instead of `{text}`");
-                diagnostic.also(count, "so many were announced").help(help)
+                let told = match is_number(&text) {
+                    // Either the number is wrong, or the list breaks off: what can be told at one place is both.
+                    true => told_at_count(diagnostic, count, &text, found),
+                    false => diagnostic.also(count, "so many were announced"),
+                };
+                told.help(help)
             }
             _ => diagnostic,
         };
@@ -171,4 +176,16 @@ impl Evaluator<'_> {
             _ => word.sentence(),
         }
     }
+}
+
+fn is_number(text: &str) -> bool {
+    text.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// What is said at the end of a list, said at the count that it falls short of.
+fn told_at_count(mut told: Diagnostic, count: Span, text: &str, found: usize) -> Diagnostic {
+    for label in &mut told.labels {
+        label.primary = false;
+    }
+    told.at(count, format!("{text} are announced, and {found} follow"))
 }

@@ -263,7 +263,7 @@ impl Evaluator<'_> {
     }
 
     fn csg(&mut self, token: &Token, word: Word, operation: Operation) -> Outcome<ObjectId> {
-        let (told, mut count) = (self.diagnostics.len(), 0);
+        let (told, lost, mut count) = (self.diagnostics.len(), self.lost_children, 0);
         let shape = self.shape(token, word, |evaluator, _| {
             let children = evaluator.children();
             count = children.len();
@@ -271,7 +271,7 @@ impl Evaluator<'_> {
             Ok(ObjectKind::Csg { operation, children })
         });
         // Where a part was misread, that is what is told.
-        if count == 1 && self.diagnostics.len() == told {
+        if count == 1 && self.diagnostics.len() == told && self.lost_children == lost {
             self.lint_lone_child(token, operation);
         }
         shape
@@ -314,7 +314,7 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Poison(poison)) => self.set_poison(poison),
                 // Reported; the others still make a union.
-                Ok(_) | Err(Reported) => {}
+                Ok(_) | Err(Reported) => self.lost_children += 1,
             }
         }
         children

@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::outline::{Point, Spline, are_in_line, sameness};
 use crate::scene::{Dialect, Solid};
 use crate::source::Span;
+use crate::syntax::ast::{Argument, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -205,7 +206,10 @@ impl Evaluator<'_> {
             if above.value[1] <= below.value[1] {
                 let message = "the heights of a sor must rise from point to point";
                 let diagnostic = Diagnostic::new(Code::OutOfRange, message)
-                    .at(above.span, format!("expected a height above {}", below.value[1]))
+                    .at(
+                        self.height_of(above),
+                        format!("expected a height above {}", below.value[1]),
+                    )
                     .also(below.span, "the point before it")
                     .help("a lathe may go up and down");
                 return Err(self.report(&above.here, diagnostic));
@@ -307,5 +311,36 @@ impl Evaluator<'_> {
             points.push(given.with(point));
         }
         Ok(points)
+    }
+
+    /// Where the second number of a point stands; the point, where it is not written as one.
+    fn height_of(&self, point: &Given<[f64; 2]>) -> Span {
+        let written = point.expression.map(|id| point.here.unit.expression(id).kind);
+        let Some(ExpressionKind::Vector(components)) = written else { return point.span };
+        match point.here.unit.ast.arguments(components) {
+            [_, Argument::Expression(height)] => point.here.unit.expression(*height).span,
+            _ => point.span,
+        }
+    }
+
+    /// Of points as plain numbers, of which one stands beyond their count: the count, and how many there are.
+    pub(super) fn count_before(&self, extra: Span) -> Option<(Span, usize)> {
+        let block = self.within_block()?.span;
+        let before = self.sources.text(Span { end: extra.start, ..block });
+        let head = before.split('<').next()?;
+        let plain = |c: char| c.is_ascii_digit() || c.is_whitespace() || ".,<>+-".contains(c);
+        let (points, rest) =
+            (&before[head.len()..], self.sources.text(Span { start: extra.start, ..block }));
+        let more = rest.split(|c: char| !plain(c)).next()?;
+        let digits = head.trim_end_matches(|c: char| c.is_whitespace() || c == ',');
+        let stem = digits.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_count =
+            stem.len() < digits.len() && stem.ends_with([' ', '\t', '\n', '\r', ',', '{']);
+        if block.file != extra.file || !is_count || !points.chars().all(plain) {
+            return None;
+        }
+        let start = block.start + stem.len() as u32;
+        let count = Span { start, end: block.start + digits.len() as u32, ..block };
+        Some((count, points.matches('<').count() + more.matches('<').count()))
     }
 }

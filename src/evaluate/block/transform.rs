@@ -161,7 +161,11 @@ impl Evaluator<'_> {
             let place = match lost.first() {
                 Some((at, _)) => *at,
                 None if numbers.len() < 12 => self.end_of_call(next.span),
-                None => next.span,
+                // The first that is too many.
+                None => match unit.ast.arguments(components).get(12) {
+                    Some(Argument::Expression(id)) => unit.expression(*id).span,
+                    _ => next.span,
+                },
             };
             let diagnostic = Diagnostic::new(
                 Code::WrongArity,

@@ -299,9 +299,20 @@ impl Evaluator<'_> {
         ) = (place.word, value)
         {
             let message = format!("`{}` has more points than its number of them says", word.name());
-            diagnostic = Diagnostic::new(Code::WrongArity, message)
-                .at(token.span, "this is one more")
-                .help("the number before the points says how many follow");
+            diagnostic =
+                Diagnostic::new(Code::WrongArity, message).at(token.span, "this is one more");
+            diagnostic = match self.count_before(token.span) {
+                Some((count, found)) => {
+                    let text = self.sources.text(count);
+                    let help =
+                        format!("if these are all right, write `{found}` instead of `{text}`");
+                    diagnostic
+                        .also(count, "so many were announced")
+                        .help(help)
+                        .fix(count, found.to_string())
+                }
+                None => diagnostic.help("the number before the points says how many follow"),
+            };
         } else if let Some(word) = place.word {
             diagnostic = diagnostic.help(self.form_of(word));
         }

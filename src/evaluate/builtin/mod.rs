@@ -267,6 +267,9 @@ impl Arguments<'_> {
             Value::Vector(_) if wanted == "a string" => {
                 error.with_help("a vector becomes a string by `vstr(3, V, \", \", 0, -1)`")
             }
+            Value::Vector(_) if self.word == Word::Str => {
+                error.with_help("a vector becomes a string by `vstr(3, V, \", \", 0, -1)`")
+            }
             Value::String(_) if wanted == "a number" => {
                 error.with_help("a string becomes a number by `val(s)`")
             }

@@ -28,7 +28,10 @@ impl Evaluator<'_> {
             let path = self.path(here, file)?;
             let at = here.unit.expression(file).span;
             match mode {
-                None => Err(Reported),
+                None => {
+                    self.unwritten.insert(path);
+                    Err(Reported)
+                }
                 Some(Word::Read) => self.state_to_read(here, &path, at),
                 _ => self.state_to_write(here, &path, at, mode == Some(Word::Append)),
             }

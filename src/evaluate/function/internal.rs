@@ -149,7 +149,8 @@ impl Evaluator<'_> {
     /// Every formula by its number; their names are forgotten again.
     fn compile_internals(&mut self) -> Vec<Option<FunctionId>> {
         let id = self.sources.add(Source::new(place_of("internal.inc"), FORMULAS.to_owned()));
-        let options = ParseOptions { dialect: self.options.dialect, ..ParseOptions::default() };
+        // What POV-Ray refuses of a scene stands here as the language has it.
+        let options = ParseOptions::default();
         let ast = syntax::parse(self.sources.get(id), id, &options, self.diagnostics);
         let here = Here { unit: self.unit(ast), expansion: ExpansionId::MAIN };
         let (taken, hold) = (self.taken, self.hold.take());

@@ -131,7 +131,7 @@ facts! {
     what_has_no_value_is_told:
         "#declare F = function(a) { sqrt(-a) } P(F(1))" => "this function has no finite value here";
     a_parameter_named_by_a_word_is_told:
-        "#declare F = function(t) { t + 1 }" => "`t` is a word of the language, and no name";
+        "#declare F = function(t) { t + 1 }" => "`t` is a word of the language, and no name of a parameter";
     two_parameters_of_one_name_are_told:
         "#declare F = function(x,u) { x+u }" => "two parameters of this function have one name";
 }

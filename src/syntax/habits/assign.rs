@@ -351,12 +351,19 @@ impl Reader<'_> {
         let mut diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(span, "an operator of another language")
             .help(help);
-        let in_round = self.inside.last().is_some_and(|inside| inside.is(Bracket::Round));
-        if let Some(fix) = fix.filter(|_| mark != Mark::Equal || in_round || self.declares()) {
+        let compares = self
+            .inside
+            .last()
+            .is_some_and(|inside| inside.is(Bracket::Round) || inside.opens(Word::Function));
+        let is_equal = mark == Mark::Equal;
+        if let Some(fix) = fix.filter(|_| compares || (is_equal && self.declares())) {
             diagnostic = diagnostic.fix(span, fix);
-        } else if mark == Mark::Equal {
-            diagnostic = diagnostic.help("a comparison stands in parentheses: `(a = b)`");
-            if last == 1 && self.between_single_values() {
+        } else if fix.is_some() {
+            diagnostic = diagnostic.help(match is_equal {
+                true => "a comparison stands in parentheses: `(a = b)`",
+                false => "a whole condition stands in parentheses: `(a & b)`",
+            });
+            if is_equal && last == 1 && self.between_single_values() {
                 let (before, after) = (self.tokens[self.at - 1], self.tokens[self.at + 2]);
                 let at = |place: u32| Span::new(self.file, place as usize, place as usize);
                 diagnostic =

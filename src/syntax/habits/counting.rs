@@ -43,6 +43,21 @@ impl Reader<'_> {
         if commas && round && !counts {
             return false;
         }
+        // `#for (I 0 2)`: commas may be left out.
+        let plain = |kind| {
+            matches!(
+                kind,
+                Some(
+                    TokenKind::Name
+                        | TokenKind::Number
+                        | TokenKind::Mark(Mark::Minus | Mark::Star | Mark::Plus | Mark::Slash)
+                )
+            )
+        };
+        let words = (from..to).filter(|&at| self.kind(at) == Some(TokenKind::Name));
+        if round && (from..to).all(|at| plain(self.kind(at))) && words.count() == 1 {
+            return false;
+        }
         let Some(count) = self.count(from, to) else { return false };
         let mut end = if round { to + 1 } else { to };
         if round && self.is(end, Mark::Colon) {
@@ -56,7 +71,7 @@ impl Reader<'_> {
             first => format!("#for ({name}, {}, {})", text(first), count.last_text),
         };
         let certain = !count.last_text.is_empty();
-        let inside = self.span(from, to - 1);
+        let inside = self.span(from, to.max(from + 1) - 1);
         let head = self.text.get(inside.range()).unwrap_or("");
         let sample = if certain { None } else { sample(head, &name) };
         let diagnostic = match signed {
@@ -70,7 +85,7 @@ impl Reader<'_> {
                 let sign = round && certain && self.is(from + 1, Mark::Equal);
                 match sign && (from..to).filter(|&at| self.is(at, Mark::Comma)).count() == 1 {
                     true => told.at(self.span(from + 1, from + 1), "expected a comma"),
-                    false => told.at(span, "the head of a loop of another language"),
+                    false => told.at(inside, "the head of a loop of another language"),
                 }
             }
             false => Diagnostic::new(Code::UnknownDirective, "a loop of another language")

@@ -3,6 +3,7 @@
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::token::{Mark, Token, TokenKind};
+use crate::vocabulary::Word;
 
 impl Reader<'_> {
     /// `Material.001`, as Blender names a copy.
@@ -27,6 +28,33 @@ impl Reader<'_> {
         self.diagnostics.push(told);
         meant.push(self.tokens[self.at]);
         self.at += 2;
+        true
+    }
+
+    /// `.TRUE.`, as Fortran has it.
+    pub(super) fn truth_of_fortran(&mut self, meant: &mut Vec<Token>) -> bool {
+        let dotted = matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)))
+            && self.touches(1)
+            && self.is(2, Mark::Dot)
+            && self.touches(2);
+        if !dotted {
+            return false;
+        }
+        let word = match self.slice(1).to_ascii_lowercase().as_str() {
+            "true" => Word::True,
+            "false" => Word::False,
+            _ => return false,
+        };
+        let (span, ours) = (self.span(0, 2), word.name());
+        let text = self.text.get(span.range()).unwrap_or("");
+        self.diagnostics.push(
+            Diagnostic::new(Code::ForeignWord, format!("`{text}` is written `{ours}`"))
+                .at(span, "a word of another language")
+                .help(format!("replace it with `{ours}`"))
+                .fix(span, ours),
+        );
+        meant.push(Token { kind: TokenKind::Word(word), start: span.start, end: span.end });
+        self.at += 3;
         true
     }
 

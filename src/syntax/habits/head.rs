@@ -24,9 +24,14 @@ impl Reader<'_> {
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
             Head::Else => self.body(head, meant),
             Head::Unknown => self.hash_comment(),
-            Head::Declare | Head::Local => self.two_words(meant) || self.value(head, meant),
+            Head::Declare | Head::Local => {
+                self.defined_macro(meant) || self.two_words(meant) || self.value(head, meant)
+            }
             Head::Default => self.default_case(meant),
             Head::Macro => self.braced_parameters(meant) || self.parameters_unopened(meant),
+            Head::Fopen | Head::Read | Head::Write | Head::Fclose => {
+                self.file_directive(head, meant)
+            }
             _ => false,
         }
     }
@@ -268,6 +273,30 @@ impl Reader<'_> {
             meant.push(Token { kind: TokenKind::Directive(Head::End), ..self.tokens[self.at] });
         }
         self.at += 1;
+        true
+    }
+
+    /// `#define HALF(a) (a/2)`: a macro on one line.
+    fn defined_macro(&mut self, meant: &mut Vec<Token>) -> bool {
+        let theirs = directive_word(self.slice(0)).to_owned();
+        let is_call = self.is(2, Mark::Open(Bracket::Round)) && self.touches(2);
+        let parameters = self.closed(2, Bracket::Round).filter(|_| theirs == "define" && is_call);
+        let Some(close) = parameters else { return false };
+        let end = self.line_end(close + 1);
+        let span = self.span(0, 0);
+        let word = Span { start: span.end - theirs.len() as u32, ..span };
+        let text = self.text.get(self.span(1, end - 1).range()).unwrap_or("");
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnknownDirective, format!("`#{theirs}` is not a directive"))
+                .at(span, "a directive of another language")
+                .help(format!("write `#macro {text} #end`"))
+                .fix(word, "macro")
+                .fix(self.span(end - 1, end - 1).after(), " #end"),
+        );
+        meant.push(Token { kind: TokenKind::Directive(Head::Macro), ..self.tokens[self.at] });
+        meant.extend(&self.tokens[self.at + 1..=self.at + close]);
+        self.at += close + 1;
+        self.ends_before.insert(self.at + end - close - 1);
         true
     }
 

@@ -9,11 +9,13 @@ use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 mod assign;
+mod bare;
 mod called;
 mod case;
 mod condition;
 mod counting;
 mod dotted;
+mod file;
 mod head;
 mod letter;
 mod map;
@@ -52,6 +54,7 @@ pub(super) fn translate(
         made: None,
         named: None,
         closers: OnceCell::new(),
+        declared: OnceCell::new(),
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
         hyphens: BTreeMap::new(),
@@ -96,6 +99,8 @@ struct Reader<'a> {
     named: Option<u32>,
     /// Where the bracket that opens at a token closes.
     closers: OnceCell<HashMap<usize, usize>>,
+    /// The names that the text declares anywhere.
+    declared: OnceCell<HashSet<&'a str>>,
     /// How many directives lack their `#end`.
     missing_ends: OnceCell<isize>,
     foreign: Foreign,
@@ -137,6 +142,34 @@ impl Reader<'_> {
             (Some(before), Some(after)) => before.end == after.start,
             _ => false,
         }
+    }
+
+    /// Whether the text declares a name: as a value, a parameter, a file or what a loop counts by.
+    fn declares_anywhere(&self, name: &str) -> bool {
+        let names = self.declared.get_or_init(|| {
+            let mut names = HashSet::new();
+            let mut heads = false;
+            for token in self.tokens {
+                heads = match token.kind {
+                    TokenKind::Directive(
+                        Head::Declare
+                        | Head::Local
+                        | Head::Macro
+                        | Head::For
+                        | Head::Fopen
+                        | Head::Read,
+                    ) => true,
+                    TokenKind::Name | TokenKind::Word(_) => heads,
+                    TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)) => heads,
+                    _ => false,
+                };
+                if heads && token.kind == TokenKind::Name {
+                    names.extend(self.text.get(token.start as usize..token.end as usize));
+                }
+            }
+            names
+        });
+        names.contains(name)
     }
 
     fn span(&self, from: usize, to: usize) -> Span {
@@ -204,6 +237,7 @@ impl Reader<'_> {
                     || self.scad(meant)
                     || self.vector(meant)
                     || self.part(meant)
+                    || self.bare_string(meant)
             }
             TokenKind::Directive(Head::Unknown)
                 if self.web_color(meant) || self.number_of_c(meant) =>
@@ -227,10 +261,13 @@ impl Reader<'_> {
                 self.template(meant) || self.vector(meant)
             }
             TokenKind::String => self.part(meant),
-            TokenKind::Number => self.hexadecimal_color(meant) || self.map(meant),
+            TokenKind::Number => {
+                self.range_of_dots(meant) || self.hexadecimal_color(meant) || self.map(meant)
+            }
             TokenKind::Mark(Mark::Open(Bracket::Round)) => {
                 self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
             }
+            TokenKind::Mark(Mark::Dot) => self.truth_of_fortran(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)
@@ -241,8 +278,10 @@ impl Reader<'_> {
             {
                 true
             }
-            TokenKind::Mark(Mark::Minus) => self.arrow(meant),
+            TokenKind::Mark(Mark::Minus) => self.arrow(meant) || self.comment_of_dashes(meant),
             TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
+            TokenKind::Mark(Mark::Less) if self.comment_of_html() => true,
+            TokenKind::Mark(Mark::Or) if self.length_between_bars(meant) => true,
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(Mark::Star) if self.number_without_room(meant) => true,
             TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {

@@ -13,6 +13,54 @@ pub(in crate::syntax) fn is_no_number(word: &str) -> bool {
 }
 
 impl Reader<'_> {
+    /// `3..5`, `3 .. 5`: from one to the other, as other languages have it.
+    pub(super) fn range_of_dots(&mut self, meant: &mut Vec<Token>) -> bool {
+        let first = self.slice(0);
+        let dot = |ahead: usize| self.is(ahead, Mark::Dot);
+        let starts = |kind| matches!(kind, Some(TokenKind::Number | TokenKind::Name));
+        // `3..5` comes as `3.` and `.5`, and `3 .. 5` as two points.
+        let (dots, behind) = if first.ends_with('.') && self.touches(1) {
+            let joined = self.kind(1) == Some(TokenKind::Number) && self.slice(1).starts_with('.');
+            match joined {
+                true => (None, 1),
+                false if dot(1) && starts(self.kind(2)) => (Some(1), 2),
+                false => return false,
+            }
+        } else if dot(1) && dot(2) && self.touches(2) && starts(self.kind(3)) {
+            (Some(2), 3)
+        } else if dot(1)
+            && self.kind(2) == Some(TokenKind::Number)
+            && self.touches(2)
+            && self.slice(2).starts_with('.')
+        {
+            (None, 2)
+        } else {
+            return false;
+        };
+        let (from, to) = (self.span(0, 0), self.span(behind, behind));
+        let end = if dots.is_none() { to.start + 1 } else { self.span(behind - 1, behind - 1).end };
+        let start = from.end - u32::from(first.ends_with('.'));
+        let signs = Span { start, end, ..from };
+        let text = self.text.get(signs.range()).unwrap_or("").trim().to_owned();
+        let gap = if self.text.get(end as usize..=end as usize) == Some(" ") { "," } else { ", " };
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::UnexpectedCharacter,
+                format!("`{text}` is no sign of the language"),
+            )
+            .at(signs, "two values are parted by a comma")
+            .help("replace it with `,`")
+            .fix(signs, gap),
+        );
+        let comma = Token { kind: TokenKind::Mark(Mark::Comma), start, end };
+        let last = self.tokens[self.at + behind];
+        meant.push(Token { end: start, ..self.tokens[self.at] });
+        meant.push(comma);
+        meant.push(Token { start: last.start + u32::from(dots.is_none()), ..last });
+        self.at += behind + 1;
+        true
+    }
+
     /// `0.1O`, `1O.5`, `l0`: letters that look like digits.
     pub(super) fn letter_in_number(&mut self, meant: &mut [Token]) -> bool {
         let Some(number) = self.number_before(meant) else { return false };

@@ -80,6 +80,40 @@ fn parts(word: Word) -> Option<(&'static str, &'static [&'static [&'static str]]
     })
 }
 
+/// Words whose one value stands in a block.
+fn takes_block(word: Word) -> bool {
+    matches!(
+        word,
+        Word::Pigment
+            | Word::Texture
+            | Word::Finish
+            | Word::Normal
+            | Word::Interior
+            | Word::Background
+    )
+}
+
+/// Words that say all by being there.
+fn is_flag(word: Word) -> bool {
+    matches!(
+        word,
+        Word::Shadowless
+            | Word::NoShadow
+            | Word::NoImage
+            | Word::NoReflection
+            | Word::Hollow
+            | Word::Inverse
+            | Word::Smooth
+            | Word::DoubleIlluminate
+            | Word::Open
+            | Word::Sturm
+            | Word::Jitter
+            | Word::Spotlight
+            | Word::Orthographic
+            | Word::Perspective
+    )
+}
+
 impl Reader<'_> {
     pub(super) fn enter(&mut self, bracket: Bracket, before: Option<&Token>) {
         let word = match before.map(|token| token.kind) {
@@ -138,7 +172,8 @@ impl Reader<'_> {
         }
         let lower = name.to_lowercase();
         let position = parts(opener)
-            .and_then(|(_, parts)| parts.iter().position(|part| part.contains(&lower.as_str())));
+            .and_then(|(_, parts)| parts.iter().position(|part| part.contains(&lower.as_str())))
+            .filter(|_| signed || !self.declares_anywhere(&name));
         match position {
             Some(position) => self.named_part(opener, position, signed),
             None if signed && self.means_word(&name) => self.sign_after_word(meant, &name),
@@ -203,11 +238,70 @@ impl Reader<'_> {
         let (sign, word) = (self.span(1, 1), self.span(0, 0));
         let text = self.slice(1);
         let Some(next) = self.tokens.get(self.at + 2) else { return false };
-        let gap = Span { start: word.end, end: next.start, ..sign };
+        let word_end = word.end;
+        let gap = Span { start: word_end, end: next.start, ..sign };
         let value = match next.kind {
             TokenKind::Number | TokenKind::Name => self.slice(2),
             _ => "…",
         };
+        let token = self.tokens[self.at];
+        let word = match token.kind {
+            TokenKind::Word(word) => Some(word),
+            _ => Word::from_name(name),
+        };
+        // `pigment = White`: the one value there is stands in a block.
+        let single = matches!(next.kind, TokenKind::Number | TokenKind::Name)
+            && matches!(
+                self.kind(3),
+                None | Some(
+                    TokenKind::Mark(Mark::Close(_) | Mark::Semicolon)
+                        | TokenKind::Word(_)
+                        | TokenKind::Directive(_)
+                )
+            )
+            && word.is_some_and(takes_block);
+        if single {
+            let semicolon = usize::from(self.is(3, Mark::Semicolon));
+            let end = match semicolon {
+                0 => self.span(2, 2).after(),
+                _ => self.span(3, 3),
+            };
+            let message = format!("`{name}` takes its value in braces, without `{text}`");
+            self.diagnostics.push(
+                Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(sign, "expected `{`")
+                    .help(format!("write `{name} {{ {value} }}`"))
+                    .fix(gap, " { ")
+                    .fix(end, " }"),
+            );
+            let brace = |mark, place: usize| Token {
+                kind: TokenKind::Mark(mark),
+                ..self.tokens[self.at + place]
+            };
+            meant.extend([
+                token,
+                brace(Mark::Open(Bracket::Brace), 1),
+                self.tokens[self.at + 2],
+                brace(Mark::Close(Bracket::Brace), 2),
+            ]);
+            self.at += 3 + semicolon;
+            return true;
+        }
+        // `shadowless = True`: the word alone says so.
+        let truth = matches!(self.slice(2).to_ascii_lowercase().as_str(), "true" | "on" | "yes");
+        if truth && word.is_some_and(is_flag) {
+            let whole = Span { start: word_end, ..self.span(1, 2) };
+            let message = format!("`{name}` takes no value: the word alone says so");
+            self.diagnostics.push(
+                Diagnostic::new(Code::UnexpectedCharacter, message)
+                    .at(sign, "expected nothing here")
+                    .help(format!("write `{name}`"))
+                    .fix(whole, ""),
+            );
+            meant.push(token);
+            self.at += 3;
+            return true;
+        }
         let message = format!("`{name}` takes its value without `{text}`");
         let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(sign, "expected the value right here")
@@ -220,7 +314,6 @@ impl Reader<'_> {
             Some(inside) => inside.told = Some(diagnostic),
             None => {}
         }
-        let token = self.tokens[self.at];
         meant.push(match (token.kind, Word::from_name(name)) {
             (TokenKind::String, Some(word)) => Token { kind: TokenKind::Word(word), ..token },
             _ => token,

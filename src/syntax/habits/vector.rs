@@ -22,6 +22,11 @@ impl Reader<'_> {
                 && self.slice(0) == "new"
                 && self.kind(1) == Some(TokenKind::Name),
         );
+        // `THREE.Vector3(0, 1, 0)`
+        let dotted = self.is(new + 1, Mark::Dot)
+            && self.touches(new + 1)
+            && self.kind(new + 2) == Some(TokenKind::Name);
+        let new = new + if dotted { 2 } else { 0 };
         let made = self.kind(new) == Some(TokenKind::Name);
         if made && !MAKERS.contains(&self.slice(new)) {
             return false;
@@ -32,6 +37,9 @@ impl Reader<'_> {
             _ => return false,
         };
         if !made && self.bracket_in_angle(bracket, meant) {
+            return true;
+        }
+        if made && self.vector_of_one(open, meant) {
             return true;
         }
         let before = |back: usize| {
@@ -57,6 +65,10 @@ impl Reader<'_> {
             }
             _ if bracket == Bracket::Brace => false,
             Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
+            // `[0.5 vec3(1, 0, 0)]` in a map.
+            Some(TokenKind::Number) if made => {
+                self.inside.last().is_some_and(|inside| inside.is(Bracket::Square))
+            }
             // `= [1, 2, 3]` is rather an array.
             Some(TokenKind::Mark(Mark::Equal)) => bracket == Bracket::Round,
             Some(TokenKind::Word(word)) => {
@@ -114,9 +126,19 @@ impl Reader<'_> {
             if meant.last().map(|token| token.kind) == Some(TokenKind::Word(Word::Reflection)) {
                 return self.reflection(close, numbers.to_owned(), meant);
             }
-            let told =
-                Diagnostic::new(Code::UnexpectedCharacter, "a vector stands between `<` and `>`")
-                    .at(self.span(0, close), "expected a vector");
+            let message = match made {
+                true => format!(
+                    "`{}` makes no vector here: a vector stands between `<` and `>`",
+                    self.slice(open - 1)
+                ),
+                false => format!(
+                    "a vector stands between `<` and `>`, not in `{}{}`",
+                    bracket.opener(),
+                    bracket.closer()
+                ),
+            };
+            let told = Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(self.span(0, close), "expected a vector");
             if is_bare {
                 let row: Vec<&str> = numbers.split_whitespace().collect();
                 let vector = format!("<{}>", row.join(", "));
@@ -154,6 +176,34 @@ impl Reader<'_> {
         }
         meant.push(sign(close, Mark::Greater));
         self.at += close + 1;
+        true
+    }
+
+    /// `vec3(0.0)`: three times the same.
+    fn vector_of_one(&mut self, open: usize, meant: &mut Vec<Token>) -> bool {
+        let one = matches!(self.kind(open + 1), Some(TokenKind::Number | TokenKind::Name))
+            && self.is(open + 2, Mark::Close(Bracket::Round))
+            && self.slice(open - 1).ends_with('3');
+        if !one {
+            return false;
+        }
+        let (whole, maker) = (self.span(0, open + 2), self.slice(open - 1));
+        let value = self.slice(open + 1);
+        let vector = format!("<{value}, {value}, {value}>");
+        let message =
+            format!("`{maker}` makes no vector here: a vector stands between `<` and `>`");
+        let told = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(whole, "expected a vector")
+            .help(format!("write `{vector}`"))
+            .fix(whole, vector);
+        self.diagnostics.push(told);
+        let value = self.tokens[self.at + open + 1];
+        let sign = |mark| Token { kind: TokenKind::Mark(mark), ..value };
+        meant.push(sign(Mark::Less));
+        for separator in [Mark::Comma, Mark::Comma, Mark::Greater] {
+            meant.extend([value, sign(separator)]);
+        }
+        self.at += open + 3;
         true
     }
 

@@ -125,9 +125,19 @@ impl Repair<'_> {
                 | Word::TransformWord
                 | Word::ColorMap
         );
+        let of_shapes = matches!(outer, Word::ContainedBy | Word::BoundedBy | Word::ClippedBy);
         match inner {
             Word::Pigment | Word::Normal | Word::Finish | Word::Texture => {
-                of_surface && self.begins_statement(at)
+                (of_surface || of_shapes) && self.begins_statement(at)
+            }
+            Word::Threshold
+            | Word::Accuracy
+            | Word::MaxGradient
+            | Word::Evaluate
+            | Word::AllIntersections => matches!(outer, Word::ContainedBy | Word::Function),
+            Word::ContainedBy => outer == Word::Function,
+            Word::FaceIndices | Word::NormalIndices | Word::UvIndices | Word::NormalVectors => {
+                is_list(outer) && self.begins_statement(at)
             }
             Word::Interior | Word::Material => {
                 (of_surface || outer == Word::Texture) && self.begins_statement(at)
@@ -166,4 +176,17 @@ impl Repair<'_> {
             }
         }
     }
+}
+
+/// The lists of a mesh2, which stand side by side.
+fn is_list(word: Word) -> bool {
+    matches!(
+        word,
+        Word::VertexVectors
+            | Word::NormalVectors
+            | Word::UvVectors
+            | Word::FaceIndices
+            | Word::NormalIndices
+            | Word::UvIndices
+    )
 }

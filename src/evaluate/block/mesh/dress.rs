@@ -144,17 +144,21 @@ impl Evaluator<'_> {
             let count = evaluator.number_after(list, "how many there are")?;
             let wanted = count.value as u32 as usize;
             let mut faces: Vec<([f64; 3], Vec<u32>)> = Vec::new();
+            // The faces are read on for mistakes of their own.
+            let mut told = false;
             while faces.len() < wanted || evaluator.is_value_next() {
                 let given = evaluator.given(list, &format!("{wanted} vectors"))?;
                 let is_full = faces.len() == wanted;
                 match (given.value.as_number(), given.value.numbers(), faces.last_mut()) {
                     (Some(number), _, Some((_, paint))) => {
-                        if !(number > -1.0 && number < textures as f64) {
+                        if !(number > -1.0 && number < textures as f64)
+                            && !std::mem::replace(&mut told, true)
+                        {
                             let message = format!("there is no texture {number} in this mesh2");
                             let label = format!("`texture_list` has entries 0 to {}", textures - 1);
                             let diagnostic =
                                 Diagnostic::new(Code::OutOfRange, message).at(given.span, label);
-                            return Err(evaluator.report(&given.here, diagnostic));
+                            evaluator.report(&given.here, diagnostic);
                         }
                         paint.push(number as u32);
                     }

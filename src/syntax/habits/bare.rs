@@ -1,0 +1,178 @@
+//! What stands bare as elsewhere: a string without its quotes, `Line(The End, 2)`, comments, `-- how many` and
+//! `<!-- snow -->`, a length between bars, `|A|`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::{Word, standard_include_of};
+
+/// How many tokens back the parenthesis of a call is looked for.
+const MOST_ARGUMENTS: usize = 256;
+
+/// How many tokens stand between two bars at most.
+const MOST_BETWEEN_BARS: usize = 12;
+
+impl Reader<'_> {
+    /// Two names or more side by side, of which none is declared, as an argument of a call.
+    pub(super) fn bare_string(&mut self, meant: &mut Vec<Token>) -> bool {
+        let names = |kind| matches!(kind, Some(TokenKind::Name));
+        if !names(self.kind(1)) || !self.inside.last().is_some_and(|i| i.is(Bracket::Round)) {
+            return false;
+        }
+        let count = (0..).take_while(|&ahead| names(self.kind(ahead))).count();
+        let begins = matches!(
+            meant.last().map(|last| last.kind),
+            Some(TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Comma))
+        );
+        let ends = matches!(
+            self.kind(count),
+            Some(TokenKind::Mark(Mark::Close(Bracket::Round) | Mark::Comma))
+        );
+        let of_macro = meant.iter().rev().take(64).find_map(|token| match token.kind {
+            TokenKind::Directive(head) => Some(head == Head::Macro),
+            TokenKind::Mark(Mark::Close(_)) => Some(false),
+            _ => None,
+        });
+        let called = self.called(meant);
+        let known = |ahead: usize| {
+            let name = self.slice(ahead);
+            self.declares_anywhere(name) || standard_include_of(name).is_some()
+        };
+        if !(begins && ends && called) || of_macro == Some(true) || (0..count).any(known) {
+            return false;
+        }
+        let span = self.span(0, count - 1);
+        let text = self.text.get(span.range()).unwrap_or("");
+        self.diagnostics.push(
+            Diagnostic::new(Code::UndeclaredName, format!("`{text}` is no declared name"))
+                .at(span, "a string stands in quotes")
+                .help(format!("write `\"{text}\"`"))
+                .fix(span, format!("\"{text}\"")),
+        );
+        meant.push(Token { kind: TokenKind::String, start: span.start, end: span.end });
+        self.at += count;
+        true
+    }
+
+    /// Whether the innermost parenthesis opens behind a name.
+    fn called(&self, meant: &[Token]) -> bool {
+        let near = meant.len().saturating_sub(MOST_ARGUMENTS);
+        let mut depth = 0;
+        let open = meant[near..].iter().rposition(|token| {
+            depth += match token.kind {
+                TokenKind::Mark(Mark::Close(_)) => 1,
+                TokenKind::Mark(Mark::Open(_)) => -1,
+                _ => 0,
+            };
+            depth < 0
+        });
+        let before =
+            open.and_then(|open| open.checked_sub(1)).map(|before| meant[near + before].kind);
+        matches!(before, Some(TokenKind::Name))
+    }
+
+    /// `<!-- snow -->`: to its end.
+    pub(super) fn comment_of_html(&mut self) -> bool {
+        let start = self.tokens[self.at].start as usize;
+        let rest = self.text.get(start..).unwrap_or("");
+        if !rest.starts_with("<!--") {
+            return false;
+        }
+        let end = start + rest.find("-->").map_or(rest.len(), |at| at + 3);
+        let closed = rest.contains("-->");
+        let span = Span::new(self.file, start, start + 4);
+        let told = Diagnostic::new(
+            Code::UnexpectedCharacter,
+            "a comment stands behind `//`, or between `/*` and `*/`",
+        )
+        .at(span, "as a page of the web begins one");
+        self.diagnostics.push(match closed {
+            true => told.fix(span, "/*").fix(Span::new(self.file, end - 3, end), "*/"),
+            false => told.fix(span, "/*"),
+        });
+        while self.tokens.get(self.at).is_some_and(|token| (token.start as usize) < end) {
+            self.at += 1;
+        }
+        true
+    }
+
+    /// `|A|`: how long a vector is, as mathematics has it.
+    pub(super) fn length_between_bars(&mut self, meant: &mut Vec<Token>) -> bool {
+        let wanted = matches!(
+            meant.last().map(|last| last.kind),
+            Some(TokenKind::Mark(
+                Mark::Equal
+                    | Mark::Comma
+                    | Mark::Open(_)
+                    | Mark::Star
+                    | Mark::Slash
+                    | Mark::Plus
+                    | Mark::Minus
+                    | Mark::Less
+                    | Mark::Greater
+            ))
+        );
+        let near = (1..MOST_BETWEEN_BARS).find(|&ahead| {
+            matches!(
+                self.kind(ahead),
+                None | Some(
+                    TokenKind::Mark(Mark::Or | Mark::Semicolon | Mark::Open(Bracket::Brace))
+                        | TokenKind::Directive(_)
+                )
+            )
+        });
+        let Some(close) = near.filter(|&close| wanted && close > 1 && self.is(close, Mark::Or))
+        else {
+            return false;
+        };
+        let (whole, inside) = (self.span(0, close), self.span(1, close - 1));
+        let text = self.text.get(inside.range()).unwrap_or("");
+        let told = Diagnostic::new(Code::UnexpectedCharacter, "`|` is the operator *or*")
+            .at(whole, "not a sign for length")
+            .help(format!("how long a vector is: `vlength({text})`; of a number: `abs({text})`"));
+        self.diagnostics.push(told);
+        let (first, last) = (self.tokens[self.at], self.tokens[self.at + close]);
+        let sign = |mark, place: Token| Token { kind: TokenKind::Mark(mark), ..place };
+        meant.push(Token { kind: TokenKind::Word(Word::Vlength), end: first.start, ..first });
+        meant.push(sign(Mark::Open(Bracket::Round), first));
+        meant.extend(&self.tokens[self.at + 1..self.at + close]);
+        meant.push(sign(Mark::Close(Bracket::Round), last));
+        self.at += close + 1;
+        true
+    }
+
+    /// `#declare N = 6; -- how many`: to the end of the line.
+    pub(super) fn comment_of_dashes(&mut self, meant: &[Token]) -> bool {
+        let begins = match meant.last() {
+            None => true,
+            Some(last) => {
+                let start = self.tokens[self.at].start as usize;
+                let gap = self.text.get(last.end as usize..start).unwrap_or("");
+                let ended = matches!(
+                    last.kind,
+                    TokenKind::Mark(Mark::Semicolon | Mark::Close(Bracket::Brace))
+                );
+                ended || gap.contains('\n')
+            }
+        };
+        let prose = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+        let dashes = self.is(1, Mark::Minus) && self.touches(1) && !self.touches(2);
+        if !begins || !dashes || !prose(self.kind(2)) || !prose(self.kind(3)) {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let rest = self.text.get(span.start as usize..).unwrap_or("");
+        let end = span.start as usize + rest.find(['\n', '\r']).unwrap_or(rest.len());
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, "a comment begins with `//`")
+                .at(span, "as other languages begin theirs")
+                .help("replace it with `//`")
+                .fix(span, "//"),
+        );
+        while self.tokens.get(self.at).is_some_and(|token| (token.start as usize) < end) {
+            self.at += 1;
+        }
+        true
+    }
+}

@@ -1,0 +1,110 @@
+//! The directives of files as other languages call theirs: `#fopen F, "a.txt", write`, `#read F, A, B`,
+//! `#fclose "a.txt"`.
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+
+impl Reader<'_> {
+    pub(super) fn file_directive(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
+        match head {
+            Head::Fopen => self.parted_by_commas(meant),
+            Head::Read | Head::Write => self.without_parentheses(head, meant),
+            Head::Fclose => self.closed_by_file_name(),
+            _ => false,
+        }
+    }
+
+    /// `#fopen F, "a.txt", write`, `#fopen (F, "a.txt", write)`.
+    fn parted_by_commas(&mut self, meant: &mut Vec<Token>) -> bool {
+        let round = usize::from(self.is(1, Mark::Open(Bracket::Round)));
+        let end = self.line_end(1);
+        // The mode is a word, and ends no line.
+        let end = end + usize::from(matches!(self.kind(end), Some(TokenKind::Word(_))));
+        let end = if round == 1 { self.closed(1, Bracket::Round).unwrap_or(end) } else { end };
+        let commas: Vec<usize> = (2..end).filter(|&at| self.is(at, Mark::Comma)).collect();
+        let begins = self.kind(1 + round) == Some(TokenKind::Name)
+            && (2 + round..=3 + round).any(|at| self.kind(at) == Some(TokenKind::String));
+        if !begins || (commas.is_empty() && round == 0) {
+            return false;
+        }
+        let message = "the parts of `#fopen` stand side by side, without parentheses or commas";
+        let at = self.span(1 + usize::from(round == 0), if round == 1 { end } else { 2 });
+        let mut told = Diagnostic::new(Code::ExtraPart, message)
+            .at(at, "signs of another language")
+            .help("`#fopen Handle \"name\" read|write|append` opens a file");
+        if round == 1 {
+            told = told.fix(self.span(1, 1), " ").fix(self.span(end, end), "");
+        }
+        for &comma in &commas {
+            told = told.fix(self.span(comma, comma), " ");
+        }
+        self.diagnostics.push(told);
+        let parts = (0..end).filter(|at| !(commas.contains(at) || (round == 1 && *at == 1)));
+        meant.extend(parts.map(|at| self.tokens[self.at + at]));
+        self.at += end + round;
+        true
+    }
+
+    /// `#read F, A, B`.
+    fn without_parentheses(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
+        let end = self.line_end(1);
+        let names_file = self.kind(1) == Some(TokenKind::Name)
+            && (end == 2 || matches!(self.kind(2), Some(TokenKind::Mark(Mark::Comma))));
+        if !names_file {
+            return false;
+        }
+        let word = head.word();
+        let arguments = self.span(1, end - 1);
+        let message = format!("`#{word}` takes its arguments in parentheses");
+        let before = Span { end: arguments.start, ..arguments };
+        self.diagnostics.push(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(self.span(0, 0), "expected `(` after it")
+                .also(arguments, "and `)` after these")
+                .fix(before, "(")
+                .fix(arguments.after(), ")"),
+        );
+        let sign = |mark, place: usize| Token { kind: TokenKind::Mark(mark), ..self.tokens[place] };
+        meant.push(self.tokens[self.at]);
+        meant.push(sign(Mark::Open(Bracket::Round), self.at + 1));
+        meant.extend(&self.tokens[self.at + 1..self.at + end]);
+        meant.push(sign(Mark::Close(Bracket::Round), self.at + end - 1));
+        self.at += end;
+        true
+    }
+
+    /// `#fclose "a.txt"`.
+    fn closed_by_file_name(&mut self) -> bool {
+        if self.kind(1) != Some(TokenKind::String) {
+            return false;
+        }
+        let file = self.slice(1).to_owned();
+        let told = Diagnostic::new(
+            Code::ExpectedExpression,
+            "`#fclose` takes the handle of a file, not its name",
+        )
+        .at(self.span(1, 1), "expected the name that `#fopen` gave it");
+        let opened = (1..=self.at).rev().map(|back| self.at - back).find(|&at| {
+            let kind = |ahead: usize| self.tokens.get(at + ahead).map(|token| token.kind);
+            let text = |token: &Token| self.text.get(token.start as usize..token.end as usize);
+            let comma = usize::from(kind(2) == Some(TokenKind::Mark(Mark::Comma)));
+            kind(0) == Some(TokenKind::Directive(Head::Fopen))
+                && kind(1) == Some(TokenKind::Name)
+                && self.tokens.get(at + 2 + comma).and_then(text) == Some(file.as_str())
+        });
+        let handle = opened.and_then(|at| {
+            let name = self.tokens[at + 1];
+            self.text.get(name.start as usize..name.end as usize)
+        });
+        self.diagnostics.push(match handle {
+            Some(handle) => {
+                told.help(format!("write `#fclose {handle}`")).fix(self.span(1, 1), handle)
+            }
+            None => told,
+        });
+        self.at += 2;
+        true
+    }
+}
