@@ -30,6 +30,11 @@ pub struct Array {
 }
 
 impl Array {
+    /// Whether there is an object in it, and so nothing else.
+    pub(super) fn holds_objects(&self) -> bool {
+        self.elements.iter().flatten().next().is_some_and(|one| matches!(one, Value::Object(_)))
+    }
+
     pub fn dimensions(&self) -> &[u32] {
         &self.dimensions
     }

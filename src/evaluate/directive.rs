@@ -96,9 +96,18 @@ impl Evaluator<'_> {
                 Ok(())
             }
             DirectiveKind::Switch { value, lead, cases } => {
-                let value = self.number(here, *value)?;
                 self.tell_case_lacking(here, *lead, cases, directive.head);
-                let chosen = self.chosen_case(here, value, cases)?.unwrap_or(cases.len());
+                let value = self.number(here, *value);
+                let chosen = match value.and_then(|value| self.chosen_case(here, value, cases)) {
+                    Ok(chosen) => chosen.unwrap_or(cases.len()),
+                    Err(reported) => {
+                        // Which case is meant is not known.
+                        for case in cases {
+                            self.declare_broken(here, case.body);
+                        }
+                        return Err(reported);
+                    }
+                };
                 self.lint_runs_on(here, &cases[chosen..]);
                 self.push_switch(here, Items::default());
                 for case in cases[chosen..].iter().rev() {

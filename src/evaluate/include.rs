@@ -10,13 +10,19 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::mesh_file;
 use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
 use crate::standard;
-use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::syntax::ast::{Ast, ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
 use crate::vocabulary::{is_standard_include, standard_includes};
 
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
 impl Evaluator<'_> {
+    /// A text that was read, its names as symbols.
+    pub(super) fn unit(&mut self, ast: Ast) -> Rc<Unit> {
+        let symbols = ast.names.iter().map(|name| self.scopes.intern(name)).collect();
+        Rc::new(Unit { ast, symbols })
+    }
+
     pub(super) fn include(&mut self, here: &Here, file: ExpressionId, head: Span) -> Outcome<()> {
         let span = here.unit.expression(file).span;
         let name = match here.unit.expression(file).kind {

@@ -425,9 +425,4 @@ impl<'a> Evaluator<'a> {
             }
         }
     }
-
-    fn unit(&mut self, ast: Ast) -> Rc<Unit> {
-        let symbols = ast.names.iter().map(|name| self.scopes.intern(name)).collect();
-        Rc::new(Unit { ast, symbols })
-    }
 }

@@ -145,6 +145,15 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.help(help).fix(span, plain);
         }
         if let Value::String(found) = found
+            && wanted == "a colour"
+            && text.starts_with('"')
+            && found.starts_with(|c: char| c.is_ascii_uppercase())
+            && found.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+        {
+            diagnostic =
+                diagnostic.help(format!("a declared colour stands without quotes: `{found}`"));
+        }
+        if let Value::String(found) = found
             && let Some(shown) = color_of_string(found)
             && let Some(color) = match wanted {
                 "a colour" => Some(format!("srgb {}", rounded(shown))),

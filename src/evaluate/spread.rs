@@ -108,9 +108,19 @@ impl Evaluator<'_> {
                 .at(extra.span, "this is more than one value");
         let diagnostic = match self.is_index(extra.span) {
             true => diagnostic.help("each index has brackets of its own: `A[I][J]`"),
+            false if self.is_in_case(extra.span) => {
+                diagnostic.help("all between two numbers, both included: `#range (low, high)`")
+            }
             false => diagnostic,
         };
         self.report(&extra.here, diagnostic)
+    }
+
+    /// `#case (1, 2)`.
+    fn is_in_case(&self, comma: Span) -> bool {
+        let before = self.sources.get(comma.file).text.get(..comma.start as usize).unwrap_or("");
+        let line = before.rsplit(['\n', '\r']).next().unwrap_or("");
+        line.rsplit('#').next().is_some_and(|head| head.starts_with("case"))
     }
 
     /// `A[I, J]`: whether what stands there is behind a comma in the brackets of an index.

@@ -37,7 +37,8 @@ impl Evaluator<'_> {
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
         // `Arm_001`, where `Arm.001` is declared: that has been told.
-        let is_dotted = |other: &str| other.contains('.') && other.replace('.', "_") == name;
+        let is_dotted =
+            |other: &str| other.contains(['.', '-']) && other.replace(['.', '-'], "_") == name;
         if name.contains('_') && self.scopes.visible().any(is_dotted) {
             return Reported;
         }
@@ -228,9 +229,13 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.at(span, "not declared up to here");
             // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
             let theirs = suggest::foreign(name).find(|ours| {
-                Word::from_name(ours).is_some_and(|word| word.role() == Role::Statement)
+                Word::from_name(ours).is_some_and(|word| match word.role() {
+                    Role::Statement => begins,
+                    Role::Value => !is_called,
+                    Role::Function { .. } => is_called,
+                })
             });
-            if let Some(ours) = theirs.filter(|_| begins) {
+            if let Some(ours) = theirs {
                 let meant = format!("did you mean `{ours}`?");
                 return Some(diagnostic.help(meant).fix(span, ours));
             }

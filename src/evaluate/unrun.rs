@@ -28,7 +28,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn declare_broken(&mut self, here: &Here, items: Items) {
+    pub(super) fn declare_broken(&mut self, here: &Here, items: Items) {
         for item in here.unit.ast.items(items) {
             let ItemKind::Directive(id) = item.kind else { continue };
             let (name, local) = match &here.unit.ast.directive(id).kind {

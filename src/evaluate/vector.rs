@@ -127,6 +127,18 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `Name.upper()`, as other languages ask a string.
+    fn method_of_string(&self, base: Span, component: Component) -> Option<String> {
+        let Component::Name(_, span) = component else { return None };
+        let function = match self.sources.text(span).to_ascii_lowercase().as_str() {
+            "upper" | "toupper" | "touppercase" | "upcase" => "strupr",
+            "lower" | "tolower" | "tolowercase" | "downcase" => "strlwr",
+            "length" | "len" | "size" => "strlen",
+            _ => return None,
+        };
+        Some(format!("write `{function}({})`", self.sources.text(base)))
+    }
+
     /// A name that is no component of anything is one whatever stands before it.
     pub(super) fn check_component(
         &mut self,
@@ -244,7 +256,12 @@ impl Evaluator<'_> {
             _ => None,
         };
         let Some(numbers) = numbers else {
-            return Err(self.wrong_type(here, base, "a vector or a colour before the dot", value));
+            let method = match value {
+                Value::String(_) => self.method_of_string(base, component),
+                _ => None,
+            };
+            let wanted = "a vector or a colour before the dot";
+            return Err(self.wrong_type_with(here, base, wanted, value, method));
         };
         match index.and_then(|index| numbers.as_slice().get(index)) {
             Some(number) => Ok(Value::Number(*number)),

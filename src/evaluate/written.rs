@@ -82,7 +82,12 @@ pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     match (text, wanted.starts_with("a vector")) {
         ("x" | "y" | "z", true) => Some(text.to_owned()),
         (_, true) if text.contains(',') => are_numbers(text).then(|| format!("<{text}>")),
-        (_, false) if !wanted.starts_with("a number") && wanted != "degrees" => None,
+        (_, false)
+            if !wanted.starts_with("a number")
+                && !matches!(wanted, "degrees" | "a whole number") =>
+        {
+            None
+        }
         _ => text.parse::<f64>().ok().map(|number| number.to_string()),
     }
 }

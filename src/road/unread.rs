@@ -52,7 +52,9 @@ fn stays_inside(told: &Diagnostic) -> bool {
         | Code::MalformedNumber
         | Code::ExpectedExpression => true,
         // `#elif` is rather the next branch.
-        Code::UnknownDirective => told.help.is_empty(),
+        Code::UnknownDirective => {
+            told.help.is_empty() || told.message.starts_with("a comment begins")
+        }
         _ => false,
     };
     is_of_form && told.code.severity() == Severity::Error

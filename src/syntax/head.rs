@@ -13,6 +13,12 @@ use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::vocabulary::{Role, Word};
 
+/// What other languages call the types of parameters.
+const TYPES: &[&str] = &[
+    "float", "double", "int", "integer", "number", "num", "vector", "vec2", "vec3", "vec4",
+    "string", "str", "bool", "boolean", "char", "list", "object", "var", "let", "const", "auto",
+];
+
 impl<'a> Nest<'a> {
     /// Looks at a token while a head is open. True if the token was the head's own.
     pub(super) fn head_takes(&mut self, token: Token) -> bool {
@@ -359,7 +365,11 @@ impl<'a> Nest<'a> {
         if before.end > span.start || !self.slice(gap).trim().is_empty() {
             return false;
         }
+        // The commas between parameters may be left out.
         let (theirs, name) = (self.slice(before), self.slice(span));
+        if !TYPES.contains(&theirs) {
+            return false;
+        }
         let message = format!("`{theirs}` is no parameter of its own: parameters have no types");
         let diagnostic = Diagnostic::new(Code::ExtraPart, message)
             .at(before, "a type, as in other languages")

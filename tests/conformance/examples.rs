@@ -13,7 +13,7 @@ use std::sync::Mutex;
 
 use serde_json::Value;
 
-use super::{SCENES, files, is_installed, listed};
+use super::{SCENES, files, grown, is_installed, listed};
 
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
 
@@ -85,18 +85,22 @@ fn every_example_is_whole_or_lacks_what_the_list_says() {
     let list = std::fs::read_to_string(LIST).unwrap_or_default();
     let listed = listed(&list);
     let found = outcomes(&paths);
-    let (mut text, mut wrong) = (String::new(), String::new());
+    let (mut text, mut wrong, mut more) = (String::new(), String::new(), String::new());
     for (name, outcome) in &found {
         let (was, said) = listed.get(name.as_str()).copied().unwrap_or(("not listed", None));
         let said = said.map_or(String::new(), |said| format!(" — {said}"));
         let _ = writeln!(text, "{name}: {outcome}{said}");
         if was != outcome {
             let _ = writeln!(wrong, "{name}:\n  was {was}\n  now {outcome}");
+            if !grown(was, outcome).is_empty() {
+                let _ = writeln!(more, "{name}:\n  was {was}\n  now {outcome}");
+            }
         }
     }
     let whole = found.values().filter(|outcome| *outcome == "whole").count();
     println!("{whole} of {} examples are whole", found.len());
     if std::env::var_os("LUCARNE_UPDATE").is_some() {
+        assert!(more.is_empty(), "an update adds nothing to the list\n{more}");
         std::fs::write(LIST, text).expect("the list is written");
         return;
     }

@@ -3,7 +3,7 @@
 //! Needs the Debian packages `povray-examples` and `povray-includes`; says so where they are missing,
 //! and fails there with `LUCARNE_CONFORMANCE=required`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 mod examples;
@@ -52,4 +52,32 @@ fn listed(list: &str) -> BTreeMap<&str, (&str, Option<&str>)> {
             None => (name, (rest, None)),
         })
         .collect()
+}
+
+/// What stands on a line of a list now and did not before. An update takes away and adds nothing: a line
+/// that must grow is taken out of the list by hand first, and what is wrong is said behind it.
+fn grown<'a>(was: &str, now: &'a str) -> Vec<&'a str> {
+    let before: BTreeSet<&str> = was.split_whitespace().collect();
+    let number = |text: &str| text.parse::<f64>().ok();
+    let is_new = |word: &&str| {
+        let lower = number(word).zip(number(was)).is_some_and(|(now, was)| now <= was);
+        !["same", "whole"].contains(word) && !before.contains(word) && !lower
+    };
+    match was {
+        "not listed" => Vec::new(),
+        _ => now.split_whitespace().filter(is_new).collect(),
+    }
+}
+
+#[test]
+fn a_list_shrinks_and_never_grows() {
+    assert_eq!(grown("bozo fog", "fog"), [""; 0]);
+    assert_eq!(grown("bozo", "whole"), [""; 0]);
+    assert_eq!(grown("whole", "bozo"), ["bozo"]);
+    assert_eq!(grown("bozo", "bozo ! wrong-type 1:2"), ["!", "wrong-type", "1:2"]);
+    assert_eq!(grown("0.07", "0.06"), [""; 0]);
+    assert_eq!(grown("0.06", "0.07"), ["0.07"]);
+    assert_eq!(grown("same", "0.06"), ["0.06"]);
+    assert_eq!(grown("same", "same without normal bumps"), ["without", "normal", "bumps"]);
+    assert_eq!(grown("not listed", "0.2"), [""; 0]);
 }

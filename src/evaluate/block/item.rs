@@ -8,6 +8,23 @@ use super::super::stream::{Token, TokenKind};
 use super::Place;
 
 impl Evaluator<'_> {
+    /// A name that nothing has where one of `words` was meant: takes it, and tells that.
+    pub(super) fn misspelt_part(&mut self, shape: Word, words: &[Word]) -> Option<Word> {
+        let token = self.peek()?.clone();
+        let TokenKind::Expression(id) = token.kind else { return None };
+        self.unknown_name(&token.here, id)?;
+        let name = self.sources.text(token.span).to_owned();
+        let near = near(&name, words)?;
+        self.next();
+        let message = format!("`{name}` is not a word in `{}`", shape.name());
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, format!("did you mean `{}`?", near.name()))
+            .help(format!("replace it with `{}`", near.name()))
+            .fix(token.span, near.name());
+        self.report(&token.here, diagnostic);
+        Some(near)
+    }
+
     /// The next part of `shape`: one of `words`, or a name that is none, where one of these was meant; that is told.
     pub(super) fn next_part(&mut self, shape: Word, words: &[Word]) -> Option<(Token, Word)> {
         loop {
@@ -19,28 +36,22 @@ impl Evaluator<'_> {
                 TokenKind::Expression(id) => {
                     let token = self.peek()?.clone();
                     self.unknown_name(&token.here, id)?;
-                    let name = self.sources.text(token.span).to_owned();
-                    let names = || words.iter().map(|word| word.name());
-                    let near = suggest::closest(&name, names()).or_else(|| {
-                        suggest::foreign(&name).find(|ours| names().any(|name| name == *ours))
-                    });
+                    if let Some(word) = self.misspelt_part(shape, words) {
+                        return Some((Token { kind: TokenKind::Word(word), ..token }, word));
+                    }
+                    // What follows are its parts as before.
                     self.next();
-                    let Some(near) = near else {
-                        // What follows are its parts as before.
-                        self.unexpected(&token, Place::shape(shape));
-                        continue;
-                    };
-                    let word = Word::from_name(near)?;
-                    let message = format!("`{name}` is not a word in `{}`", shape.name());
-                    let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-                        .at(token.span, format!("did you mean `{near}`?"))
-                        .help(format!("replace it with `{near}`"))
-                        .fix(token.span, near);
-                    self.report(&token.here, diagnostic);
-                    return Some((Token { kind: TokenKind::Word(word), ..token }, word));
+                    self.unexpected(&token, Place::shape(shape));
                 }
                 _ => return None,
             }
         }
     }
+}
+
+/// The one of `words` that a name was meant as.
+fn near(name: &str, words: &[Word]) -> Option<Word> {
+    let names = || words.iter().map(|word| word.name());
+    let foreign = || suggest::foreign(name).find(|ours| names().any(|name| name == *ours));
+    suggest::closest(name, names()).or_else(foreign).and_then(Word::from_name)
 }

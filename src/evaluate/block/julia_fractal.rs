@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{JuliaFractal, Solid};
 use crate::syntax::ast::{Callee, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
@@ -52,6 +52,22 @@ impl Evaluator<'_> {
                         None => break,
                     },
                 },
+                // `sqrt` for `sqr`: another function of the language.
+                TokenKind::Word(word) if matches!(word.role(), Role::Function { .. }) => {
+                    self.next();
+                    let message = format!("`{}` is no function of a `julia_fractal`", word.name());
+                    let told = Diagnostic::new(Code::UnknownWord, message)
+                        .at(next.span, "expected one such as `sqr` or `cube`");
+                    let told = match word {
+                        Word::Sqrt => {
+                            told.help("did you mean `sqr`, the square?").fix(next.span, "sqr")
+                        }
+                        _ => told,
+                    };
+                    self.report(&next.here, told);
+                    failed = true;
+                    continue;
+                }
                 _ => break,
             };
             let outcome = match word {

@@ -31,6 +31,29 @@ impl Evaluator<'_> {
         suggest::foreign(name).find(of_block)
     }
 
+    /// `camera { type perspective }`.
+    fn type_of_camera(&mut self, token: &Token) {
+        let kind = match self.peek() {
+            Some(Token { kind: TokenKind::Word(word), span, .. }) => {
+                Some((word.name().to_owned(), *span))
+            }
+            _ => None,
+        };
+        let message = "the kind of a camera stands by itself, without `type`";
+        let told = Diagnostic::new(Code::UnknownWord, message).at(token.span, "leave this out");
+        let told = match kind {
+            Some((name, span)) => {
+                let whole = Span { end: span.start, ..token.span };
+                told.help(format!("write `{name}` alone")).fix(whole, "")
+            }
+            None => told.help("as in `perspective` or `orthographic`"),
+        };
+        self.report(&token.here, told);
+        if !matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. })) {
+            self.skip_values();
+        }
+    }
+
     /// `{ drawn by my father }`, a comment of the oldest versions: words, of which none is one of the language.
     pub(super) fn is_prose(&self, block: Span) -> bool {
         let text = self.sources.text(block);
@@ -62,6 +85,18 @@ impl Evaluator<'_> {
     pub(super) fn unexpected_word(&mut self, token: &Token, word: Word, place: Place) {
         if word == Word::Alpha && !place.holds(Word::Filter) {
             return self.clear_finish(token, place);
+        }
+        if word == Word::Width && place.word == Some(Word::Camera) {
+            let told = Diagnostic::new(Code::UnknownWord, "`width` has no meaning in `camera`")
+                .at(token.span, "expected a word of this block")
+                .help(
+                    "`right x*image_width/image_height` is how wide the picture is for its height",
+                );
+            self.report(&token.here, told);
+            return self.skip_values();
+        }
+        if word == Word::Type && place.word == Some(Word::Camera) {
+            return self.type_of_camera(token);
         }
         if let Some(today) = word.today() {
             self.old_word(token, word, today);

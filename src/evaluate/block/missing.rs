@@ -52,12 +52,9 @@ impl Evaluator<'_> {
             Some((count, found)) if found > 0 && count.file == after.span.file => {
                 let text = self.sources.text(count).to_owned();
                 let help = format!("if these are all, write `{found}` instead of `{text}`");
-                let told = match is_number(&text) {
-                    // Either the number is wrong, or the list breaks off: what can be told at one place is both.
-                    true => told_at_count(diagnostic, count, &text, found),
-                    false => diagnostic.also(count, "so many were announced"),
-                };
-                told.help(help)
+                diagnostic
+                    .also(count, format!("{text} are announced, and {found} follow"))
+                    .help(help)
             }
             _ => diagnostic,
         };
@@ -68,6 +65,11 @@ impl Evaluator<'_> {
             Some(number) if after.kind == TokenKind::Word(Word::Cylinder) && place.is_some() => {
                 diagnostic.help(format!(
                     "`{number}` was read as the middle of the cap: is a point missing before it?"
+                ))
+            }
+            Some(number) if after.kind == TokenKind::Word(Word::Disc) && place.is_some() => {
+                diagnostic.help(format!(
+                    "`{number}` was read as the normal: is a vector missing before it?"
                 ))
             }
             Some(number) if after.kind == TokenKind::Word(Word::Quadric) && place.is_some() => {
@@ -176,16 +178,4 @@ impl Evaluator<'_> {
             _ => word.sentence(),
         }
     }
-}
-
-fn is_number(text: &str) -> bool {
-    text.bytes().all(|b| b.is_ascii_digit())
-}
-
-/// What is said at the end of a list, said at the count that it falls short of.
-fn told_at_count(mut told: Diagnostic, count: Span, text: &str, found: usize) -> Diagnostic {
-    for label in &mut told.labels {
-        label.primary = false;
-    }
-    told.at(count, format!("{text} are announced, and {found} follow"))
 }

@@ -16,6 +16,7 @@ mod isosurface;
 mod item;
 mod julia_fractal;
 mod light;
+mod lone;
 mod mesh;
 mod misplaced;
 mod missing;
@@ -49,7 +50,7 @@ pub(super) use mesh::MeshFiles;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, Root};
 use crate::source::Span;
-use crate::syntax::ast::{ExpressionId, ExpressionKind};
+use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::stream::{Token, TokenKind};
@@ -134,47 +135,6 @@ impl Evaluator<'_> {
                 self.needs_poison()
             }
         }
-    }
-
-    /// `Ball`, as POV-Ray takes it for `object { Ball }`; nothing may follow that belongs to it.
-    fn lone_object(&mut self, token: &Token, id: ExpressionId) -> Option<ObjectId> {
-        // Before anything behind it is run, which may declare it.
-        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return None };
-        let symbol = token.here.symbol(name);
-        let Some(&Value::Object(object)) = self.scopes.read(symbol) else { return None };
-        let follows = match self.peek_on().map(|next| &next.kind) {
-            Some(TokenKind::Block(_)) => true,
-            Some(TokenKind::Word(word)) => !place::is_at_top_level(*word) && !is_object_word(*word),
-            _ => false,
-        };
-        (!follows).then_some(object)
-    }
-
-    /// `Tower translate x`, of a `Tower` whose declaration was told to be wrong.
-    fn changed_object(&mut self, token: &Token, id: ExpressionId) -> bool {
-        let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return false };
-        let symbol = token.here.symbol(name);
-        let is_broken = matches!(self.scopes.read(symbol), Some(Value::Broken));
-        let changes = |word: Word| matches!(word.family(), Family::Transform | Family::Texture);
-        let first = self.peek_on().map(|next| next.kind.clone());
-        let Some(TokenKind::Word(first)) = first.filter(|_| is_broken) else { return false };
-        if !changes(first) {
-            return false;
-        }
-        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on()
-            && changes(*word)
-        {
-            let word = *word;
-            self.next();
-            self.skip_arguments(word);
-        }
-        let text = self.sources.text(token.span).to_owned();
-        let message = "an object has no meaning here at the top level";
-        let told = Diagnostic::new(Code::ExtraPart, message)
-            .at(token.span, "expected an object, a light, a camera, or settings")
-            .help(format!("write `object {{ {text} {} … }}`", first.name()));
-        self.report(&token.here, told);
-        true
     }
 
     /// Poison that stands in the scene itself has reached it.

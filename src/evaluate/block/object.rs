@@ -232,6 +232,9 @@ impl Evaluator<'_> {
                     self.next();
                     return Err(self.word_for_object(&next, word));
                 }
+                if let TokenKind::Word(Word::Ttf | Word::Internal) = next.kind {
+                    return Err(self.letters_in_object(token, &next));
+                }
                 let at = (&token.here, token.span);
                 return Err(self.expected("a declared object", Some(&next), at));
             }
@@ -244,6 +247,20 @@ impl Evaluator<'_> {
             }
             other => Err(self.wrong_type(&next.here, next.span, "an object", &other)),
         }
+    }
+
+    /// `object { ttf "…" … }`.
+    fn letters_in_object(&mut self, opener: &Token, font: &Token) -> Reported {
+        let told =
+            Diagnostic::new(Code::ExpectedExpression, "letters stand in `text`, not in `object`")
+                .at(font.span, "expected a declared object")
+                .also(opener.span, "did you mean `text`?")
+                .help("write `text { ttf \"file\" \"string\" thickness, offset }`")
+                .fix(opener.span, "text");
+        let reported = self.report(&font.here, told);
+        self.next();
+        self.skip_values();
+        reported
     }
 
     /// `object { marble }`, of a `Marble` that is declared.

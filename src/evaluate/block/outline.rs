@@ -12,7 +12,7 @@ use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Here, Outcome};
+use super::super::{Evaluator, Here, Outcome, Reported};
 use super::part::Given;
 
 /// Points, and where each is written.
@@ -21,6 +21,15 @@ type Points = Vec<Given<Point>>;
 fn values(points: &Points) -> Vec<Point> {
     points.iter().map(|point| point.value).collect()
 }
+
+const SPLINES_AND_SWEEPS: &[Word] = &[
+    Word::LinearSweep,
+    Word::ConicSweep,
+    Word::LinearSpline,
+    Word::QuadraticSpline,
+    Word::CubicSpline,
+    Word::BezierSpline,
+];
 
 impl Evaluator<'_> {
     /// `lathe { SPLINE count, <radius, height> … }`.
@@ -59,6 +68,9 @@ impl Evaluator<'_> {
                 .at(high.span, "expected another height")
                 .also(low.span, "it begins here");
             self.nothing(token, &high.here, diagnostic)?;
+        }
+        if let Some(reported) = self.lone_height(token, high.span) {
+            return Err(reported);
         }
         let mut points = self.points(token, Word::Prism, spline)?;
         match spline.contours(&values(&points)) {
@@ -249,16 +261,51 @@ impl Evaluator<'_> {
     /// The words that may stand before all numbers, in any order; of several the last counts.
     fn spline_and_sweep(&mut self, sweeps: bool) -> (Spline, bool) {
         let (mut spline, mut conic) = (Spline::Linear, false);
-        while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() {
-            match (*word, Spline::of(*word)) {
+        let shape = if sweeps { Word::Prism } else { Word::Lathe };
+        loop {
+            let word = match self.peek() {
+                Some(Token { kind: TokenKind::Word(word), .. }) => *word,
+                _ => match self.misspelt_part(shape, SPLINES_AND_SWEEPS) {
+                    Some(word) => word,
+                    None => break,
+                },
+            };
+            if word == Word::Spline
+                && let Some(named) = self.spline_in_two_words()
+            {
+                spline = named;
+                continue;
+            }
+            match (word, Spline::of(word)) {
                 (_, Some(named)) => spline = named,
                 (Word::LinearSweep, None) if sweeps => conic = false,
                 (Word::ConicSweep, None) if sweeps => conic = true,
                 _ => break,
             }
-            self.next();
+            if matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. })) {
+                self.next();
+            }
         }
         (spline, conic)
+    }
+
+    /// `spline quadratic`, for `quadratic_spline`.
+    fn spline_in_two_words(&mut self) -> Option<Spline> {
+        let word = self.next()?;
+        let kind = self.peek()?.clone();
+        let name = format!("{}_spline", self.sources.text(kind.span));
+        let named = Word::from_name(&name).and_then(Spline::of);
+        let whole = word.span.to(kind.span);
+        let told = Diagnostic::new(Code::UnknownWord, "the kind of a spline is one word")
+            .at(whole, "expected one such as `linear_spline`");
+        let told = match named {
+            Some(_) => told.help(format!("write `{name}`")).fix(whole, name),
+            None => told,
+        };
+        self.report(&word.here, told);
+        named?;
+        self.next();
+        named
     }
 
     /// How many points there are, and the points.
@@ -321,6 +368,24 @@ impl Evaluator<'_> {
             [_, Argument::Expression(height)] => point.here.unit.expression(*height).span,
             _ => point.span,
         }
+    }
+
+    /// `prism { 0, 5, <…>, … }`: one height, and the count where the other should stand.
+    fn lone_height(&mut self, prism: &Token, count: Span) -> Option<Reported> {
+        self.skip_commas();
+        let next = self.peek().cloned()?;
+        if !self.sources.text(next.span).starts_with('<') {
+            return None;
+        }
+        let message = "expected two heights and a count before the points of a `prism`";
+        let told = Diagnostic::new(Code::MissingPart, message)
+            .at(next.span, "expected a number for how many points follow")
+            .also(count, "read as the second height")
+            .also(prism.span, "for this")
+            .help("is a height missing? `prism { low, high, count, <points> }`");
+        let reported = self.report(&next.here, told);
+        self.skip_values();
+        Some(reported)
     }
 
     /// Of points as plain numbers, of which one stands beyond their count: the count, and how many there are.

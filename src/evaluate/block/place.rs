@@ -336,3 +336,21 @@ pub(super) fn is_before_modifiers(shape: Word, item: Word) -> bool {
         _ => false,
     }
 }
+
+/// Whether a word is one of a block that nothing in this place has, built or not: no part of a light is one of a
+/// camera, none of a texture one of a finish or a pigment's map, none of an object one of its interior.
+pub(super) fn is_of_no_part(word: Word, place: Place) -> bool {
+    let of_interior = home(word) == Some(Word::Interior);
+    match (place.word, word.family()) {
+        (Some(Word::LightSource), Family::Camera) | (Some(Word::Texture), Family::FinishItem) => {
+            true
+        }
+        (Some(Word::Pigment | Word::Normal), Family::FinishItem) => true,
+        (Some(Word::Texture), _) if matches!(word, Word::ColorMap) => true,
+        (Some(Word::GlobalSettings | Word::Finish | Word::Camera), _) => !place.holds(word),
+        (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
+            family == Family::FinishItem || of_interior
+        }
+        _ => false,
+    }
+}

@@ -12,7 +12,7 @@ use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::Place;
 use super::habit::told_comma;
-use super::place::{home, stands_alone};
+use super::place::{is_of_no_part, stands_alone};
 use super::unknown::told_directive;
 
 impl Evaluator<'_> {
@@ -414,21 +414,4 @@ impl Evaluator<'_> {
 /// The first character of a bracketed span.
 fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
-}
-
-/// Whether a word is one of a block that nothing in this place has, built or not: no part of a light is one of a
-/// camera, none of a texture one of a finish or a pigment's map, none of an object one of its interior.
-fn is_of_no_part(word: Word, place: Place) -> bool {
-    let of_interior = home(word) == Some(Word::Interior);
-    match (place.word, word.family()) {
-        (Some(Word::LightSource), Family::Camera) | (Some(Word::Texture), Family::FinishItem) => {
-            true
-        }
-        (Some(Word::Texture), _) if matches!(word, Word::ColorMap) => true,
-        (Some(Word::GlobalSettings | Word::Finish | Word::Camera), _) => !place.holds(word),
-        (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
-            family == Family::FinishItem || of_interior
-        }
-        _ => false,
-    }
 }

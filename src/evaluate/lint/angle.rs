@@ -262,6 +262,16 @@ impl Evaluator<'_> {
                 ExpressionKind::Number(degrees) => {
                     return !shifted && degrees % 15.0 == 0.0 && degrees <= 720.0;
                 }
+                // `cos(I*60)`
+                ExpressionKind::Binary(BinaryOperator::Multiply, left, right) => {
+                    let counted = |one: ExpressionId, other: ExpressionId| {
+                        matches!(unit.expression(one).kind, ExpressionKind::Name(_))
+                            && number(here, other).is_some_and(|n| {
+                                [30.0, 45.0, 60.0, 90.0, 120.0, 180.0, 360.0].contains(&n)
+                            })
+                    };
+                    return counted(left, right) || counted(right, left);
+                }
                 ExpressionKind::Name(name) => {
                     return self.counts_degrees(here, name)
                         || self.is_degrees_beside(unit.expression(id).span);

@@ -4,6 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
 use crate::evaluate::enclosure::Contents;
 use crate::evaluate::stream::{Token, TokenKind};
+use crate::source::Span;
 use crate::syntax::ast::{BinaryOperator, ExpressionKind, ItemKind};
 
 /// Functions that have steps: where they are equal to something may be a solid.
@@ -46,10 +47,18 @@ impl Evaluator<'_> {
             ExpressionKind::Conditional(..) => return,
             _ => format!("{before} - {behind}"),
         };
+        let between = Span { start: left.span.end, end: right.span.start, ..span };
+        let sign = self.sources.text(between).find(['=', '<', '>']).map(|at| {
+            let start = between.start + at as u32;
+            Span { start, end: start + 1, ..span }
+        });
         let message =
             "this formula is a comparison: it is 1 where both sides are equal, and 0 elsewhere";
         let diagnostic = Diagnostic::new(Code::ComparedSurface, message)
-            .at(span, "the surface is where a formula is 0, so that inside it is less")
+            .at(
+                sign.unwrap_or(span),
+                "the surface is where a formula is 0, so that inside it is less",
+            )
             .help(format!("write `{written}`"))
             .fix(span, written);
         self.report(&here, diagnostic);

@@ -116,8 +116,9 @@ facts! {
         "#macro Twice(F, A) P(F(F(A))) #end #declare G = function(n) { n+2 } Twice(G, 1)" => "5.000";
     components_of_what_is_declared_may_be_used:
         "#declare V3 = <1,2,3>; #declare F = function(a) { a + V3.y } P(F(1))" => "3.000";
-    choices_may_be_written_in_a_function:
-        "#declare F = function(a,b) { (a>0 ? b : -b) } P(F(-2,3))" => "-3.000";
+    a_choice_in_a_function_is_told_and_made:
+        "#declare F = function(a,b) { (a>0 ? b : -b) } P(F(-2,3))"
+        => "a function has no `?` and `:` in POV-Ray-3.000";
 
     a_name_that_is_not_declared_is_told_where_the_function_is_defined:
         "#declare F = function(a) { a + Foo }" => "`Foo` is not declared";

@@ -8,6 +8,7 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+mod array;
 mod assign;
 mod bare;
 mod called;
@@ -246,7 +247,8 @@ impl Reader<'_> {
             }
             TokenKind::Directive(head) => self.head(head, meant),
             TokenKind::Stray => {
-                self.web_color(meant)
+                self.vulgar_fraction(meant)
+                    || self.web_color(meant)
                     || self.dollar(meant)
                     || self.template(meant)
                     || self.percent(meant)
@@ -267,7 +269,7 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Open(Bracket::Round)) => {
                 self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
             }
-            TokenKind::Mark(Mark::Dot) => self.truth_of_fortran(meant),
+            TokenKind::Mark(Mark::Dot) => self.truth_of_fortran(meant) || self.parted_number(meant),
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)

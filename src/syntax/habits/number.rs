@@ -13,6 +13,57 @@ pub(in crate::syntax) fn is_no_number(word: &str) -> bool {
 }
 
 impl Reader<'_> {
+    /// `. 5`: a blank in a number.
+    pub(super) fn parted_number(&mut self, meant: &mut Vec<Token>) -> bool {
+        let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        let behind = meant.last().map_or(0, |last| last.end);
+        let parted = self.kind(1) == Some(TokenKind::Number)
+            && !self.touches(1)
+            && digits(self.slice(1))
+            && behind < self.tokens[self.at].start;
+        if !parted {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let right = format!("0.{}", self.slice(1));
+        if self.text.get(span.range()).is_none_or(|text| text.contains(['\n', '\r'])) {
+            return false;
+        }
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, "a number has no blank in it")
+                .at(span, "expected the digits right behind the point")
+                .help(format!("write `{right}`"))
+                .fix(span, right),
+        );
+        meant.push(Token { kind: STAND_IN, start: span.start, end: span.end });
+        self.at += 2;
+        true
+    }
+
+    /// `½`.
+    pub(super) fn vulgar_fraction(&mut self, meant: &mut Vec<Token>) -> bool {
+        let value = match self.slice(0) {
+            "½" => "0.5",
+            "¼" => "0.25",
+            "¾" => "0.75",
+            "⅓" => "(1/3)",
+            "⅔" => "(2/3)",
+            "⅛" => "0.125",
+            _ => return false,
+        };
+        let span = self.span(0, 0);
+        let message = format!("the character `{}` is no number of the language", self.slice(0));
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "expected digits")
+                .help(format!("write `{value}`"))
+                .fix(span, value),
+        );
+        meant.push(Token { kind: STAND_IN, start: span.start, end: span.end });
+        self.at += 1;
+        true
+    }
+
     /// `3..5`, `3 .. 5`: from one to the other, as other languages have it.
     pub(super) fn range_of_dots(&mut self, meant: &mut Vec<Token>) -> bool {
         let first = self.slice(0);

@@ -65,7 +65,11 @@ impl Reader<'_> {
             .at(span, "expected a value")
             .help("the program that wrote this file should have put one here");
         self.diagnostics.push(diagnostic);
-        meant.push(Token { kind: STAND_IN, end: span.end, ..self.tokens[self.at] });
+        // `Tex_%d`: of the name only a part is there.
+        let start = self.tokens[self.at].start;
+        let name = meant.pop_if(|name| name.kind == TokenKind::Name && name.end == start);
+        let start = name.map_or(start, |name| name.start);
+        meant.push(Token { kind: STAND_IN, start, end: span.end });
         self.at += last + 1;
         true
     }

@@ -122,6 +122,11 @@ impl Reader<'_> {
             let inside = Span { start: first.end, end: last.start, ..first };
             let numbers = self.text.get(inside.range()).unwrap_or("x, y, z").trim();
             let is_bare = !numbers.contains(',');
+            if meant.last().map(|token| token.kind) == Some(TokenKind::Word(Word::Rotate))
+                && self.axis_and_angle(close, numbers.to_owned(), meant)
+            {
+                return true;
+            }
             // `reflection [0.1, 0.3]`: the least and the most.
             if meant.last().map(|token| token.kind) == Some(TokenKind::Word(Word::Reflection)) {
                 return self.reflection(close, numbers.to_owned(), meant);
@@ -175,6 +180,31 @@ impl Reader<'_> {
             meant.push(self.tokens[self.at + at]);
         }
         meant.push(sign(close, Mark::Greater));
+        self.at += close + 1;
+        true
+    }
+
+    /// `rotate(90, y)`: an angle and an axis.
+    fn axis_and_angle(&mut self, close: usize, inside: String, meant: &mut Vec<Token>) -> bool {
+        let Some((one, other)) = inside.split_once(',') else { return false };
+        let (one, other) = (one.trim(), other.trim());
+        let is_axis = |text: &str| matches!(text.trim_start_matches('-'), "x" | "y" | "z");
+        let (angle, axis) = match (is_axis(one), is_axis(other)) {
+            (false, true) => (one, other),
+            (true, false) => (other, one),
+            _ => return false,
+        };
+        let whole = self.span(0, close);
+        let right = format!(" {angle}*{axis}");
+        let message = "`rotate` takes one vector: degrees about x, y and z";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(whole, "an angle and an axis, as elsewhere")
+                .help(format!("write `rotate{right}`"))
+                .fix(whole, right),
+        );
+        let first = self.tokens[self.at];
+        meant.push(Token { kind: TokenKind::Word(Word::X), end: first.start + 1, ..first });
         self.at += close + 1;
         true
     }
@@ -246,70 +276,13 @@ impl Reader<'_> {
     }
 
     /// Takes what stands in other brackets up to `close` as if these were braces.
-    fn in_braces(&mut self, close: usize, meant: &mut Vec<Token>) {
+    pub(super) fn in_braces(&mut self, close: usize, meant: &mut Vec<Token>) {
         let brace =
             |mark, ahead| Token { kind: TokenKind::Mark(mark), ..self.tokens[self.at + ahead] };
         meant.push(brace(Mark::Open(Bracket::Brace), 0));
         meant.extend(&self.tokens[self.at + 1..self.at + close]);
         meant.push(brace(Mark::Close(Bracket::Brace), close));
         self.at += close + 1;
-    }
-
-    /// `array[4] [1, 2, 3, 4]`: the values of an array in brackets.
-    pub(super) fn array_list(&mut self, meant: &mut Vec<Token>) -> bool {
-        let square = |open: bool| match open {
-            true => TokenKind::Mark(Mark::Open(Bracket::Square)),
-            false => TokenKind::Mark(Mark::Close(Bracket::Square)),
-        };
-        let of_array = matches!(meant[..], [.., array, open, _, close]
-            if array.kind == TokenKind::Word(Word::Array)
-                && open.kind == square(true)
-                && close.kind == square(false));
-        let Some(close) = self.closed(0, Bracket::Square).filter(|_| of_array) else {
-            return false;
-        };
-        // Those of a second dimension have no commas.
-        if !(1..close).any(|ahead| self.is(ahead, Mark::Comma)) {
-            return false;
-        }
-        let (first, last) = (self.span(0, 0), self.span(close, close));
-        let message = "the values of an array stand between `{` and `}`";
-        self.diagnostics.push(
-            Diagnostic::new(Code::UnexpectedCharacter, message)
-                .at(first, "expected `{`")
-                .also(last, "and `}`")
-                .help("write `array[3] { 1, 2, 3 }`")
-                .fix(first, "{")
-                .fix(last, "}"),
-        );
-        self.in_braces(close, meant);
-        true
-    }
-
-    /// `array[3] = { 1, 2, 3 }`: a sign before the values of an array.
-    pub(super) fn values_behind_sign(&mut self, meant: &[Token]) -> bool {
-        let square = |bracket: fn(Bracket) -> Mark| TokenKind::Mark(bracket(Bracket::Square));
-        let sizes = meant.iter().rev().take_while(|token| {
-            matches!(token.kind, TokenKind::Number | TokenKind::Name)
-                || token.kind == square(Mark::Open)
-                || token.kind == square(Mark::Close)
-        });
-        let count = sizes.count();
-        let array = meant.len().checked_sub(count + 1).and_then(|at| meant.get(at));
-        let of_array = array.is_some_and(|array| array.kind == TokenKind::Word(Word::Array));
-        if !of_array || count < 3 || !self.is(1, Mark::Open(Bracket::Brace)) {
-            return false;
-        }
-        let span = self.span(0, 0);
-        let message = "an array takes its values right after its size";
-        self.diagnostics.push(
-            Diagnostic::new(Code::UnexpectedCharacter, message)
-                .at(span, "expected `{` here")
-                .help("leave this `=` out: `array[3] { 1, 2, 3 }`")
-                .fix(Span { end: self.span(1, 1).start, ..span }, ""),
-        );
-        self.at += 1;
-        true
     }
 
     /// `cube([1, 2, 3]);` behind `translate([0, 0, 1])`: it belongs to that mistake.

@@ -139,7 +139,12 @@ impl Evaluator<'_> {
 
     /// `face_indices` behind a `texture_list` of `textures`: behind a face may stand the number of its
     /// texture, or those of its corners. What follows the point of each is dropped, as in POV-Ray.
-    pub(super) fn painted_faces(&mut self, list: &Token, textures: usize) -> Outcome<Vec<Painted>> {
+    /// Also whether a texture was told that is not there.
+    pub(super) fn painted_faces(
+        &mut self,
+        list: &Token,
+        textures: usize,
+    ) -> Outcome<(Vec<Painted>, bool)> {
         self.block(list, Word::FaceIndices, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
             let wanted = count.value as u32 as usize;
@@ -191,7 +196,7 @@ impl Evaluator<'_> {
                 _ => None,
             };
             let painted = faces.iter().map(|(face, all)| paint(all).map(|paint| (*face, paint)));
-            painted.collect::<Option<_>>().ok_or_else(|| {
+            painted.collect::<Option<_>>().map(|painted| (painted, told)).ok_or_else(|| {
                 let stray = faces.iter().position(|(_, all)| paint(all).is_none()).unwrap_or(0);
                 let message = format!("face {stray} has {} textures", faces[stray].1.len());
                 let diagnostic = Diagnostic::new(Code::WrongArity, message)

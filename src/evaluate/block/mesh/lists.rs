@@ -179,9 +179,12 @@ impl Evaluator<'_> {
             }
             Word::FaceIndices if self.poison.is_some() => self.skip_arguments(word),
             Word::FaceIndices if !lists.textures.is_empty() => {
-                let painted = self.painted_faces(list, lists.textures.len())?;
+                let (painted, told) = self.painted_faces(list, lists.textures.len())?;
                 let (faces, paint) = painted.into_iter().unzip();
                 (lists.faces, lists.paint) = (Some((list.clone(), faces)), paint);
+                if told {
+                    return Err(Reported);
+                }
             }
             Word::FaceIndices => {
                 lists.faces = Some((list.clone(), self.entries(list, word, &mut 0)?));
