@@ -47,6 +47,10 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             let other = (!far || respelt).then(|| candidate.to_lowercase())?;
             let same = other == lower
                 || (respelt && (spelling(&other) == spelled || look_alike(word, candidate)));
+            let same = same
+                || (respelt
+                    && other.contains('_') != lower.contains('_')
+                    && other.replace('_', "") == lower.replace('_', ""));
             let distance = match same {
                 true => 0,
                 false if far => return None,

@@ -97,6 +97,9 @@ impl Evaluator<'_> {
                     asked.unwrap_or("A")
                 ))
             }
+            Word::Vlength if found == 2 => diagnostic
+                .help("how far two points are apart: `vlength(A - B)`")
+                .help(word.sentence()),
             // `vlength(1, 2, 3)`
             _ if *arity.end() == 1 && found == 3 && word.sentence().contains("(v)") => diagnostic
                 .help(format!("a vector has angles: `{}(<1, 2, 3>)`", word.name()))

@@ -122,6 +122,9 @@ impl Evaluator<'_> {
             (Value::Transform(_), "a vector") => {
                 Some(format!("a declared transform is applied by `transform {{ {text} }}`"))
             }
+            (Value::Vector(_), "a number for the radius") => {
+                Some("what is not round is scaled: `sphere { 0, 1 scale <a, b, c> }`".to_owned())
+            }
             (Value::Vector(_), "a string") => {
                 Some(format!("write `vstr(3, {text}, \", \", 0, 3)` for it as a string"))
             }

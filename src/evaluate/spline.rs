@@ -9,12 +9,12 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{Site, Span};
 use crate::spline::{Knot, Spline, SplineKind, replacing};
-use crate::syntax::ast::Argument;
+use crate::syntax::ast::{Argument, BinaryOperator, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::stream::{Token, TokenKind};
 use super::value::{Components, Value};
-use super::{Evaluator, Here, Outcome};
+use super::{Evaluator, Here, Outcome, Reported};
 
 /// A spline and how many numbers its values have.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +69,9 @@ impl Evaluator<'_> {
             if let Some(named) = self.short_kind(&token) {
                 kind = named;
                 continue;
+            }
+            if let Some(reported) = self.kind_less_time(&token) {
+                return Err(reported);
             }
             match self.value_of(&token)? {
                 Value::Spline(other) if knots.is_empty() => {
@@ -141,6 +144,22 @@ impl Evaluator<'_> {
             diagnostic = diagnostic.also(before.span, "the first is here");
         }
         self.report_in(later.expansion, diagnostic);
+    }
+
+    /// `cubic_spine -1, x …`: what is no kind, and read as less the first time.
+    fn kind_less_time(&mut self, token: &Token) -> Option<Reported> {
+        let TokenKind::Expression(id) = token.kind else { return None };
+        let ExpressionKind::Binary(BinaryOperator::Subtract, first, _) =
+            token.here.unit.expression(id).kind
+        else {
+            return None;
+        };
+        self.unknown_name(&token.here, first)?;
+        let span = token.here.unit.expression(first).span;
+        let kind = Token { kind: TokenKind::Expression(first), here: token.here.clone(), span };
+        self.short_kind(&kind)?;
+        while self.next().is_some() {}
+        Some(Reported)
     }
 
     /// `cubic` for `cubic_spline`.

@@ -183,7 +183,7 @@ impl Evaluator<'_> {
                     diagnostic.help(format!("or did you mean `{own}`, which is declared?"));
             }
             diagnostic = self.include_before(here, diagnostic, &include);
-        } else if let Some(word) = self.item_like(name, span) {
+        } else if let Some(word) = self.word_of_block(name).or_else(|| self.item_like(name, span)) {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
@@ -209,11 +209,6 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("did you mean `{close}`? It comes with `#include \"{include}\"`"));
-        } else if let Some(word) = self.word_of_block(name) {
-            diagnostic = diagnostic
-                .at(span, "not declared, and not a word of the language")
-                .help(format!("did you mean `{word}`?"))
-                .fix(span, word);
         } else if let Some(word) = word_like(name, |word| {
             // A function without its arguments is rarely meant.
             fits(word) && (is_called || !matches!(word.role(), Role::Function { .. }))

@@ -1,9 +1,9 @@
-//! What an effect or a kind of shape costs where nothing calls for it: instructions of the frame loop, in the
-//! shipped program and in the same source built with one kernel alone, and with those shapes alone that the
-//! scenes hold.
+//! What an effect costs where nothing calls for it: instructions of the frame loop, in the shipped program
+//! and in the same source built with one kernel alone.
 //!
 //! `cargo bench --bench effects`, with valgrind installed. **In:** scenes of `scenes/`. **Out:** a table,
-//! and exit code 1 where a row differs by more than 0.1 %.
+//! and exit code 1 where a row differs by more than 0.1 %. With `LUCARNE_SHAPES=1` the other programs also have
+//! code for those shapes alone that their scenes hold; that is a measurement, and has no bar yet.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -14,7 +14,7 @@ use std::{fs, thread};
 /// The most that a row may differ, in per cent.
 const BAR: f64 = 0.1;
 
-/// A program to measure against: its kernel, the shapes it has code for, and scenes below `scenes/`.
+/// A program to measure against: its kernel, the shapes of its scenes, and these, below `scenes/`.
 struct Alone {
     kernel: &'static str,
     shapes: &'static [&'static str],
@@ -35,8 +35,8 @@ const ALONE: [Alone; 4] = [
     Alone { kernel: "secondary", shapes: &["sphere", "plane", "box"], scenes: &["seed/mirror"] },
     Alone {
         kernel: "shadows+secondary",
-        shapes: &["sphere", "plane", "box", "body", "torus"],
-        scenes: &["gallery/first", "finishes/reflection", "seed/mirror", "shapes/torus"],
+        shapes: &["sphere", "plane", "box"],
+        scenes: &["gallery/first", "finishes/reflection", "seed/mirror"],
     },
 ];
 
@@ -81,7 +81,7 @@ fn main() -> ExitCode {
     });
     println!("\nThe largest difference is {worst:.4} %, of {BAR} % that it may be.");
     println!("It took {:.0} s.", start.elapsed().as_secs_f64());
-    if worst <= BAR { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if worst <= BAR || with_few_shapes() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// The scene for a kernel, written out.
@@ -112,7 +112,12 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The program with one kernel alone, and few shapes. The flags are given to this crate only, and what it takes to build is
+/// Whether the programs to measure against have their scenes' shapes alone.
+fn with_few_shapes() -> bool {
+    std::env::var_os("LUCARNE_SHAPES").is_some()
+}
+
+/// The program with one kernel alone. The flags are given to this crate only, and what it takes to build is
 /// kept where the shipped program's is: the dependencies are built once.
 fn build(folder: &Path, Alone { kernel, shapes, .. }: &Alone) -> PathBuf {
     let shipped = Path::new(env!("CARGO_BIN_EXE_lucarne"));
@@ -120,11 +125,13 @@ fn build(folder: &Path, Alone { kernel, shapes, .. }: &Alone) -> PathBuf {
     let target = shared.join("one-kernel");
     fs::create_dir_all(&target).expect("a folder");
     let wrapper = target.join(format!("rustc-{kernel}"));
-    let shapes = shapes.iter().map(|shape| format!(" --cfg 'lucarne_shape=\"{shape}\"'"));
-    let script = format!(
-        "#!/bin/sh\nexec \"$@\" --cfg 'lucarne_only_kernel=\"{kernel}\"' --cfg lucarne_only_shapes{}\n",
-        shapes.collect::<String>()
-    );
+    let shapes = match with_few_shapes() {
+        true => shapes.iter().map(|shape| format!(" --cfg 'lucarne_shape=\"{shape}\"'")).collect(),
+        false => String::new(),
+    };
+    let few = if with_few_shapes() { " --cfg lucarne_only_shapes" } else { "" };
+    let kernel_flag = format!("--cfg 'lucarne_only_kernel=\"{kernel}\"'");
+    let script = format!("#!/bin/sh\nexec \"$@\" {kernel_flag}{few}{shapes}\n");
     fs::write(&wrapper, script).expect("a script written");
     executable(&wrapper);
     let status = Command::new(env!("CARGO"))

@@ -262,6 +262,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("receiveshadow", "no_shadow"),
     ("conical_sweep", "conic_sweep"),
     ("f_stop", "aperture"),
+    ("absorb", "absorption"),
+    ("scatter", "scattering"),
     ("fstop", "aperture"),
     ("curve", "spline"),
     ("path", "spline"),

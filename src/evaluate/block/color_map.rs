@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::color::Color;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::scene::ColorMap;
 use crate::source::{Site, Span};
 use crate::syntax::ast::ExpressionKind;
@@ -224,6 +224,22 @@ impl Evaluator<'_> {
                 )
                 .at(extra.span_head(), "this is more")
                 .also(entry.span_head(), "in this entry");
+                let name = self.sources.text(extra.span).to_owned();
+                let near = suggest::foreign(&name)
+                    .find(|ours| matches!(*ours, "transmit" | "filter"))
+                    .or_else(|| suggest::closest(&name, ["transmit", "filter"]));
+                let is_name = matches!(extra.kind, TokenKind::Expression(id)
+                    if self.unknown_name(&extra.here, id).is_some());
+                if let Some(near) = near.filter(|_| is_name) {
+                    let message = format!("`{name}` is not a word of a colour");
+                    let told = Diagnostic::new(Code::UnknownWord, message)
+                        .at(extra.span, format!("did you mean `{near}`?"))
+                        .help(format!("replace it with `{near}`"))
+                        .fix(extra.span, near);
+                    let reported = self.report(&extra.here, told);
+                    while self.next().is_some() {}
+                    return Err(reported);
+                }
                 let diagnostic = match self.outside_of_vector(&extra) {
                     Some((whole, right)) => diagnostic
                         .help(format!("all numbers of a colour stand in its vector: `{right}`"))

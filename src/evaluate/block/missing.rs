@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Reported};
@@ -121,6 +121,10 @@ impl Evaluator<'_> {
         let of_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
         text.match_indices(" -").find_map(|(at, _)| {
             let (before, behind) = (text[..at].trim_end(), &text[at + 2..]);
+            // A word of blocks is no value.
+            let last = before.trim_end_matches(of_name).len();
+            let is_value =
+                Word::from_name(&before[last..]).is_none_or(|word| word.role() != Role::Statement);
             let ends = before.ends_with(|c: char| of_name(c) || matches!(c, ')' | '>'));
             let begins = behind.starts_with(|c: char| of_name(c) || matches!(c, '(' | '<'));
             // Of `Base()` and `<1, 2>` the whole.
@@ -141,7 +145,7 @@ impl Evaluator<'_> {
                 end: parts.start + (at + 2 + length) as u32,
                 ..parts
             };
-            (ends && begins)
+            (ends && begins && is_value)
                 .then(|| (place, format!("{}, -{}", &before[start..], &behind[..length])))
         })
     }

@@ -1,6 +1,7 @@
-//! Names with points in them, as other languages have them: `mesh.position.x = 2;`, `Material.001`.
+//! Names with points or signs in them, as other languages have them: `$t`, `mesh.position.x = 2;`, `Material.001`.
 
 use super::Reader;
+use super::template::STAND_IN;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::token::{Mark, Token, TokenKind};
 use crate::vocabulary::Word;
@@ -56,6 +57,60 @@ impl Reader<'_> {
         meant.push(Token { kind: TokenKind::Word(word), start: span.start, end: span.end });
         self.at += 3;
         true
+    }
+
+    /// `color.brown`, a colour as the member of a list of them.
+    pub(super) fn color_by_dot(&mut self, meant: &mut Vec<Token>) -> bool {
+        let dot = self.tokens[self.at];
+        let of_color = meant.last().is_some_and(|last| {
+            matches!(last.kind, TokenKind::Word(Word::Color)) && last.end == dot.start
+        });
+        let named =
+            matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_))) && self.touches(1);
+        if !of_color || !named {
+            return false;
+        }
+        let name = self.slice(1).to_owned();
+        let mut capital = name.clone();
+        if let Some(first) = capital.get_mut(..1) {
+            first.make_ascii_uppercase();
+        }
+        let span = self.span(0, 1);
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::UnexpectedCharacter,
+                format!("a colour is a declared name: there is no `color.{name}`"),
+            )
+            .at(span, "expected a name or `rgb`")
+            .help(format!("write `color {capital}`, with `#include \"colors.inc\"`")),
+        );
+        meant.push(Token { kind: STAND_IN, start: span.start, end: span.end });
+        self.at += 2;
+        true
+    }
+
+    /// `$t`, as OpenSCAD has it.
+    pub(super) fn time_with_sign(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_time = self.slice(0) == "$"
+            && matches!(self.kind(1), Some(TokenKind::Name | TokenKind::Word(_)))
+            && self.touches(1)
+            && matches!(self.slice(1), "t" | "time" | "T");
+        if is_time && !self.is(2, Mark::Equal) {
+            let span = self.span(0, 1);
+            let told = Diagnostic::new(Code::ForeignWord, "the time of an animation is `clock`")
+                .at(span, "a name of another language")
+                .help("replace it with `clock`")
+                .fix(span, "clock");
+            self.diagnostics.push(told);
+            meant.push(Token {
+                kind: TokenKind::Word(Word::Clock),
+                start: span.start,
+                end: span.end,
+            });
+            self.at += 2;
+            return true;
+        }
+        false
     }
 
     /// `mesh.position.x = 2;`, a statement.

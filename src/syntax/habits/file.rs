@@ -9,11 +9,32 @@ use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 impl Reader<'_> {
     pub(super) fn file_directive(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         match head {
-            Head::Fopen => self.parted_by_commas(meant),
+            Head::Fopen => self.name_before_handle(meant) || self.parted_by_commas(meant),
             Head::Read | Head::Write => self.without_parentheses(head, meant),
             Head::Fclose => self.closed_by_file_name(),
             _ => false,
         }
+    }
+
+    /// `#fopen "a.txt" F read`.
+    fn name_before_handle(&mut self, meant: &mut Vec<Token>) -> bool {
+        if self.kind(1) != Some(TokenKind::String) || self.kind(2) != Some(TokenKind::Name) {
+            return false;
+        }
+        let (file, handle) = (self.span(1, 1), self.span(2, 2));
+        let [file_text, handle_text] = [1, 2].map(|ahead| self.slice(ahead).to_owned());
+        let message = "`#fopen` takes the handle first, and then the name of the file";
+        self.diagnostics.push(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(file, "expected the handle")
+                .also(handle, "and this after it")
+                .help(format!("write `#fopen {handle_text} {file_text} …`"))
+                .fix(file, handle_text)
+                .fix(handle, file_text),
+        );
+        meant.extend([0, 2, 1].map(|ahead| self.tokens[self.at + ahead]));
+        self.at += 3;
+        true
     }
 
     /// `#fopen F, "a.txt", write`, `#fopen (F, "a.txt", write)`.

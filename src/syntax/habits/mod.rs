@@ -249,6 +249,7 @@ impl Reader<'_> {
             TokenKind::Stray => {
                 self.vulgar_fraction(meant)
                     || self.web_color(meant)
+                    || self.time_with_sign(meant)
                     || self.dollar(meant)
                     || self.template(meant)
                     || self.percent(meant)
@@ -269,7 +270,11 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Open(Bracket::Round)) => {
                 self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
             }
-            TokenKind::Mark(Mark::Dot) => self.truth_of_fortran(meant) || self.parted_number(meant),
+            TokenKind::Mark(Mark::Dot) => {
+                self.truth_of_fortran(meant)
+                    || self.parted_number(meant)
+                    || self.color_by_dot(meant)
+            }
             TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)

@@ -298,7 +298,9 @@ impl Reader<'_> {
     /// Whether an object begins at `ahead`.
     fn begins_object(&self, ahead: usize) -> bool {
         match self.kind(ahead) {
-            Some(TokenKind::Word(word)) => matches!(word.family(), Family::Shape | Family::Csg),
+            Some(TokenKind::Word(word)) => {
+                matches!(word.family(), Family::Shape | Family::Csg) || word == Word::Object
+            }
             Some(TokenKind::Name) => self.is(ahead + 1, Mark::Open(Bracket::Round)),
             _ => false,
         }

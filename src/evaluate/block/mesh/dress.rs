@@ -156,9 +156,8 @@ impl Evaluator<'_> {
                 let is_full = faces.len() == wanted;
                 match (given.value.as_number(), given.value.numbers(), faces.last_mut()) {
                     (Some(number), _, Some((_, paint))) => {
-                        if !(number > -1.0 && number < textures as f64)
-                            && !std::mem::replace(&mut told, true)
-                        {
+                        let is_there = number > -1.0 && number < textures as f64;
+                        if !is_there && !std::mem::replace(&mut told, true) {
                             let message = format!("there is no texture {number} in this mesh2");
                             let label = format!("`texture_list` has entries 0 to {}", textures - 1);
                             let diagnostic =
