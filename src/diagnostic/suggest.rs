@@ -47,10 +47,6 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             let other = (!far || respelt).then(|| candidate.to_lowercase())?;
             let same = other == lower
                 || (respelt && (spelling(&other) == spelled || look_alike(word, candidate)));
-            let same = same
-                || (respelt
-                    && other.contains('_') != lower.contains('_')
-                    && other.replace('_', "") == lower.replace('_', ""));
             let distance = match same {
                 true => 0,
                 false if far => return None,
@@ -125,11 +121,11 @@ fn look_alike(a: &str, b: &str) -> bool {
     a.chars().map(shape).eq(b.chars().map(shape))
 }
 
-/// A word in lower case as it is spelt in America, its numbers without zeros before them: `Grey5` and
-/// `Gray05` are one.
+/// A word in lower case as it is spelt in America, in one piece, its numbers without zeros before them: `Grey5`,
+/// `Gray05` and `Gray_5` are one.
 fn spelling(word: &str) -> Cow<'_, str> {
     let mut spelt = Cow::Borrowed(word);
-    for (theirs, ours) in [("grey", "gray"), ("colour", "color"), ("centre", "center")] {
+    for (theirs, ours) in [("grey", "gray"), ("colour", "color"), ("centre", "center"), ("_", "")] {
         if spelt.contains(theirs) {
             spelt = Cow::Owned(spelt.replace(theirs, ours));
         }

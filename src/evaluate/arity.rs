@@ -4,10 +4,23 @@ use std::ops::RangeInclusive;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::ast::Argument;
 use crate::vocabulary::Word;
 
 use super::report::count;
 use super::{Evaluator, Here, Reported};
+
+/// Where arguments stand that are too many.
+pub(super) fn surplus(here: &Here, more: &[Argument]) -> Option<Span> {
+    let place = |argument: &Argument| match argument {
+        Argument::Expression(id) => Some(here.unit.expression(*id).span),
+        Argument::Items(items) => {
+            let items = here.unit.ast.items(*items);
+            Some(items.first()?.span.to(items.last()?.span))
+        }
+    };
+    Some(place(more.first()?)?.to(place(more.last()?)?))
+}
 
 impl Evaluator<'_> {
     /// The bracket that closes a call, a vector or an array, where what is missing belongs; all of it where it does not
@@ -36,50 +49,23 @@ impl Evaluator<'_> {
         span
     }
 
-    /// The first argument of a call, or component of a vector, that is one too many; each up to its comma.
-    pub(super) fn first_extra(&self, span: Span, most: usize) -> Option<Span> {
-        let end = self.end_of_call(span);
-        let whole = Span { end: end.end, ..span };
-        let text = self.sources.text(whole);
-        let is_vector = text.starts_with('<');
-        let open = if is_vector { 0 } else { text.find('(')? };
-        let inside = text.get(open + 1..text.len().checked_sub(1)?)?;
-        let (mut depth, mut quoted, mut commas) = (0, false, 0);
-        for (at, sign) in inside.char_indices() {
-            match sign {
-                '"' => quoted = !quoted,
-                '(' | '[' | '<' if !quoted => depth += 1,
-                ')' | ']' | '>' if !quoted => depth -= 1,
-                ',' if !quoted && depth == 0 => commas += 1,
-                _ if commas == most && !sign.is_whitespace() => {
-                    let rest = &inside[at..];
-                    let length = rest.find([',', ')', '>']).unwrap_or(rest.len());
-                    let length = rest[..length].trim_end().len();
-                    let start = whole.start + (open + 1 + at) as u32;
-                    return Some(Span { start, end: start + length as u32, ..span });
-                }
-                _ => {}
-            }
-        }
-        None
-    }
-
     pub(super) fn wrong_arity(
         &mut self,
         here: &Here,
         word: Word,
         span: Span,
         arity: RangeInclusive<usize>,
-        found: usize,
+        (found, list): (usize, &[Argument]),
     ) -> Reported {
         let diagnostic = Diagnostic::new(
             Code::WrongArity,
             format!("`{}` takes {}, and is given {found}", word.name(), count(&arity, "argument")),
         )
         .at(
-            match found < *arity.start() {
-                true => self.end_of_call(span),
-                false => self.first_extra(span, *arity.end()).unwrap_or(span),
+            match list.get(*arity.end()..).and_then(|more| surplus(here, more)) {
+                Some(more) => more,
+                None if found < *arity.start() => self.end_of_call(span),
+                None => span,
             },
             format!("expected {}", count(&arity, "argument")),
         );

@@ -153,7 +153,7 @@ impl Evaluator<'_> {
                     return Ok(Value::truth(false));
                 }
                 let [Argument::Expression(id)] = list else {
-                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
+                    return Err(self.wrong_arity(here, word, word_span, 1..=1, (list.len(), list)));
                 };
                 let name = match here.unit.expression(*id).kind {
                     ExpressionKind::Name(name) => name,
@@ -168,7 +168,7 @@ impl Evaluator<'_> {
             }
             Word::FileExists => {
                 let [Argument::Expression(id)] = list else {
-                    return Err(self.wrong_arity(here, word, word_span, 1..=1, list.len()));
+                    return Err(self.wrong_arity(here, word, word_span, 1..=1, (list.len(), list)));
                 };
                 let name = self.string(here, *id)?;
                 let from = self.sources.get(word_span.file).name.clone();
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
         }
         let count = if failed { list.len() } else { values.len() };
         if !arity.contains(&count) {
-            return Err(self.wrong_arity(here, word, word_span, arity, count));
+            return Err(self.wrong_arity(here, word, word_span, arity, (count, list)));
         }
         if failed {
             return Err(Reported);

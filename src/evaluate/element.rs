@@ -208,7 +208,7 @@ impl Evaluator<'_> {
             }
             _ => {
                 let wanted = if word == Word::Dimensions { 1..=1 } else { 2..=2 };
-                return Err(self.wrong_arity(here, word, word_span, wanted, list.len()));
+                return Err(self.wrong_arity(here, word, word_span, wanted, (list.len(), list)));
             }
         };
         let span = here.unit.expression(array).span;

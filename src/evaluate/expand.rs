@@ -15,6 +15,7 @@ use crate::syntax::ast::{
 
 use crate::vocabulary::Word;
 
+use super::arity::surplus;
 use super::report::count;
 use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::{Poison, Value};
@@ -74,18 +75,6 @@ pub(super) struct Bound {
 
 impl Bound {
     const NOTHING: Self = Self { slot: Slot::NONE, own: false };
-}
-
-/// Where arguments stand that are too many.
-fn surplus(here: &Here, more: &[Argument]) -> Option<Span> {
-    let place = |argument: &Argument| match argument {
-        Argument::Expression(id) => Some(here.unit.expression(*id).span),
-        Argument::Items(items) => {
-            let items = here.unit.ast.items(*items);
-            Some(items.first()?.span.to(items.last()?.span))
-        }
-    };
-    Some(place(more.first()?)?.to(place(more.last()?)?))
 }
 
 impl Evaluator<'_> {

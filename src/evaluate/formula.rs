@@ -263,7 +263,8 @@ impl Evaluator<'_> {
             return Err(self.report(here, diagnostic));
         };
         let nodes = self.argument_nodes(here, formula, arguments)?;
-        self.check_count(here, wanted, nodes.len(), span)?;
+        let list = here.unit.ast.arguments(arguments);
+        self.check_count(here, wanted, (nodes.len(), list), span)?;
         let built = match &self.functions[function.0 as usize] {
             AuthorFunction::Transform(functions) => formula.builder.call(&functions[index], &nodes),
             _ => formula.builder.ask(outside_id(function, index), &nodes),
@@ -355,7 +356,8 @@ impl Evaluator<'_> {
                 .help(format!("write one of its components, as `{part}`"));
             return Err(self.report(here, diagnostic));
         }
-        self.check_count(here, wanted, nodes.len(), span)?;
+        let list = here.unit.ast.arguments(arguments);
+        self.check_count(here, wanted, (nodes.len(), list), span)?;
         let built = match &self.functions[function.0 as usize] {
             AuthorFunction::Formula(called) => formula.builder.call(called, &nodes),
             _ => formula.builder.ask(outside_id(function, 0), &nodes),
@@ -381,7 +383,7 @@ impl Evaluator<'_> {
             Argument::Expression(turn),
         ] = *list
         else {
-            return Err(self.wrong_arity(here, word, word_span, 4..=4, list.len()));
+            return Err(self.wrong_arity(here, word, word_span, 4..=4, (list.len(), list)));
         };
         let ExpressionKind::Name(counter) = unit.expression(counter).kind else {
             let message =
@@ -415,7 +417,8 @@ impl Evaluator<'_> {
         if let Some(arity) = builtin::arity(word)
             && !arity.contains(&nodes.len())
         {
-            return Err(self.wrong_arity(here, word, word_span, arity, nodes.len()));
+            let list = here.unit.ast.arguments(arguments);
+            return Err(self.wrong_arity(here, word, word_span, arity, (nodes.len(), list)));
         }
         let built = operation(&mut formula.builder, word, &nodes);
         self.built(here, word_span, built)

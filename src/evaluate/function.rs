@@ -13,6 +13,7 @@ use crate::source::{Site, Span};
 use crate::syntax::ast::{Argument, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
+use super::arity::surplus;
 use super::report::count;
 use super::scope::Symbol;
 use super::stream::{Token, TokenKind};
@@ -320,7 +321,7 @@ impl Evaluator<'_> {
             }
         }
         outcome?;
-        self.check_count(here, wanted, arguments.len(), span)?;
+        self.check_count(here, wanted, (arguments.len(), list), span)?;
         let functions = Functions { all: &self.functions, noise: self.noise };
         let value = match &self.functions[id.0 as usize] {
             AuthorFunction::Spline(spline) => return Ok(spline.at(arguments[0])),
@@ -356,7 +357,7 @@ impl Evaluator<'_> {
         &mut self,
         here: &Here,
         wanted: usize,
-        found: usize,
+        (found, list): (usize, &[Argument]),
         span: Span,
     ) -> Outcome<()> {
         if wanted == found {
@@ -369,9 +370,10 @@ impl Evaluator<'_> {
             None => "this function".to_owned(),
         };
         let message = format!("{name} takes {wanted}, and is given {found}");
-        let at = match found < least {
-            true => self.end_of_call(span),
-            false => self.first_extra(span, least).unwrap_or(span),
+        let at = match list.get(least..).and_then(|more| surplus(here, more)) {
+            Some(more) => more,
+            None if found < least => self.end_of_call(span),
+            None => span,
         };
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));

@@ -46,7 +46,7 @@ impl Evaluator<'_> {
             _ => 1..=1,
         };
         if !arity.contains(&list.len()) {
-            return Err(self.wrong_arity(here, word, span, arity, list.len()));
+            return Err(self.wrong_arity(here, word, span, arity, (list.len(), list)));
         }
         let unit = here.unit.clone();
         let mut values = Vec::with_capacity(list.len());

@@ -6,6 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
+use super::arity::surplus;
 use super::stream::TokenKind;
 use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
@@ -110,7 +111,7 @@ impl Evaluator<'_> {
             (None, _) => {
                 let message = format!("a vector has two to five components, this one has {count}");
                 let diagnostic = Diagnostic::new(Code::WrongArity, message);
-                let diagnostic = match self.first_extra(span, 5) {
+                let diagnostic = match arguments.get(5..).and_then(|more| surplus(here, more)) {
                     Some(sixth) => {
                         diagnostic.at(sixth, "too many components").also(span, "in this vector")
                     }

@@ -24,12 +24,6 @@ impl Evaluator<'_> {
                 failed = true;
                 continue;
             }
-            // What stands in the place of a part is told; the parts go on behind it.
-            if failed && self.peeks_other_shape() {
-                let Some(token) = self.next() else { break };
-                self.unexpected(&token, Place::shape(Word::Blob));
-                continue;
-            }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
             let read: fn(&mut Self, &Token, Word, &mut Blob) -> Outcome<()> = match word {
@@ -83,12 +77,6 @@ impl Evaluator<'_> {
         }
         blob.threshold = given.value;
         Ok(())
-    }
-
-    fn peeks_other_shape(&mut self) -> bool {
-        let next = self.peek().map(|next| &next.kind);
-        matches!(next, Some(TokenKind::Word(word)) if word.family() == Family::Shape
-            && !matches!(word, Word::Sphere | Word::Cylinder))
     }
 
     fn inert_among_parts(&mut self, token: &Token, _: Word, _: &mut Blob) -> Outcome<()> {

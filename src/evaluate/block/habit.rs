@@ -359,6 +359,9 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
             Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
         }
+        (Word::Camera, "width") => {
+            Some("`right x*image_width/image_height` is how wide the picture is for its height")
+        }
         (Word::Camera, "aspect" | "aspect_ratio") => {
             Some("the picture's width and height give its shape, or `right` does")
         }

@@ -8,6 +8,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Poison;
 use super::super::{Evaluator, Reported};
 use super::Place;
+use super::habit::custom;
 use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
@@ -86,12 +87,11 @@ impl Evaluator<'_> {
         if word == Word::Alpha && !place.holds(Word::Filter) {
             return self.clear_finish(token, place);
         }
-        if word == Word::Width && place.word == Some(Word::Camera) {
-            let told = Diagnostic::new(Code::UnknownWord, "`width` has no meaning in `camera`")
+        if let Some(help) = custom(word.name(), place) {
+            let message = format!("`{}` has no meaning {}", word.name(), place.name());
+            let told = Diagnostic::new(Code::UnknownWord, message)
                 .at(token.span, "expected a word of this block")
-                .help(
-                    "`right x*image_width/image_height` is how wide the picture is for its height",
-                );
+                .help(help);
             self.report(&token.here, told);
             return self.skip_values();
         }

@@ -22,7 +22,8 @@ fn values(points: &Points) -> Vec<Point> {
     points.iter().map(|point| point.value).collect()
 }
 
-const SPLINES_AND_SWEEPS: &[Word] = &[
+/// What may stand before the numbers of a prism; behind the two sweeps, of a lathe.
+const SWEEPS_AND_SPLINES: &[Word] = &[
     Word::LinearSweep,
     Word::ConicSweep,
     Word::LinearSpline,
@@ -261,29 +262,33 @@ impl Evaluator<'_> {
     /// The words that may stand before all numbers, in any order; of several the last counts.
     fn spline_and_sweep(&mut self, sweeps: bool) -> (Spline, bool) {
         let (mut spline, mut conic) = (Spline::Linear, false);
-        let shape = if sweeps { Word::Prism } else { Word::Lathe };
+        let (shape, words) = match sweeps {
+            true => (Word::Prism, SWEEPS_AND_SPLINES),
+            false => (Word::Lathe, &SWEEPS_AND_SPLINES[2..]),
+        };
         loop {
             let word = match self.peek() {
-                Some(Token { kind: TokenKind::Word(word), .. }) => *word,
-                _ => match self.misspelt_part(shape, SPLINES_AND_SWEEPS) {
+                Some(Token { kind: TokenKind::Word(Word::Spline), .. }) => {
+                    spline = self.spline_in_two_words().unwrap_or(spline);
+                    continue;
+                }
+                Some(Token { kind: TokenKind::Word(word), .. }) => {
+                    let word = *word;
+                    if !words.contains(&word) {
+                        break;
+                    }
+                    self.next();
+                    word
+                }
+                _ => match self.misspelt_part(shape, words) {
                     Some(word) => word,
                     None => break,
                 },
             };
-            if word == Word::Spline
-                && let Some(named) = self.spline_in_two_words()
-            {
-                spline = named;
-                continue;
-            }
-            match (word, Spline::of(word)) {
-                (_, Some(named)) => spline = named,
-                (Word::LinearSweep, None) if sweeps => conic = false,
-                (Word::ConicSweep, None) if sweeps => conic = true,
-                _ => break,
-            }
-            if matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. })) {
-                self.next();
+            match word {
+                Word::LinearSweep => conic = false,
+                Word::ConicSweep => conic = true,
+                word => spline = Spline::of(word).unwrap_or(spline),
             }
         }
         (spline, conic)

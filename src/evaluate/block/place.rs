@@ -349,7 +349,9 @@ pub(super) fn is_of_no_part(word: Word, place: Place) -> bool {
         (Some(Word::Texture), _) if matches!(word, Word::ColorMap) => true,
         (Some(Word::GlobalSettings | Word::Finish | Word::Camera), _) => !place.holds(word),
         (Some(of), family) if matches!(of.family(), Family::Shape | Family::Csg) => {
-            family == Family::FinishItem || of_interior
+            family == Family::FinishItem
+                || of_interior
+                || (of == Word::Blob && family == Family::Shape)
         }
         _ => false,
     }

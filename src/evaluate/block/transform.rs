@@ -8,6 +8,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Dialect, Word};
 
+use super::super::arity::surplus;
 use super::super::scope::Scopes;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -162,10 +163,10 @@ impl Evaluator<'_> {
                 Some((at, _)) => *at,
                 None if numbers.len() < 12 => self.end_of_call(next.span),
                 // The first that is too many.
-                None => match unit.ast.arguments(components).get(12) {
-                    Some(Argument::Expression(id)) => unit.expression(*id).span,
-                    _ => next.span,
-                },
+                None => {
+                    let more = unit.ast.arguments(components).get(12..);
+                    more.and_then(|more| surplus(&next.here, more)).unwrap_or(next.span)
+                }
             };
             let diagnostic = Diagnostic::new(
                 Code::WrongArity,

@@ -25,8 +25,8 @@ impl Evaluator<'_> {
         span: Span,
     ) -> Reported {
         if let Some(&wanted) = self.broken_functions.get(&symbol) {
-            let found = here.unit.ast.arguments(arguments).len();
-            let _ = self.check_count(here, wanted, found, span);
+            let list = here.unit.ast.arguments(arguments);
+            let _ = self.check_count(here, wanted, (list.len(), list), span);
         }
         Reported
     }

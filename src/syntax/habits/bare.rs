@@ -17,29 +17,23 @@ impl Reader<'_> {
     /// Two names or more side by side, of which none is declared, as an argument of a call.
     pub(super) fn bare_string(&mut self, meant: &mut Vec<Token>) -> bool {
         let names = |kind| matches!(kind, Some(TokenKind::Name));
-        if !names(self.kind(1)) || !self.inside.last().is_some_and(|i| i.is(Bracket::Round)) {
-            return false;
-        }
-        let count = (0..).take_while(|&ahead| names(self.kind(ahead))).count();
         let begins = matches!(
             meant.last().map(|last| last.kind),
             Some(TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Comma))
         );
-        let ends = matches!(
-            self.kind(count),
-            Some(TokenKind::Mark(Mark::Close(Bracket::Round) | Mark::Comma))
-        );
-        let of_macro = meant.iter().rev().take(64).find_map(|token| match token.kind {
-            TokenKind::Directive(head) => Some(head == Head::Macro),
-            TokenKind::Mark(Mark::Close(_)) => Some(false),
-            _ => None,
-        });
-        let called = self.called(meant);
+        if !begins
+            || !names(self.kind(1))
+            || !self.inside.last().is_some_and(|inside| inside.is(Bracket::Round))
+        {
+            return false;
+        }
+        let count = (0..).take_while(|&ahead| names(self.kind(ahead))).count();
+        let ends = self.is(count, Mark::Comma) || self.is(count, Mark::Close(Bracket::Round));
         let known = |ahead: usize| {
             let name = self.slice(ahead);
             self.declares_anywhere(name) || standard_include_of(name).is_some()
         };
-        if !(begins && ends && called) || of_macro == Some(true) || (0..count).any(known) {
+        if !ends || !self.is_called(meant) || (0..count).any(known) {
             return false;
         }
         let span = self.span(0, count - 1);
@@ -55,11 +49,12 @@ impl Reader<'_> {
         true
     }
 
-    /// Whether the innermost parenthesis opens behind a name.
-    fn called(&self, meant: &[Token]) -> bool {
-        let near = meant.len().saturating_sub(MOST_ARGUMENTS);
+    /// Whether the innermost parenthesis opens behind a name that is called there, and not that of a macro's
+    /// definition.
+    fn is_called(&self, meant: &[Token]) -> bool {
+        let near = &meant[meant.len().saturating_sub(MOST_ARGUMENTS)..];
         let mut depth = 0;
-        let open = meant[near..].iter().rposition(|token| {
+        let open = near.iter().rposition(|token| {
             depth += match token.kind {
                 TokenKind::Mark(Mark::Close(_)) => 1,
                 TokenKind::Mark(Mark::Open(_)) => -1,
@@ -67,9 +62,13 @@ impl Reader<'_> {
             };
             depth < 0
         });
-        let before =
-            open.and_then(|open| open.checked_sub(1)).map(|before| meant[near + before].kind);
-        matches!(before, Some(TokenKind::Name))
+        match near[..open.unwrap_or(0)] {
+            [.., head, name] => {
+                name.kind == TokenKind::Name && head.kind != TokenKind::Directive(Head::Macro)
+            }
+            [name] => name.kind == TokenKind::Name,
+            [] => false,
+        }
     }
 
     /// `<!-- snow -->`: to its end.

@@ -39,40 +39,50 @@ impl Reader<'_> {
 
     /// `#fopen F, "a.txt", write`, `#fopen (F, "a.txt", write)`.
     fn parted_by_commas(&mut self, meant: &mut Vec<Token>) -> bool {
-        let round = usize::from(self.is(1, Mark::Open(Bracket::Round)));
-        let end = self.line_end(1);
-        // The mode is a word, and ends no line.
-        let end = end + usize::from(matches!(self.kind(end), Some(TokenKind::Word(_))));
-        let end = if round == 1 { self.closed(1, Bracket::Round).unwrap_or(end) } else { end };
-        let commas: Vec<usize> = (2..end).filter(|&at| self.is(at, Mark::Comma)).collect();
-        let begins = self.kind(1 + round) == Some(TokenKind::Name)
-            && (2 + round..=3 + round).any(|at| self.kind(at) == Some(TokenKind::String));
-        if !begins || (commas.is_empty() && round == 0) {
+        let close = match self.is(1, Mark::Open(Bracket::Round)) {
+            true => match self.closed(1, Bracket::Round) {
+                Some(close) => Some(close),
+                None => return false,
+            },
+            false => None,
+        };
+        // The handle, and behind the last part.
+        let (first, end) = close.map_or((1, self.line_end(1)), |close| (2, close));
+        let commas: Vec<usize> = (first..end).filter(|&at| self.is(at, Mark::Comma)).collect();
+        let begins = self.kind(first) == Some(TokenKind::Name)
+            && [1, 2].iter().any(|behind| self.kind(first + behind) == Some(TokenKind::String));
+        let place = match (close, commas.first()) {
+            (Some(close), _) => self.span(1, close),
+            (None, Some(&comma)) => self.span(comma, comma),
+            (None, None) => return false,
+        };
+        if !begins {
             return false;
         }
         let message = "the parts of `#fopen` stand side by side, without parentheses or commas";
-        let at = self.span(1 + usize::from(round == 0), if round == 1 { end } else { 2 });
         let mut told = Diagnostic::new(Code::ExtraPart, message)
-            .at(at, "signs of another language")
+            .at(place, "signs of another language")
             .help("`#fopen Handle \"name\" read|write|append` opens a file");
-        if round == 1 {
-            told = told.fix(self.span(1, 1), " ").fix(self.span(end, end), "");
+        if let Some(close) = close {
+            told = told.fix(self.span(1, 1), " ").fix(self.span(close, close), "");
         }
         for &comma in &commas {
             told = told.fix(self.span(comma, comma), " ");
         }
         self.diagnostics.push(told);
-        let parts = (0..end).filter(|at| !(commas.contains(at) || (round == 1 && *at == 1)));
+        meant.push(self.tokens[self.at]);
+        let parts = (first..end).filter(|at| !commas.contains(at));
         meant.extend(parts.map(|at| self.tokens[self.at + at]));
-        self.at += end + round;
+        self.at += close.map_or(end, |close| close + 1);
         true
     }
 
     /// `#read F, A, B`.
     fn without_parentheses(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         let end = self.line_end(1);
-        let names_file = self.kind(1) == Some(TokenKind::Name)
-            && (end == 2 || matches!(self.kind(2), Some(TokenKind::Mark(Mark::Comma))));
+        let names_file = end > 1
+            && self.kind(1) == Some(TokenKind::Name)
+            && (end == 2 || self.is(2, Mark::Comma));
         if !names_file {
             return false;
         }
