@@ -235,6 +235,11 @@ fn rung(place: f64) -> Antialias {
 }
 
 impl Knob {
+    /// Whether a coarser setting makes other solids of the scene's, and not only a coarser picture of them.
+    pub fn changes_solids(&self) -> bool {
+        matches!(self.needs, Need::IteratedRoots | Need::Fractals)
+    }
+
     /// The setting that costs least in any scene.
     pub fn cheapest(&self) -> f64 {
         let cost = |setting: f64| (self.least)(setting) * (self.factor)(setting);
@@ -305,6 +310,12 @@ mod tests {
                 assert!((knob.flag)(setting).starts_with(&format!("--{} ", knob.name)));
             }
         }
+    }
+
+    #[test]
+    fn fewer_iterations_and_looser_roots_are_other_solids() {
+        let names = KNOBS.iter().filter(|knob| knob.changes_solids()).map(|knob| knob.name);
+        assert_eq!(names.collect::<Vec<_>>(), ["root-tolerance", "julia-iterations"]);
     }
 
     #[test]

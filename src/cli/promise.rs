@@ -1,6 +1,6 @@
 //! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
 
-use lucarne::accuracy::{self, Audit, KNOBS, Metric, Options, Step, TooSmall, share, table};
+use lucarne::accuracy::{self, Audit, KNOBS, Knob, Metric, Options, Step, TooSmall, share, table};
 use lucarne::film::Depth;
 use lucarne::picture::Format;
 use lucarne::plan::{Frame, PlanOptions, plan};
@@ -44,6 +44,10 @@ pub fn make(
         return keep(world, origins, &options, promise, clock, progress);
     }
     if let Some(seconds) = arguments.time_budget {
+        // Time is saved at what is seen of the solids, and never at the solids.
+        let knobs: Vec<Knob> =
+            KNOBS.iter().filter(|knob| !knob.changes_solids()).copied().collect();
+        let options = Options { knobs: &knobs, ..options };
         return Ok(spend((world, origins), &options, seconds, written, clock, progress));
     }
     let traced = trace(world, &plan(world, origins, plain), &trace_options, progress);

@@ -52,15 +52,35 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
                 false if far => return None,
                 false => strsim::osa_distance(&lower, &other).max(1),
             };
-            // Of two equally near, the one with the same first letter, then the alphabet's first.
+            // Of two equally near, the one of the same number, then with the same first letter, then the
+            // alphabet's first.
+            let number = !digits(&lower).eq(digits(&other));
             let first = lower.chars().next() != other.chars().next();
             // `Withe`: a letter that has wandered.
             let wandered =
                 !first && count >= 5 && distance == bound + 1 && same_letters(&lower, &other);
-            (distance <= bound || wandered).then_some((distance, first, candidate))
+            (distance <= bound || wandered).then_some((distance, number, first, candidate))
         })
         .min()
-        .map(|(_, _, candidate)| candidate)
+        .map(|(.., candidate)| candidate)
+}
+
+/// The one word of three letters that `word` lacks a letter of, not the first: `rg`, `bx`.
+pub fn short_of<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let fits = |candidate: &&str| {
+        let mut letters = candidate.chars();
+        let mut inner = word.chars();
+        word.len() == 2
+            && candidate.len() == 3
+            && letters.next() == inner.next()
+            && inner.next().is_some_and(|last| letters.any(|letter| letter == last))
+    };
+    let mut fitting = candidates.into_iter().filter(fits);
+    fitting.next().filter(|_| fitting.next().is_none())
+}
+
+fn digits(word: &str) -> impl Iterator<Item = char> {
+    word.chars().filter(char::is_ascii_digit)
 }
 
 /// The one candidate that begins as `word` does and is two edits away, of four letters or more: `Cole` and `Coal`.

@@ -4,6 +4,7 @@
 //! **Invariant:** says so only when it is certain: a condition without a name or a call never changes,
 //! and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
 
+use crate::diagnostic::suggest;
 use crate::source::Span;
 use crate::syntax::ast::{
     Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
@@ -41,15 +42,20 @@ pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
 }
 
 /// Where a condition asks a name that the body never sets, and the body sets one that differs from it only
-/// in capitals: the two, and where the second is set.
-pub(super) fn same_but_case(
+/// in capitals or by a slip: the two, and where the second is set.
+pub(super) fn nearly_set(
     ast: &Ast,
     condition: ExpressionId,
     body: Items,
 ) -> Option<(&str, &str, Span)> {
     let (asked, set) = (names(ast, condition), declared(ast, body));
     asked.into_iter().find_map(|asked| {
-        let alike = |(name, _): &&(&str, Span)| name.eq_ignore_ascii_case(asked);
+        let alike = |(name, _): &&(&str, Span)| {
+            let is_slip = || {
+                suggest::closest(name, [asked]).is_some() && !suggest::are_of_a_series(name, asked)
+            };
+            name.eq_ignore_ascii_case(asked) || is_slip()
+        };
         let sets = |(name, _): &(&str, Span)| *name == asked;
         let &(name, span) = set.iter().find(alike).filter(|_| !set.iter().any(sets))?;
         Some((asked, name, span))

@@ -269,19 +269,27 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let ast = &here.unit.ast;
         let directive = ast.directive(directive);
-        let diagnostic = Diagnostic::new(Code::LoopLimit, message).at(directive.head, label);
+        let diagnostic = Diagnostic::new(Code::LoopLimit, message);
         let diagnostic = match directive.kind {
             DirectiveKind::While { condition, body } => {
-                match endless::same_but_case(ast, condition, body) {
-                    Some((asked, set, span)) => diagnostic
-                        .also(span, format!("this sets `{set}`, the condition asks `{asked}`"))
-                        .help("names that differ in capitals are different names"),
-                    None => diagnostic.help(
+                match endless::nearly_set(ast, condition, body) {
+                    Some((asked, set, span)) => {
+                        let told = diagnostic
+                            .at(span, format!("this sets `{set}`, the condition asks `{asked}`"))
+                            .also(directive.head, label)
+                            .help(format!("did you mean `{asked}`?"))
+                            .fix(span, asked);
+                        match set.eq_ignore_ascii_case(asked) {
+                            true => told.help("names that differ in capitals are different names"),
+                            false => told,
+                        }
+                    }
+                    None => diagnostic.at(directive.head, label).help(
                         "change in its body what its condition asks, or leave it with `#break`",
                     ),
                 }
             }
-            _ => diagnostic,
+            _ => diagnostic.at(directive.head, label),
         };
         let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
         Err(self.halt(here.expansion, diagnostic))

@@ -400,6 +400,7 @@ pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'sta
         .or_else(|| suggest::reworded(name, words()))
         .or_else(|| suggest::closest(name, words().filter(|word| is_likely(name, word))))
         .or_else(|| suggest::abridged(name, words()))
+        .or_else(|| suggest::short_of(name, words()))
 }
 
 /// Whether `word`, which is close to `name`, is rather meant than nothing: a name with a capital is one of

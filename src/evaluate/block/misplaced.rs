@@ -263,7 +263,10 @@ impl Evaluator<'_> {
             }
         };
         let diagnostic = match own {
-            Some(own @ (Word::Pigment | Word::Finish)) if place.word == Some(Word::Texture) => {
+            Some(own @ (Word::Pigment | Word::Finish | Word::Interior))
+                if place.word == Some(Word::Texture) && own != Word::Interior
+                    || place.families.contains(&Family::Modifier) =>
+            {
                 self.in_block_of_its_own(token, own, diagnostic)
             }
             _ => diagnostic,

@@ -276,16 +276,15 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// `background rgb <0, 0, 1>`: what stands on the line belongs in braces.
-    fn braces_around_line(&self, from: Span, name: &str, told: Diagnostic) -> Diagnostic {
-        let rest = self.sources.get(from.file).text.get(from.start as usize..).unwrap_or("");
-        let line = rest.lines().next().unwrap_or("").trim_end();
-        if line.contains(['{', '}', '/', ';', '#']) {
-            return told.help(self.form_of(Word::Background));
+    /// `pigment rgb 1`: what stands from `from` to what was taken last belongs in braces.
+    fn braces_around(&self, token: &Token, from: Span, told: Diagnostic, word: Word) -> Diagnostic {
+        let whole = Span { start: from.start, ..self.whole(token).span };
+        let text = self.sources.text(whole);
+        if text.contains(['{', '#', '/', ';']) || text.ends_with(',') {
+            return told.help(self.form_of(word));
         }
-        let text = format!("{{ {line} }}");
-        let end = from.start + line.len() as u32;
-        told.help(format!("write `{name} {text}`")).fix(Span { end, ..from }, text)
+        let text = format!("{{ {text} }}");
+        told.help(format!("write `{} {text}`", word.name())).fix(whole, text)
     }
 
     /// Enters the block after `token`.
@@ -321,11 +320,6 @@ impl Evaluator<'_> {
                         let text = format!("{{ {} }}", self.sources.text(span));
                         diagnostic.help(format!("write `{name} {text}`")).fix(span, text)
                     }
-                    Some(Token { kind: TokenKind::Word(_), span, .. })
-                        if word == Word::Background =>
-                    {
-                        self.braces_around_line(span, name, diagnostic)
-                    }
                     Some(Token { kind: TokenKind::Expression(id), here, .. })
                         if matches!(
                             here.unit.expression(id).kind,
@@ -333,6 +327,13 @@ impl Evaluator<'_> {
                         ) =>
                     {
                         diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"))
+                    }
+                    Some(Token { kind: TokenKind::Word(own), span, .. })
+                        if place::home(own) == Some(word) || own.family() == Family::Color =>
+                    {
+                        self.skip_missing_block(token);
+                        let diagnostic = self.braces_around(token, span, diagnostic, word);
+                        return Err(self.report(&token.here, diagnostic));
                     }
                     _ => diagnostic.help(self.form_of(word)),
                 };

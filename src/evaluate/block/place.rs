@@ -188,9 +188,8 @@ impl Place {
     pub(super) fn may_mean(self, word: &str, dialect: Dialect) -> bool {
         let is_object = word == "object" && self.word.is_none();
         let is_itself = self.word.is_some_and(|own| own.name() == word);
-        let is_component = self.word == Some(Word::Blob) && matches!(word, "sphere" | "cylinder");
         let is_here = || !is_itself && self.words(dialect).any(|own| own == word);
-        is_object || is_component || word == "transmit" || is_here()
+        is_object || word == "transmit" || is_here()
     }
 
     /// The words to suggest here.
@@ -200,8 +199,26 @@ impl Place {
                 && (dialect == Dialect::Scene || word.block().is_none())
                 // Of the families that have one opener, only that stands at the top level.
                 && (self.word.is_some() || !is_part(**word))
+                && !self.is_of_another_shape(**word)
         };
-        Word::ALL.iter().filter(fits).map(|word| word.name())
+        let parts = self.parts().iter().map(|word| word.name());
+        Word::ALL.iter().filter(fits).map(|word| word.name()).chain(parts)
+    }
+
+    /// The shapes that one is made of.
+    fn parts(self) -> &'static [Word] {
+        match self.word {
+            Some(Word::Blob) => &[Word::Sphere, Word::Cylinder],
+            Some(Word::Mesh) => &[Word::Triangle, Word::SmoothTriangle],
+            _ => &[],
+        }
+    }
+
+    fn is_of_another_shape(self, word: Word) -> bool {
+        let Some(own) = self.word.filter(|_| word.family() == Family::ShapeItem) else {
+            return false;
+        };
+        home(word).is_some_and(|home| home != own && !is_before_modifiers(own, word))
     }
 }
 

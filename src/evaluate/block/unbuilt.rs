@@ -188,7 +188,11 @@ impl Evaluator<'_> {
                     self.skip_arguments(word);
                 }
                 TokenKind::Word(word) => self.skip_arguments(word),
-                TokenKind::Expression(id) => self.run_expression(&token.here, id),
+                TokenKind::Expression(id) => {
+                    if !self.misspelt_item(&token, id, Word::Normal) {
+                        self.run_expression(&token.here, id);
+                    }
+                }
                 TokenKind::Block(contents) => {
                     self.inside_block(&token.here, contents, token.span, Self::run_items);
                 }

@@ -109,7 +109,8 @@ impl Evaluator<'_> {
             .or_else(|| suggest::reworded(&name, words()))
             .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
             .or_else(|| suggest::abridged(&name, words()))
-            .or_else(|| suggest::begun(&name, words()));
+            .or_else(|| suggest::begun(&name, words()))
+            .or_else(|| suggest::short_of(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)
@@ -214,6 +215,9 @@ impl Evaluator<'_> {
             .or_else(|| self.one_alike(name).filter(|_| here.is_none()));
         if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
             return true;
+        }
+        if here.is_some_and(|here| here.eq_ignore_ascii_case(name)) {
+            return false;
         }
         // A name with a capital is rather one of the author's.
         if here.is_some_and(is_built) && !name.starts_with(char::is_uppercase) {
@@ -343,7 +347,10 @@ impl Evaluator<'_> {
         let message = format!("`{name}` is not a word that begins a value");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message);
         // Before a block a capital does not make it one of the author's names.
-        let near = self.near(token.span, Asked::Block, || word_like(&name.to_lowercase(), opens));
+        let near = self.near(token.span, Asked::Block, || {
+            let in_case = || Word::from_name(&name.to_lowercase()).filter(|word| opens(*word));
+            in_case().map(Word::name).or_else(|| word_like(&name.to_lowercase(), opens))
+        });
         let diagnostic = match near {
             Some(near) => meant(diagnostic, token.span, near),
             None => diagnostic.at(token.span, UNKNOWN),

@@ -24,9 +24,7 @@ impl Reader<'_> {
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
             Head::Else => self.body(head, meant),
             Head::Unknown => self.hash_comment(),
-            Head::Declare | Head::Local => {
-                self.defined_macro(meant) || self.two_words(meant) || self.value(head, meant)
-            }
+            Head::Declare | Head::Local => self.defined_macro(meant) || self.value(head, meant),
             Head::Default => self.default_case(meant),
             Head::Macro => self.braced_parameters(meant) || self.parameters_unopened(meant),
             Head::Fopen | Head::Read | Head::Write | Head::Fclose => {

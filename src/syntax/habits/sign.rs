@@ -262,30 +262,6 @@ impl Reader<'_> {
         true
     }
 
-    /// `#declare my size = 3`: a name of two words.
-    pub(super) fn two_words(&mut self, meant: &mut Vec<Token>) -> bool {
-        let is_part = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
-        let named = self.kind(1) == Some(TokenKind::Name)
-            && is_part(self.kind(2))
-            && self.is(3, Mark::Equal);
-        if !named {
-            return false;
-        }
-        let (span, plain) = (self.span(1, 2), format!("{}_{}", self.slice(1), self.slice(2)));
-        let name = self.text.get(span.range()).unwrap_or("");
-        self.diagnostics.push(
-            Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is no name"))
-                .at(span, "a name has no blank in it")
-                .help(format!("write `{plain}`"))
-                .fix(span, plain),
-        );
-        meant.push(self.tokens[self.at]);
-        let first = self.tokens[self.at + 1];
-        meant.push(Token { kind: TokenKind::Name, end: span.end, ..first });
-        self.at += 3;
-        true
-    }
-
     /// `Colors::Red`: a name of a space of names.
     pub(super) fn space_of_names(&mut self) -> bool {
         let (colon, second) = (self.is(1, Mark::Colon), self.is(2, Mark::Colon));
@@ -339,7 +315,7 @@ impl Reader<'_> {
         true
     }
 
-    /// `#declare my-size = 3`: the names that cannot be, and what is said of each.
+    /// `#declare my-size = 3`, `#declare my size = 3`: the names that cannot be, and what is said of each.
     pub(super) fn find_hyphens(&mut self) {
         for at in 0..self.tokens.len() {
             if !matches!(self.tokens[at].kind, TokenKind::Directive(Head::Declare | Head::Local)) {
@@ -361,6 +337,13 @@ impl Reader<'_> {
             while part(self.kind(end)) && self.touches(end) {
                 end += 1;
             }
+            // Of two words.
+            let is_name = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
+            let parted = end == 2
+                && self.kind(1) == Some(TokenKind::Name)
+                && is_name(self.kind(2))
+                && self.is(3, Mark::Equal);
+            let end = if parted { 3 } else { end };
             let assigned = self.is(end, Mark::Equal) && part(self.kind(1)) && end > 2;
             if !assigned || self.is(1, Mark::Minus) {
                 continue;
@@ -368,10 +351,14 @@ impl Reader<'_> {
             let span = self.span(1, end - 1);
             let name = self.text.get(span.range()).unwrap_or("").to_owned();
             let digit = name.starts_with(|c: char| c.is_ascii_digit());
-            let plain = name.replace(['-', '.'], "_");
+            let plain = match parted {
+                true => format!("{}_{}", self.slice(1), self.slice(2)),
+                false => name.replace(['-', '.'], "_"),
+            };
             let plain = if digit { format!("_{plain}") } else { plain };
             let why = match digit {
                 true => "a name begins with a letter or `_`",
+                false if parted => "a name has no blank in it",
                 false if name.contains('-') => "a name has no hyphen in it",
                 false => "a name has no dot in it: letters, digits and `_` alone",
             };

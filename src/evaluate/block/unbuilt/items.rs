@@ -57,6 +57,30 @@ fn is_of_fog(item: Word) -> bool {
         )
 }
 
+/// What else may stand in a block, beside what is of it alone.
+fn is_also_of(item: Word, block: Word) -> bool {
+    match block {
+        Word::Normal => {
+            let of_pigments = matches!(
+                item,
+                Word::ImageMap | Word::ColorMap | Word::PigmentMap | Word::TextureMap
+            );
+            matches!(item.family(), Family::Pattern | Family::PatternItem | Family::Transform)
+                && !of_pigments
+                || matches!(item, Word::NormalMap | Word::SlopeMap | Word::BumpMap | Word::BumpSize)
+        }
+        Word::ImageMap => matches!(
+            item,
+            Word::MapType | Word::Once | Word::Interpolate | Word::Filter | Word::Transmit
+        ),
+        Word::Media => item == Word::Density || item.family() == Family::Transform,
+        Word::Radiosity => item == Word::Normal || item == Word::Media,
+        Word::Fog => is_of_fog(item),
+        Word::Rainbow => item == Word::ColorMap,
+        _ => false,
+    }
+}
+
 /// How many ways of tiling there are; the manual has 24 of them.
 const TILINGS: f64 = 27.0;
 
@@ -273,20 +297,22 @@ impl Evaluator<'_> {
     }
 
     /// `extinct 0.9`: a name that is not declared, where a word of the block is close.
-    fn misspelt_item(&mut self, token: &Token, id: ExpressionId, block: Word) -> bool {
+    pub(super) fn misspelt_item(&mut self, token: &Token, id: ExpressionId, block: Word) -> bool {
         if self.unknown_name(&token.here, id).is_none() {
             return false;
         }
         let name = self.sources.text(token.span).to_owned();
         let of_block = |word: &&Word| {
-            let is_map = **word == Word::ColorMap && block == Word::Rainbow;
-            is_map || home(**word) == Some(block) || numbers(**word, block).is_some()
+            home(**word) == Some(block)
+                || numbers(**word, block).is_some()
+                || is_also_of(**word, block)
         };
         let words = || Word::ALL.iter().filter(of_block).map(|word| word.name());
         let near = suggest::reworded(&name, words())
             .or_else(|| suggest::closest(&name, words()))
             .or_else(|| suggest::abridged(&name, words()))
-            .or_else(|| suggest::begun(&name, words()));
+            .or_else(|| suggest::begun(&name, words()))
+            .or_else(|| suggest::short_of(&name, words()));
         let Some(near) = near else { return false };
         let message = format!("`{name}` is not a word in `{}`", block.name());
         let diagnostic = Diagnostic::new(Code::UnknownWord, message)

@@ -22,7 +22,9 @@ impl Evaluator<'_> {
                     self.picture_of(&token);
                 }
                 TokenKind::Expression(id) => {
-                    if !self.misspelt_kind(&token, id) {
+                    if !self.misspelt_kind(&token, id)
+                        && !self.misspelt_item(&token, id, Word::ImageMap)
+                    {
                         self.run_expression(&token.here, id);
                     }
                 }
