@@ -326,12 +326,38 @@ impl Files for NoFiles {
     }
 }
 
-/// Turns the bytes of a file into text: UTF-8, else Latin-1. `true` when it was not UTF-8.
-/// A byte order mark is dropped.
+/// Signs of typography that Windows keeps where Latin-1 has none, beside the byte of each.
+///
+/// **Source:** the code page Windows-1252.
+const TYPOGRAPHY: [(u8, char); 8] = [
+    (0x85, '…'),
+    (0x91, '‘'),
+    (0x92, '’'),
+    (0x93, '“'),
+    (0x94, '”'),
+    (0x95, '•'),
+    (0x96, '–'),
+    (0x97, '—'),
+];
+
+/// A character of Latin-1, or a sign of typography as Windows has it.
+fn from_latin(byte: u8) -> char {
+    TYPOGRAPHY.iter().find(|(own, _)| *own == byte).map_or(char::from(byte), |(_, sign)| *sign)
+}
+
+/// The bytes of a text that [`decode`] has read as Latin-1: a byte for each character, as it was.
+pub fn to_latin(text: &str) -> Vec<u8> {
+    let byte =
+        |c: char| TYPOGRAPHY.iter().find(|(_, sign)| *sign == c).map_or(c as u8, |own| own.0);
+    text.chars().map(byte).collect()
+}
+
+/// Turns the bytes of a file into text: UTF-8, else Latin-1 with the signs of typography of Windows. `true` when it
+/// was not UTF-8. A byte order mark is dropped.
 pub fn decode(bytes: Vec<u8>) -> (String, bool) {
     let (text, foreign) = match String::from_utf8(bytes) {
         Ok(text) => (text, false),
-        Err(error) => (error.into_bytes().iter().map(|&b| char::from(b)).collect(), true),
+        Err(error) => (error.into_bytes().iter().map(|&byte| from_latin(byte)).collect(), true),
     };
     match text.strip_prefix('\u{feff}') {
         Some(rest) => (rest.to_owned(), foreign),
@@ -367,6 +393,10 @@ mod tests {
     #[test]
     fn bytes_that_are_not_utf_8_are_read_as_latin_1() {
         assert_eq!(decode(vec![b'a', 0xe9]), ("aé".to_owned(), true));
+        let all: Vec<u8> = (0..=255).collect();
+        let (text, foreign) = decode(all.clone());
+        assert!(foreign && text.contains("“”"));
+        assert_eq!(to_latin(&text), all);
         assert_eq!(decode("\u{feff}a".as_bytes().to_vec()), ("a".to_owned(), false));
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lucarne::diagnostic::Diagnostics;
 use lucarne::road::dialect;
-use lucarne::source::{Source, Sources, decode};
+use lucarne::source::{Source, Sources, decode, to_latin};
 use lucarne::syntax::{ParseOptions, Unformatted, format};
 use similar::TextDiff;
 
@@ -69,7 +69,7 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
     }
     let encoded = match latin {
         // Each character was one byte, and is again.
-        true => formatted.chars().map(|c| c as u8).collect(),
+        true => to_latin(&formatted),
         false => [mark, formatted.as_bytes()].concat(),
     };
     if is_stdin(file) {

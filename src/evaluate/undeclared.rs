@@ -7,6 +7,8 @@
 mod lacking;
 mod parameter;
 
+pub(super) use self::lacking::standard_color;
+
 use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync::LazyLock;
@@ -40,6 +42,11 @@ impl Evaluator<'_> {
         let is_dotted =
             |other: &str| other.contains(['.', '-']) && other.replace(['.', '-'], "_") == name;
         if name.contains('_') && self.scopes.visible().any(is_dotted) {
+            return Reported;
+        }
+        // `T_Stone 21`: of that it was told as it was read.
+        if name.contains([' ', '-']) {
+            self.scopes.assign(symbol, Value::Broken);
             return Reported;
         }
         if let Some(diagnostic) = self.of_another_writing(&name, span) {
@@ -101,6 +108,7 @@ impl Evaluator<'_> {
         let line = text.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
         let begins = text.trim_end().ends_with('{');
         let counts_a_loop = line.strip_prefix("#while").is_some_and(|rest| !rest.contains(')'));
+        let is_own = name.starts_with(char::is_uppercase);
         let standard = self.lacking_include(name);
         // What the files that the main file includes lack of another one is one mistake.
         if let Some(include) = &standard
@@ -183,7 +191,12 @@ impl Evaluator<'_> {
                     diagnostic.help(format!("or did you mean `{own}`, which is declared?"));
             }
             diagnostic = self.include_before(here, diagnostic, &include);
-        } else if let Some(word) = self.word_of_block(name).or_else(|| self.item_like(name, span)) {
+        } else if let Some(word) = self
+            .word_of_block(name)
+            .filter(|_| !is_own)
+            .or_else(|| self.item_like(name, span))
+            .filter(|_| self.lacking_in_small_letters(name).is_none())
+        {
             diagnostic = diagnostic
                 .at(span, "not declared, and not a word of the language")
                 .help(format!("did you mean `{word}`?"))
@@ -223,7 +236,7 @@ impl Evaluator<'_> {
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
             // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
-            let theirs = suggest::foreign(name).find(|ours| {
+            let theirs = suggest::foreign(name).filter(|_| !is_own).find(|ours| {
                 Word::from_name(ours).is_some_and(|word| match word.role() {
                     Role::Statement => begins,
                     Role::Value => !is_called,

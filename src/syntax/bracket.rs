@@ -364,6 +364,8 @@ impl<'a> Nest<'a> {
             let before = behind
                 .first()
                 .map_or(before, |second| Span { end: second.span.start + 1, ..second.span });
+            let radius = self.radius_within(frame.open, frame.arguments);
+            let before = radius.as_ref().map_or(before, |radius| radius.span);
             if !told {
                 told = true;
                 let last = self.arguments[frame.arguments..].last();
@@ -388,9 +390,26 @@ impl<'a> Nest<'a> {
             let components = self.take_arguments(frame.arguments);
             let whole = Span { end: before.start.max(frame.open.end), ..frame.open };
             self.operand(ExpressionKind::Vector(components), whole, false);
-            for vector in behind {
+            for value in behind.into_iter().chain(radius) {
                 self.finish_expression();
-                self.operand(vector.kind, vector.span, false);
+                self.operand(value.kind, value.span, false);
+            }
+        }
+    }
+
+    /// `sphere { <0, 1, 0, 1 …`, `plane { <0, 1, 0, -1 …`: the fourth number, which is no component of the first vector.
+    fn radius_within(&mut self, open: Span, first: usize) -> Option<Expression> {
+        const POINT: usize = 3;
+        let before = self.text.get(..open.start as usize)?.trim_end().strip_suffix('{')?.trim_end();
+        let is_first = before.ends_with("sphere") || before.ends_with("plane");
+        if !is_first || self.arguments.len() != first + POINT + 1 {
+            return None;
+        }
+        match self.arguments.pop()? {
+            Argument::Expression(id) => Some(*self.ast.expression(id)),
+            other => {
+                self.arguments.push(other);
+                None
             }
         }
     }

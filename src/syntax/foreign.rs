@@ -66,7 +66,7 @@ fn by_its_start(text: &str) -> Option<Kind> {
     if lower.starts_with("<!doctype html") || lower.starts_with("<html") {
         return kind("a page of the web (HTML)", "the scene itself is perhaps behind a link on it");
     }
-    if lower.starts_with("<?xml") || lower.starts_with("<!--") || lower.starts_with("<svg") {
+    if lower.starts_with("<?xml") || is_tagged(&lower) {
         return kind("an XML file", "a scene has words and braces, and no tags");
     }
     if is_json(text) && text.contains("\"asset\"") && text.contains("\"meshes\"") {
@@ -77,6 +77,18 @@ fn by_its_start(text: &str) -> Option<Kind> {
     }
     if lower.starts_with("#!") {
         return kind("a program", PROGRAM);
+    }
+    if lower.starts_with("#vrml") || lower.starts_with("#x3d") {
+        return kind("a VRML file", "a scene's own words for it: `sphere { 0, 1 }`");
+    }
+    if lower.starts_with("\\documentclass") || lower.starts_with("\\begin{") {
+        return kind("a document for LaTeX", "a scene has words and braces: `sphere { 0, 1 }`");
+    }
+    if lower.starts_with("{\\rtf") {
+        return kind("a document of a word processor (RTF)", "save the scene as plain text");
+    }
+    if lower.starts_with("##renderman") {
+        return kind("a scene for RenderMan", "a scene has words and braces: `sphere { 0, 1 }`");
     }
     if lower.starts_with("--- a/") || lower.starts_with("diff --git") {
         return kind("a list of changes (diff)", "apply it to the scene that it is about");
@@ -93,6 +105,20 @@ fn by_its_start(text: &str) -> Option<Kind> {
         return kind("a mesh in PLY", MESH);
     }
     None
+}
+
+/// `<svg …>`, `<scene version="2.0.0">`, behind a comment or not: a tag, which no vector is.
+fn is_tagged(lower: &str) -> bool {
+    let behind = match lower.strip_prefix("<!--") {
+        Some(rest) => rest.split_once("-->").map_or("", |(_, after)| after.trim_start()),
+        None => lower,
+    };
+    let Some(tag) = behind.strip_prefix('<').filter(|tag| tag.starts_with(char::is_alphabetic))
+    else {
+        return false;
+    };
+    let Some((inside, _)) = tag.split_once('>') else { return false };
+    !inside.contains(',') && (inside.contains("=\"") || inside.chars().all(char::is_alphanumeric))
 }
 
 /// `{ "key":`, `[ {`, or braces that hold nothing else.

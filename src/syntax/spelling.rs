@@ -76,7 +76,9 @@ pub(super) fn correct_heads(
         let is_function = FUNCTIONS.contains(&word) && opens(behind);
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
         let foreign = if is_function { Some("macro") } else { foreign };
-        let near = foreign.or_else(|| suggest::closest(word, Head::WORDS.iter().copied()));
+        let near = foreign
+            .or_else(|| suggest::closest(word, Head::WORDS.iter().copied()))
+            .or_else(|| suggest::short_of(word, Head::WORDS.iter().copied()));
         // `#foo bar` is no `#for`.
         let fits = |near: &&str| {
             let head = Head::from_word(near);

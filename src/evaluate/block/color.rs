@@ -37,7 +37,7 @@ impl Evaluator<'_> {
                         return Err(reported);
                     }
                     let given = self.given(token, "a colour")?;
-                    self.bare_components(token, &given)?;
+                    self.bare_components(Some(token), &given)?;
                     (self.plain_color(&given, "a colour")?, given.site())
                 }
             },
@@ -75,7 +75,7 @@ impl Evaluator<'_> {
         let gamma = self.scene.settings.assumed_gamma;
         let meant = |rgb: Rgb| if is_display { rgb.map(|c| gamma.of_srgb(c)) } else { rgb };
         if !matches!(given.value, Value::Color(_)) {
-            self.bare_components(token, &given)?;
+            self.bare_components(Some(token), &given)?;
         }
         let Some(numbers) = given.value.numbers() else {
             return Err(self.wrong_type(&given.here, given.span, what, &given.value));
@@ -102,11 +102,15 @@ impl Evaluator<'_> {
         Ok(Color { rgb: meant(rgb), filter, transmit })
     }
 
-    /// `rgb 1 0 0`: numbers where a vector stands. A lone number is a grey.
-    fn bare_components(&mut self, token: &Token, given: &Given<Value>) -> Outcome<()> {
+    /// `rgb 1 0 0`, `1, 0, 0`: numbers where a vector stands, behind the word of a colour or none. A lone number is
+    /// a grey.
+    pub(super) fn bare_components(
+        &mut self,
+        token: Option<&Token>,
+        given: &Given<Value>,
+    ) -> Outcome<()> {
         let text = &self.sources.get(given.span.file).text;
-        let commas = self.in_pigment();
-        let Some((end, numbers)) = numbers_at(text, given.span, commas) else { return Ok(()) };
+        let Some((end, numbers)) = numbers_at(text, given.span) else { return Ok(()) };
         let goes_on = |next: &Token| next.span.file == given.span.file && next.span.start < end;
         if !self.peek_on().is_some_and(goes_on) {
             return Ok(());
@@ -115,16 +119,18 @@ impl Evaluator<'_> {
         let of_255 = numbers.iter().take(3).any(|c| *c >= 16.0)
             && numbers.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
         let list: Vec<String> = numbers.iter().map(f64::to_string).collect();
-        let word = match token.kind {
-            TokenKind::Word(word) if is_whole(word) => word.name(),
+        let word = match token.map(|token| &token.kind) {
+            Some(TokenKind::Word(word)) if is_whole(*word) => word.name(),
             _ => "rgb",
         };
         let vector = format!("<{}>{}", list.join(", "), if of_255 { "/255" } else { "" });
         let ours = format!("{word} {vector}");
         // `color` takes a colour of any form.
-        let (place, of_color) = match token.kind == TokenKind::Word(Word::Color) {
-            false if token.span.file == whole.file => (token.span.to(whole), false),
-            is_color => (whole, is_color),
+        let (place, of_color) = match token {
+            Some(token) if token.kind == TokenKind::Word(Word::Color) => (whole, true),
+            Some(token) if token.span.file == whole.file => (token.span.to(whole), false),
+            Some(_) => (whole, false),
+            None => (whole, true),
         };
         let fix = if place == whole && !of_color { vector } else { ours.clone() };
         while self.peek().is_some_and(goes_on) {
@@ -171,7 +177,16 @@ impl Evaluator<'_> {
         word: Word,
         color: &mut WrittenColor,
     ) -> Outcome<()> {
-        if matches!(word, Word::Red | Word::Green | Word::Blue) && self.peek().is_none() {
+        let has_number = matches!(
+            self.peek().map(|next| &next.kind),
+            Some(TokenKind::Expression(_) | TokenKind::Literal(_))
+        );
+        // `green , 0.5`
+        let behind = self.sources.get(token.span.file).text.get(token.span.end as usize..);
+        let behind = behind.and_then(|text| text.trim_start().strip_prefix(','));
+        let goes_on =
+            behind.is_some_and(|text| text.trim_start().starts_with(|c: char| c.is_ascii_digit()));
+        if matches!(word, Word::Red | Word::Green | Word::Blue) && !has_number && !goes_on {
             let name = word.name();
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, format!("`{name}` is a part of a colour"))
@@ -259,8 +274,9 @@ pub(in crate::evaluate) fn takes_transmit(word: Word) -> bool {
     matches!(word, Word::Rgbt | Word::Srgbt)
 }
 
-/// Three to five plain numbers side by side, the first of them at `first`; and where they end.
-fn numbers_at(text: &str, first: Span, commas: bool) -> Option<(u32, Vec<f64>)> {
+/// Three to five plain numbers side by side, the first of them at `first`; and where they end. Among the arguments
+/// of a call they are none.
+fn numbers_at(text: &str, first: Span) -> Option<(u32, Vec<f64>)> {
     let plain = |c: char| c.is_ascii_digit() || c == '.';
     let (mut numbers, mut at, mut end) = (Vec::new(), first.start as usize, 0);
     loop {
@@ -277,13 +293,15 @@ fn numbers_at(text: &str, first: Span, commas: bool) -> Option<(u32, Vec<f64>)> 
         numbers.push(number);
         end = at + digits;
         let blank = behind.trim_start_matches([' ', '\t']);
-        let next = match blank.strip_prefix(',').filter(|_| commas) {
+        let next = match blank.strip_prefix(',') {
             Some(after) => after.trim_start_matches([' ', '\t']),
             None => blank,
         };
         at = text.len() - next.len();
     }
-    ((3..=5).contains(&numbers.len()) && end > first.end as usize).then_some((end as u32, numbers))
+    let is_argument = text[end..].trim_start().starts_with([',', ')']);
+    ((3..=5).contains(&numbers.len()) && end > first.end as usize && !is_argument)
+        .then_some((end as u32, numbers))
 }
 
 fn is_component(word: Word) -> bool {

@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::scene::ColorMap;
 use crate::source::{Site, Span};
 use crate::syntax::ast::ExpressionKind;
-use crate::vocabulary::{Dialect, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::lint::Rise;
 use super::super::stream::{Token, TokenKind};
@@ -124,6 +124,9 @@ impl Evaluator<'_> {
 
     /// `[value color]`, or the old `[from, to color a color b]`, and of that `to color a` where it can go.
     fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
+        if let Some(reported) = self.entry_without_value(token) {
+            return Err(reported);
+        }
         let given = self.number_after(token, "a number and a colour")?;
         let (from, first_number) = (given.value, given.span);
         rise.entry(given, self.sources);
@@ -141,6 +144,7 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let second = self.given(token, "a colour")?;
+        self.bare_components(None, &second)?;
         let entries = match second.value {
             Value::Number(to) => {
                 let number = second.site();
@@ -172,6 +176,44 @@ impl Evaluator<'_> {
         };
         self.end_of_entry(token)?;
         Ok(entries)
+    }
+
+    /// `[Red]`, `[Red 0]`: a colour where an entry has its value.
+    fn entry_without_value(&mut self, entry: &Token) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        let is_word = matches!(first.kind, TokenKind::Word(word) if word.family() == Family::Color);
+        if !is_word && !matches!(self.peek_declared(), Some(Value::Color(_))) {
+            return None;
+        }
+        let before = self.told();
+        let read = self.written_color_after(entry, "a colour");
+        if read.is_err() {
+            return Some(Reported);
+        }
+        self.take_back(before);
+        let color = self.whole(&first);
+        self.skip_commas();
+        let text = self.sources.text(color.span).to_owned();
+        let number = self.peek().cloned().filter(|next| {
+            let number = self.sources.text(next.span);
+            number.parse::<f64>().is_ok() && next.span.file == color.span.file
+        });
+        let told = |message| Diagnostic::new(Code::MissingPart, message);
+        let told = match number {
+            Some(number) => {
+                let whole = color.span.to(number.span);
+                let right = format!("{} {text}", self.sources.text(number.span));
+                told("the value of an entry stands before its colour")
+                    .at(color.span, "expected a number before this")
+                    .help(format!("write `[{right}]`"))
+                    .fix(whole, right)
+            }
+            None => told("an entry begins with its value, from 0 to 1")
+                .at(color.span, "expected a number before this")
+                .help(format!("write `[0 {text}]` for the first, and `[1 …]` for the last")),
+        };
+        while self.next().is_some() {}
+        Some(self.report(&first.here, told))
     }
 
     /// `[0 P_Wood]`: a pigment stands in a `pigment_map`.

@@ -342,7 +342,15 @@ pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
     use Word as W;
     matches!(
         word,
-        W::Triangle | W::Polygon | W::Cone | W::Mesh | W::Prism | W::Lathe | W::SphereSweep
+        W::Triangle
+            | W::Polygon
+            | W::Cone
+            | W::Mesh
+            | W::Prism
+            | W::Lathe
+            | W::SphereSweep
+            | W::Disc
+            | W::Torus
     ) && suggest::closest(theirs, [word.name()]).is_none()
 }
 

@@ -11,7 +11,7 @@ use crate::vocabulary::Word;
 
 use super::super::function::{Functions, ParameterName, outside_id};
 use super::super::include::missing_file;
-use super::super::stream::Token;
+use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::named::NamedFile;
@@ -52,16 +52,14 @@ impl Evaluator<'_> {
         self.stored += size_of_val(&heights[..]) as u64;
         let mut field = HeightField { from, heights, width, water: 0.0, smooth: false };
         let mut water = None;
-        loop {
-            self.skip_commas();
-            if self.take_word(Word::Smooth).is_some() {
-                field.smooth = self.optional_flag(token)?;
-            } else if let Some(word) = self.take_word(Word::WaterLevel) {
-                let level = self.number_after(&word, "a number for the height of the water")?;
-                field.water = level.value;
-                water = Some(level);
-            } else {
-                break;
+        while let Some((item, word)) = self.next_item(&[Word::Smooth, Word::WaterLevel]) {
+            match word {
+                Word::Smooth => field.smooth = self.optional_flag(&item)?,
+                _ => {
+                    let level = self.number_after(&item, "a number for the height of the water")?;
+                    field.water = level.value;
+                    water = Some(level);
+                }
             }
         }
         if let Some(level) = water.filter(|_| field.is_nothing()) {
@@ -71,6 +69,16 @@ impl Evaluator<'_> {
             self.nothing(token, &level.here, diagnostic)?;
         }
         Ok(Solid::HeightField { field: Arc::new(field) })
+    }
+
+    /// The next of what stands behind the heights; a misspelt one is told.
+    fn next_item(&mut self, words: &[Word]) -> Option<(Token, Word)> {
+        self.skip_commas();
+        let next = self.peek()?.clone();
+        if let Some(word) = self.misspelt_part(Word::HeightField, words) {
+            return Some((Token { kind: TokenKind::Word(word), ..next }, word));
+        }
+        words.iter().find_map(|word| self.take_word(*word).map(|token| (token, *word)))
     }
 
     fn heights_of_picture(&mut self, token: &Token) -> Outcome<(String, Heights)> {

@@ -66,7 +66,7 @@ impl Evaluator<'_> {
     pub(super) fn function_part(&mut self, token: &Token) -> Outcome<Arc<Closed>> {
         self.skip_commas();
         self.semicolon_for_comma();
-        let Some(word) = self.take_word(Word::Function) else {
+        let Some(word) = self.take_function() else {
             let next = self.peek().cloned();
             if let Some(next) = &next
                 && let Some(reported) = self.bare_function(next)
@@ -95,6 +95,17 @@ impl Evaluator<'_> {
                 Err(Reported)
             }
             _ => Err(Reported),
+        }
+    }
+
+    /// The word `function`, or what is misspelt for it; that is told.
+    fn take_function(&mut self) -> Option<Token> {
+        let next = self.peek()?.clone();
+        let word = Word::Function;
+        let is_meant = self.misspelt_part(Word::Isosurface, &[word]).is_some();
+        match is_meant {
+            true => Some(Token { kind: TokenKind::Word(word), ..next }),
+            false => self.take_word(word),
         }
     }
 
@@ -193,16 +204,11 @@ impl Evaluator<'_> {
             return Err(self.report(&token.here, diagnostic));
         }
         self.block(token, Word::ContainedBy, |evaluator| {
-            let inner = evaluator.next();
-            let (inner, word) = match inner {
-                Some(Token {
-                    kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), ..
-                }) => (inner.ok_or(Reported)?, word),
-                other => {
-                    let wanted = "`sphere { … }` or `box { … }`";
-                    let at = (&token.here, token.span);
-                    return Err(evaluator.expected(wanted, other.as_ref(), at));
-                }
+            let shapes = [Word::Sphere, Word::Box];
+            let Some((inner, word)) = evaluator.next_part(Word::ContainedBy, &shapes) else {
+                let (other, at) = (evaluator.next(), (&token.here, token.span));
+                let wanted = "`sphere { … }` or `box { … }`";
+                return Err(evaluator.expected(wanted, other.as_ref(), at));
             };
             let solid = evaluator.block(&inner, word, |evaluator| match word {
                 Word::Sphere => evaluator.sphere(&inner),

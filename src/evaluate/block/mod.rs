@@ -3,6 +3,7 @@
 //! **Invariant:** a mistake inside a block costs that block's object and no other; the items after it are
 //! read as if nothing had happened.
 
+mod bare;
 mod blob;
 mod camera;
 mod color;
@@ -20,6 +21,7 @@ mod lone;
 mod mesh;
 mod misplaced;
 mod missing;
+mod misspelt;
 mod modifier;
 mod named;
 mod object;

@@ -362,6 +362,9 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let given = self.given(after, wanted)?;
+        if !matches!(given.value, Value::Color(_)) {
+            self.bare_components(None, &given)?;
+        }
         let color = self.plain_color(&given, wanted)?;
         let bare = !matches!(given.value, Value::Color(_));
         let mut color = self.color_components(color, given.site())?;

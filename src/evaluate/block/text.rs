@@ -155,7 +155,10 @@ impl Evaluator<'_> {
         if let Some(internal) = self.take_word(Word::Internal) {
             return self.internal_font(&internal);
         }
-        let Some(ttf) = self.take_word(Word::Ttf) else { return Ok(BUILT_IN.into()) };
+        let next = self.peek().cloned();
+        let is_meant = self.misspelt_part(Word::Text, &[Word::Ttf]).is_some();
+        let ttf = if is_meant { next } else { self.take_word(Word::Ttf) };
+        let Some(ttf) = ttf else { return Ok(BUILT_IN.into()) };
         let file = self.named_file(&ttf, "the name of a font's file")?;
         self.font_of(&file)
     }

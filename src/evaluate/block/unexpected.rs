@@ -157,13 +157,8 @@ impl Evaluator<'_> {
                 self.inside_block(&token.here, *contents, token.span, Self::run_items);
             }
             TokenKind::Entry(items) => {
-                let diagnostic = Diagnostic::new(
-                    Code::ExtraPart,
-                    format!("an entry in brackets has no meaning {}", place.name()),
-                )
-                .at(opener(token.span), "entries stand in maps: `color_map { [0 …] [1 …] }`");
-                self.report(&token.here, diagnostic);
                 self.inside(&token.here, *items, Self::run_items);
+                self.loose_entries(token, place);
             }
         }
     }
@@ -280,6 +275,10 @@ impl Evaluator<'_> {
                 _ => (token.span, text),
             };
             diagnostic = diagnostic.help(format!("write `{text}`")).fix(whole, text);
+        } else if let Some(told) = self.quoted_color(token, value).filter(|_| {
+            matches!(place.word, Some(Word::Pigment | Word::Texture | Word::Background))
+        }) {
+            diagnostic = told;
         } else if let Some(told) = self.angle_behind_axis(token, value) {
             diagnostic = told;
         } else if let Some((span, number)) = self.comma_before(token.span) {
@@ -318,51 +317,6 @@ impl Evaluator<'_> {
         }
         self.report(&token.here, diagnostic);
         self.skip_values();
-    }
-
-    /// `#macro M(A) { … }`: what is said of the braces.
-    pub(super) fn braced_macro(&self, block: Span) -> Option<Diagnostic> {
-        let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
-        let before = before.trim_end();
-        let line = before.rsplit(['\n', '\r']).next().unwrap_or("").trim_start();
-        let is_meant = line.starts_with("#macro")
-            && before.ends_with(')')
-            && self.sources.text(block).ends_with('}');
-        let message = "the body of `#macro` stands without braces, and ends with `#end`";
-        let closer = Span { start: block.end - 1, ..block };
-        is_meant.then(|| {
-            Diagnostic::new(Code::ExtraPart, message)
-                .at(opener(block), "the braces of another language")
-                .help("leave them out")
-                .fix(opener(block), "")
-                .fix(closer, "")
-        })
-    }
-
-    /// `checker { rgb 1 rgb 0 }`, `gradient y { [0 rgb 1] [1 rgb 0] }`: the colours of a pattern.
-    fn braced_colors(&self, block: Span, told: Diagnostic) -> Diagnostic {
-        let text = self.sources.text(block);
-        let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
-        let mut words = before.trim_end().rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-        let is_pattern = |word: Option<&str>| {
-            let word = word.and_then(Word::from_name);
-            word.is_some_and(|word| word.family() == Family::Pattern)
-        };
-        let last = words.next();
-        let lists = matches!(last, Some("checker" | "hexagon" | "brick" | "square" | "triangular"));
-        if lists && !text.contains('[') && text.ends_with('}') {
-            let closer = Span { start: block.end - 1, ..block };
-            return told
-                .help(format!("the colours of `{}` stand without braces", last.unwrap_or("")))
-                .fix(opener(block), "")
-                .fix(closer, "");
-        }
-        if text.contains('[') && (is_pattern(last) || is_pattern(words.next())) {
-            return told
-                .help("entries of colours stand in a `color_map { … }`")
-                .fix(Span { end: block.start, ..block }, "color_map ");
-        }
-        told
     }
 
     /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where
@@ -412,6 +366,6 @@ impl Evaluator<'_> {
 }
 
 /// The first character of a bracketed span.
-fn opener(span: Span) -> Span {
+pub(super) fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
 }

@@ -6,13 +6,11 @@ use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
-use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
-use super::super::remembered::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
-use super::super::{Evaluator, Outcome, Reported, Symbol};
+use super::super::{Evaluator, Outcome, Symbol};
 use super::habit::{custom, has_other_parts};
 use super::place::home;
 use super::{Place, opens_value};
@@ -102,9 +100,12 @@ impl Evaluator<'_> {
                 .fix(span, right);
             return Unknown::Word { told, near: None };
         }
-        // A word that another tool has is meant as there, whatever it resembles.
-        let is_known = suggest::foreign(&name).any(is_built);
-        let here = suggest::foreign(&name)
+        // A word that another tool has is meant as there, whatever it resembles; a name with a capital is
+        // the author's.
+        let is_own = !has_block && name.starts_with(char::is_uppercase);
+        let foreign = || suggest::foreign(&name).filter(|_| !is_own);
+        let is_known = foreign().any(is_built);
+        let here = foreign()
             .find(|word| place.may_mean(word, dialect))
             .or_else(|| suggest::reworded(&name, words()))
             .or_else(|| suggest::closest(&name, words()).filter(|w| !is_known || is_built(w)))
@@ -112,6 +113,9 @@ impl Evaluator<'_> {
             .or_else(|| suggest::begun(&name, words()))
             .or_else(|| suggest::short_of(&name, words()));
         let symbol = self.scopes.symbol(&name).filter(|_| !has_block);
+        if let Some(symbol) = symbol.filter(|_| name.contains([' ', '-'])) {
+            return Unknown::Name(symbol);
+        }
         if let Some(symbol) = symbol
             && self.is_rather_a_name(token, &name, symbol, here)
         {
@@ -216,7 +220,13 @@ impl Evaluator<'_> {
         if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
             return true;
         }
-        if here.is_some_and(|here| here.eq_ignore_ascii_case(name)) {
+        // But for a word of the language in capitals, that is no colour and needs no block.
+        let is_word = |here: &str| {
+            here.eq_ignore_ascii_case(name)
+                && Word::from_name(here)
+                    .is_some_and(|word| word.family() != Family::Color && !opens_value(word))
+        };
+        if here.is_some_and(is_word) {
             return false;
         }
         // A name with a capital is rather one of the author's.
@@ -258,116 +268,6 @@ impl Evaluator<'_> {
         }
         self.take_back(before);
     }
-
-    /// `colr rgb 1` where a colour should stand, or `intensity 2`.
-    pub(super) fn misspelt_color(&mut self, after: &Token) -> Option<Reported> {
-        let token = self.peek()?.clone();
-        let TokenKind::Expression(id) = token.kind else { return None };
-        self.unknown_name(&token.here, id)?;
-        let name = self.sources.text(token.span).to_owned();
-        if let Some(diagnostic) = self.alpha_color(&name, token.span) {
-            let reported = self.report(&token.here, diagnostic);
-            self.next();
-            self.skip_values();
-            return Some(reported);
-        }
-        if after.kind == TokenKind::Word(Word::LightSource)
-            && let Some(custom) = custom(&name, Place::LIGHT)
-        {
-            let message = format!("`{name}` is not a word {}", Place::LIGHT.name());
-            let diagnostic = Diagnostic::new(Code::ForeignWord, message).at(token.span, custom);
-            let reported = self.report(&token.here, diagnostic);
-            self.next();
-            self.skip_values();
-            return Some(reported);
-        }
-        let near = self.near(token.span, Asked::Color, || {
-            word_like(&name, |word| word.family() == Family::Color)
-        })?;
-        // Without a value behind it, it is rather the name of a colour.
-        let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
-        let has_value =
-            rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_alphanumeric());
-        if !has_value {
-            return None;
-        }
-        let message = format!("`{name}` is not a word that begins a colour");
-        let diagnostic = meant(Diagnostic::new(Code::UnknownWord, message), token.span, near);
-        let reported = self.report(&token.here, diagnostic);
-        self.next();
-        drop(self.color_after(&token, "a colour"));
-        Some(reported)
-    }
-
-    /// `color power 100`: a name that was never declared and its value, where a colour should stand.
-    pub(super) fn unknown_part_of_color(&mut self) -> Option<Reported> {
-        let token = self.peek()?.clone();
-        let TokenKind::Expression(id) = token.kind else { return None };
-        let symbol = self.unknown_name(&token.here, id)?;
-        let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
-        if !rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_ascii_digit()) {
-            return None;
-        }
-        let name = self.sources.text(token.span).to_owned();
-        let of_light = self
-            .openers
-            .last()
-            .is_some_and(|opener| self.sources.text(*opener) == Word::LightSource.name());
-        self.next();
-        let reported = match custom(&name, Place::LIGHT).filter(|_| of_light) {
-            Some(custom) => {
-                let message = format!("`{name}` is not a word {}", Place::LIGHT.name());
-                let told = Diagnostic::new(Code::ForeignWord, message).at(token.span, custom);
-                self.report(&token.here, told)
-            }
-            None => self.undeclared(&token.here, symbol, token.span),
-        };
-        self.skip_behind(token.span);
-        Some(reported)
-    }
-
-    /// `camra { … }` where a value should stand.
-    pub(in crate::evaluate) fn misspelt_block(
-        &mut self,
-        token: &Token,
-        id: ExpressionId,
-    ) -> Option<Reported> {
-        self.unknown_name(&token.here, id)?;
-        let Some(Token { kind: TokenKind::Block(contents), here, span: block }) =
-            self.peek_on().cloned()
-        else {
-            return None;
-        };
-        let name = self.sources.text(token.span).to_owned();
-        let opens = |word: Word| {
-            word.role() == Role::Statement
-                && (matches!(word.family(), Family::Shape | Family::Csg | Family::Texture)
-                    || OPENERS.contains(&word))
-        };
-        let message = format!("`{name}` is not a word that begins a value");
-        let diagnostic = Diagnostic::new(Code::UnknownWord, message);
-        // Before a block a capital does not make it one of the author's names.
-        let near = self.near(token.span, Asked::Block, || {
-            let in_case = || Word::from_name(&name.to_lowercase()).filter(|word| opens(*word));
-            in_case().map(Word::name).or_else(|| word_like(&name.to_lowercase(), opens))
-        });
-        let diagnostic = match near {
-            Some(near) => meant(diagnostic, token.span, near),
-            None => diagnostic.at(token.span, UNKNOWN),
-        };
-        let reported = self.report(&token.here, diagnostic);
-        if let Some(word) = near.and_then(Word::from_name)
-            && self.judge_block(token, word)
-        {
-            return Some(reported);
-        }
-        self.next();
-        // What is inside belongs to a word that is not known: run, but not judged.
-        let before = self.told();
-        self.inside_block(&here, contents, block, Self::run_items);
-        self.take_back(before);
-        Some(reported)
-    }
 }
 
 /// What an unknown word is taken for.
@@ -399,9 +299,9 @@ pub(super) fn told_directive(name: &str, span: Span, place: Place) -> Option<Dia
     Some(diagnostic)
 }
 
-const UNKNOWN: &str = "neither a word of the language nor a declared name";
+pub(super) const UNKNOWN: &str = "neither a word of the language nor a declared name";
 
-fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnostic {
+pub(super) fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnostic {
     let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
     match is_built(near) {
         true => diagnostic.help(format!("replace it with `{near}`")).fix(span, near),
@@ -414,20 +314,6 @@ fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnostic {
 pub(super) fn is_transform(name: &str) -> bool {
     Word::from_name(name).is_some_and(|word| word.family() == Family::Transform)
 }
-
-/// The words beside shapes and textures whose block is a value.
-const OPENERS: &[Word] = &[
-    Word::Camera,
-    Word::LightSource,
-    Word::Object,
-    Word::TransformWord,
-    Word::Interior,
-    Word::ColorMap,
-    Word::SkySphere,
-    Word::Fog,
-    Word::Media,
-    Word::Function,
-];
 
 /// The block in which a name is a word.
 fn contextual(name: &str) -> Option<&'static str> {

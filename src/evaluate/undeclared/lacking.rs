@@ -30,7 +30,10 @@ impl Evaluator<'_> {
 
     /// The name in a standard include which was not read that one with a capital is most likely meant as.
     pub(in crate::evaluate) fn lacking_near(&self, name: &str) -> Option<(&'static str, String)> {
-        if !name.starts_with(char::is_uppercase) || name.len() < 3 {
+        if !name.starts_with(char::is_uppercase) {
+            return self.lacking_in_small_letters(name);
+        }
+        if name.len() < 3 {
             return None;
         }
         // Of all names of the includes too many are close to a short one: only those of colours are.
@@ -41,6 +44,12 @@ impl Evaluator<'_> {
         }
         (!suggest::are_of_a_series(name, near) && !self.has_read(COLORS))
             .then(|| (near, COLORS.to_owned()))
+    }
+
+    /// `white`, `skyblue`: a colour that is `White`, `SkyBlue` there.
+    pub(super) fn lacking_in_small_letters(&self, name: &str) -> Option<(&'static str, String)> {
+        let near = standard_color(name)?;
+        (!self.has_read(COLORS)).then(|| (near, COLORS.to_owned()))
     }
 
     /// Further down in the same file, the include that declares `name`.
@@ -147,6 +156,12 @@ impl Evaluator<'_> {
             ))
             .fix(before, format!("#include \"{include}\"\n"))
     }
+}
+
+/// The colour of the standard include that `name` is in other letters: `skyblue`, `sky_blue`.
+pub(in crate::evaluate) fn standard_color(name: &str) -> Option<&'static str> {
+    let plain = name.replace(['_', ' '], "");
+    standard_names(COLORS).find(|color| color.eq_ignore_ascii_case(&plain))
 }
 
 /// Whether a text has `#declare name`, or `#macro name`.

@@ -162,31 +162,6 @@ impl Reader<'_> {
         true
     }
 
-    /// `a^2`.
-    pub(super) fn power(&mut self, meant: &mut Vec<Token>) -> bool {
-        let ends = matches!(
-            meant.last().map(|token| token.kind),
-            Some(
-                TokenKind::Name
-                    | TokenKind::Number
-                    | TokenKind::Word(_)
-                    | TokenKind::Mark(Mark::Close(Bracket::Round))
-            )
-        );
-        if self.slice(0) != "^" || !ends {
-            return false;
-        }
-        let diagnostic =
-            Diagnostic::new(Code::UnexpectedCharacter, "the character `^` has no meaning here")
-                .at(self.span(0, 0), "an operator of another language")
-                .help("a power is written `pow(a, b)`");
-        self.diagnostics.push(diagnostic);
-        // An operator, so that what stands on both sides is read.
-        meant.push(Token { kind: TokenKind::Mark(Mark::Star), ..self.tokens[self.at] });
-        self.at += 1;
-        true
-    }
-
     /// `$fn = 50;`: a name with a sign of another language, and its value.
     pub(super) fn dollar(&mut self, meant: &mut Vec<Token>) -> bool {
         let named = self.slice(0) == "$"
@@ -329,7 +304,7 @@ impl Reader<'_> {
             && self.text.get(declared.start as usize..declared.end as usize) == Some(name)
     }
 
-    /// `==`, `&&`, `||`, `**`.
+    /// `==`, `&&`, `||`.
     pub(super) fn doubled(&mut self, mark: Mark, meant: &mut Vec<Token>) -> bool {
         if !(self.is(1, mark) && self.touches(1)) {
             return false;
@@ -344,9 +319,7 @@ impl Reader<'_> {
             Mark::Equal => ("equality is written `=`, not `==`", "replace it with `=`", Some("=")),
             Mark::And => ("`&&` is written `&`", "replace it with `&`", Some("&")),
             Mark::Or => ("`||` is written `|`", "replace it with `|`", Some("|")),
-            _ => {
-                ("`**` is not an operator of the language", "a power is written `pow(a, b)`", None)
-            }
+            _ => return false,
         };
         let mut diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(span, "an operator of another language")

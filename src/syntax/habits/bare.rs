@@ -5,7 +5,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Word, standard_include_of};
+use crate::vocabulary::{Role, Word, standard_include_of};
 
 /// How many tokens back the parenthesis of a call is looked for.
 const MOST_ARGUMENTS: usize = 256;
@@ -93,6 +93,74 @@ impl Reader<'_> {
         while self.tokens.get(self.at).is_some_and(|token| (token.start as usize) < end) {
             self.at += 1;
         }
+        true
+    }
+
+    /// `...` for what was left out.
+    pub(super) fn dots(&mut self) -> bool {
+        let dot = |ahead: usize| self.is(ahead, Mark::Dot);
+        if !(dot(1) && dot(2) && self.touches(1) && self.touches(2)) {
+            return false;
+        }
+        let span = self.span(0, 2);
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, "`...` has no meaning here")
+                .at(span, "it stands for what was left out")
+                .help("write what it stands for, or leave it out"),
+        );
+        self.at += 3;
+        true
+    }
+
+    /// `sphere: { … }`.
+    pub(super) fn colon_before_block(&mut self, meant: &[Token]) -> bool {
+        let word = match meant.last().map(|last| last.kind) {
+            Some(TokenKind::Word(word)) if word.role() == Role::Statement => word,
+            _ => return false,
+        };
+        if !self.is(1, Mark::Open(Bracket::Brace)) {
+            return false;
+        }
+        let (name, span) = (word.name(), self.span(0, 0));
+        let message = format!("`{name}` has its block right behind it, without `:`");
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(span, "a sign of another language")
+                .help(format!("write `{name} {{ … }}`"))
+                .fix(span, ""),
+        );
+        self.at += 1;
+        true
+    }
+
+    /// A number behind a bracket, and more: no index of an array.
+    fn begins_entry(&self) -> bool {
+        let closed = TokenKind::Mark(Mark::Close(Bracket::Square));
+        self.kind(1) == Some(TokenKind::Number) && self.kind(2).is_some_and(|kind| kind != closed)
+    }
+
+    /// `[0 Red [1 Blue]` in a map: the first entry is not closed.
+    pub(super) fn entry_in_entry(&mut self, meant: &mut Vec<Token>) -> bool {
+        let [.., map, entry] = self.inside.as_slice() else { return false };
+        if !(map.is_map() && entry.is(Bracket::Square) && self.begins_entry()) {
+            return false;
+        }
+        let square = TokenKind::Mark(Mark::Open(Bracket::Square));
+        let Some(opener) = meant.iter().rfind(|token| token.kind == square) else { return false };
+        let (opener, last) = (*opener, meant.last().map_or(opener.end, |last| last.end));
+        let span = |start: u32, end: u32| Span::new(self.file, start as usize, end as usize);
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnclosedBlock, "this `[` is never closed")
+                .at(span(opener.start, opener.end), "opened here")
+                .also(self.span(0, 0), "expected `]` before this")
+                .fix(span(last, last), "]"),
+        );
+        let kind = TokenKind::Mark(Mark::Close(Bracket::Square));
+        meant.push(Token { kind, start: last, end: last });
+        if let Some(inside) = self.inside.pop() {
+            self.leave(inside);
+        }
+        self.take(meant);
         true
     }
 

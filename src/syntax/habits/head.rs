@@ -24,8 +24,14 @@ impl Reader<'_> {
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
             Head::Else => self.body(head, meant),
             Head::Unknown => self.hash_comment(),
-            Head::Declare | Head::Local => self.defined_macro(meant) || self.value(head, meant),
-            Head::Default => self.default_case(meant),
+            Head::Declare | Head::Local => {
+                self.defined_macro(meant) || self.type_before_name(meant) || self.value(head, meant)
+            }
+            Head::Default => self.default_case(meant) || self.sign_behind_head(meant),
+            Head::Version => self.sign_behind_head(meant),
+            Head::End => self.end_of_what(meant),
+            Head::Include => self.several_includes(meant),
+            Head::Debug | Head::Warning | Head::Error => self.printed_parts(meant),
             Head::Macro => self.braced_parameters(meant) || self.parameters_unopened(meant),
             Head::Fopen | Head::Read | Head::Write | Head::Fclose => {
                 self.file_directive(head, meant)

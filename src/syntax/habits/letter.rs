@@ -316,9 +316,12 @@ fn mark(text: &str) -> Option<Mark> {
 fn likeness(name: &str) -> Option<String> {
     const ALIKE: &str =
         "аaеeоoрpсcхxуyіiѕsјjһhԁdАAВBЕEКKМMНHОOРPСCТTХXУYІIЅSαaοoνvρpΑAΒBΕEΖZΗHΙIΚKΜMΝNΟOΡPΤTΥYΧX";
-    let alike = |c: char| match c.is_ascii() {
-        true => Some(c),
-        false => ALIKE.chars().skip_while(|other| *other != c).nth(1),
+    // The letters of wide scripts, in the order of ASCII.
+    const WIDE: u32 = '！' as u32 - '!' as u32;
+    let alike = |c: char| match c {
+        _ if c.is_ascii() => Some(c),
+        '！'..='～' => char::from_u32(c as u32 - WIDE),
+        _ => ALIKE.chars().skip_while(|other| *other != c).nth(1),
     };
     let plain: Option<String> = name.chars().map(alike).collect();
     plain.filter(|plain| {

@@ -1,5 +1,6 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`, `condition.rs`), colours of the web (`web.rs`), the
+//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`, `condition.rs`) and what
+//! stands beside them (`directive.rs`), colours of the web (`web.rs`), the
 //! parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them, templates (`template.rs`).
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
@@ -15,17 +16,22 @@ mod called;
 mod case;
 mod condition;
 mod counting;
+mod directive;
 mod dotted;
 mod file;
 mod head;
 mod letter;
 mod map;
+mod name;
 mod number;
+mod operator;
 mod part;
+mod reserved;
 mod sample;
 mod scad;
 mod sign;
 mod template;
+mod unopened;
 mod vector;
 mod web;
 
@@ -59,11 +65,13 @@ pub(super) fn translate(
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
         hyphens: BTreeMap::new(),
+        reserved: BTreeMap::new(),
         ascii: text.is_ascii(),
         diagnostics,
     };
     let mut meant = Vec::with_capacity(tokens.len());
     reader.find_hyphens();
+    reader.find_reserved();
     while reader.at < tokens.len() {
         if !reader.habit(&mut meant) {
             reader.take(&mut meant);
@@ -77,7 +85,9 @@ pub(super) fn translate(
         reader.leave(inside);
     }
     let hyphens = std::mem::take(&mut reader.hyphens).into_values().map(|(told, _)| told);
-    for told in std::mem::take(&mut reader.foreign).into_values().chain(hyphens) {
+    let reserved = std::mem::take(&mut reader.reserved).into_values().map(|(told, _)| told);
+    let names = hyphens.chain(reserved);
+    for told in std::mem::take(&mut reader.foreign).into_values().chain(names) {
         reader.diagnostics.push(told);
     }
     meant
@@ -107,6 +117,8 @@ struct Reader<'a> {
     foreign: Foreign,
     /// Declared names that cannot be, such as `my-size`; what is said of each, and its plain spelling.
     hyphens: BTreeMap<String, (Diagnostic, String)>,
+    /// Words of the language that are declared as names; what is said of each, and a name that is free.
+    reserved: BTreeMap<&'static str, (Diagnostic, String)>,
     /// The text has no character beyond ASCII.
     ascii: bool,
     diagnostics: &'a mut Diagnostics,
@@ -145,34 +157,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether the text declares a name: as a value, a parameter, a file or what a loop counts by.
-    fn declares_anywhere(&self, name: &str) -> bool {
-        let names = self.declared.get_or_init(|| {
-            let mut names = HashSet::new();
-            let mut heads = false;
-            for token in self.tokens {
-                heads = match token.kind {
-                    TokenKind::Directive(
-                        Head::Declare
-                        | Head::Local
-                        | Head::Macro
-                        | Head::For
-                        | Head::Fopen
-                        | Head::Read,
-                    ) => true,
-                    TokenKind::Name | TokenKind::Word(_) => heads,
-                    TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)) => heads,
-                    _ => false,
-                };
-                if heads && token.kind == TokenKind::Name {
-                    names.extend(self.text.get(token.start as usize..token.end as usize));
-                }
-            }
-            names
-        });
-        names.contains(name)
-    }
-
     fn span(&self, from: usize, to: usize) -> Span {
         let (from, to) = (self.tokens[self.at + from], self.tokens[self.at + to]);
         Span::new(self.file, from.start as usize, to.end as usize)
@@ -205,11 +189,13 @@ impl Reader<'_> {
             return true;
         }
         match kind {
+            TokenKind::Word(word) if self.reserved(word, meant) => true,
             TokenKind::Word(word) => {
                 self.times(meant)
                     || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
+                    || (word == Word::Version && self.version_without_hash(meant))
                     || self.case(word, meant)
                     || self.head_without_hash(word, meant)
                     || self.scad(meant)
@@ -228,6 +214,7 @@ impl Reader<'_> {
                     || self.times(meant)
                     || self.space_of_names()
                     || self.parted_word(meant)
+                    || self.parted_standard_name(meant)
                     || self.declarer(meant)
                     || self.definer(meant)
                     || self.library(meant)
@@ -253,12 +240,12 @@ impl Reader<'_> {
                     || self.dollar(meant)
                     || self.template(meant)
                     || self.percent(meant)
-                    || self.power(meant)
+                    || self.operator(meant)
                     || self.single_quotes(meant)
                     || (!self.ascii && self.sign(meant))
             }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => {
-                self.array_list(meant) || self.vector(meant)
+                self.entry_in_entry(meant) || self.array_list(meant) || self.vector(meant)
             }
             TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
                 self.template(meant) || self.vector(meant)
@@ -271,11 +258,14 @@ impl Reader<'_> {
                 self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
             }
             TokenKind::Mark(Mark::Dot) => {
-                self.truth_of_fortran(meant)
+                self.dots()
+                    || self.truth_of_fortran(meant)
                     || self.parted_number(meant)
                     || self.color_by_dot(meant)
             }
-            TokenKind::Mark(Mark::Colon) => self.colon_in_entry(meant),
+            TokenKind::Mark(Mark::Colon) => {
+                self.colon_before_block(meant) || self.colon_in_entry(meant)
+            }
             TokenKind::Mark(Mark::Semicolon) => self.semicolon_in_list(meant),
             TokenKind::Mark(Mark::Equal)
                 if self.formula_behind_sign(meant)
@@ -289,9 +279,14 @@ impl Reader<'_> {
             TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
             TokenKind::Mark(Mark::Less) if self.comment_of_html() => true,
             TokenKind::Mark(Mark::Or) if self.length_between_bars(meant) => true,
+            TokenKind::Mark(Mark::Greater) if self.unopened_vector(meant) => true,
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
-            TokenKind::Mark(Mark::Star) if self.number_without_room(meant) => true,
-            TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or | Mark::Star)) => {
+            TokenKind::Mark(Mark::Star)
+                if self.number_without_room(meant) || self.operator(meant) =>
+            {
+                true
+            }
+            TokenKind::Mark(mark @ (Mark::Equal | Mark::And | Mark::Or)) => {
                 self.doubled(mark, meant)
             }
             _ => false,

@@ -39,6 +39,12 @@ impl Inside {
             && self.word.is_none_or(|word| word.family() == Family::Csg || word == Word::Object)
     }
 
+    /// The brace of a shape.
+    pub(super) fn opens_shape(&self) -> bool {
+        self.bracket == Bracket::Brace
+            && self.word.is_some_and(|word| word.family() == Family::Shape)
+    }
+
     pub(super) fn is(&self, bracket: Bracket) -> bool {
         self.bracket == bracket
     }

@@ -1,13 +1,9 @@
-//! Signs of other languages: `and`, `'strings'`, `# comments`, names with hyphens.
+//! Signs of other languages: `and`, `'strings'`, `# comments`.
 
 use super::Reader;
-use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Role, Word};
-
-/// No word of the language is longer.
-const LONGEST_WORD: usize = 30;
 
 impl Reader<'_> {
     /// `and`, `or`, `not` inside parentheses.
@@ -256,143 +252,6 @@ impl Reader<'_> {
             .help("replace it with `//`")
             .fix(sign, "//");
         self.diagnostics.push(diagnostic);
-        while self.tokens.get(self.at).is_some_and(|token| token.start < end) {
-            self.at += 1;
-        }
-        true
-    }
-
-    /// `Colors::Red`: a name of a space of names.
-    pub(super) fn space_of_names(&mut self) -> bool {
-        let (colon, second) = (self.is(1, Mark::Colon), self.is(2, Mark::Colon));
-        let is_name = matches!(self.kind(3), Some(TokenKind::Name | TokenKind::Word(_)));
-        let touch = |at: usize| self.span(at, at).end == self.span(at + 1, at + 1).start;
-        if !(colon && second && is_name && (0..3).all(touch)) {
-            return false;
-        }
-        let (whole, name) = (self.span(0, 3), self.slice(3).to_owned());
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::UnexpectedCharacter,
-                "names belong to no space: there is no `::`",
-            )
-            .at(whole, format!("the name is `{name}`"))
-            .fix(self.span(0, 2), ""),
-        );
-        self.at += 3;
-        true
-    }
-
-    /// `look at`, `light source { … }`: a word of the language in two parts.
-    pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
-        let is_part = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
-        // `look-at`
-        let hyphen = self.is(1, Mark::Minus) && self.touches(1) && self.kind(2).is_some();
-        let last = if hyphen && self.touches(2) { 2 } else { 1 };
-        if !is_part(self.kind(last)) {
-            return false;
-        }
-        let span = self.span(0, last);
-        let text = self.text.get(span.range()).unwrap_or("");
-        let part = [' ', '\t', '-'];
-        let Some(blank) = text.find(part).filter(|_| text.len() <= LONGEST_WORD) else {
-            return false;
-        };
-        let rest = text[blank..].trim_start_matches(part);
-        let whole = format!("{}_{rest}", text[..blank].trim_end_matches('_'));
-        let Some(word) = Word::from_name(&whole).filter(|word| word.role() == Role::Statement)
-        else {
-            return false;
-        };
-        self.diagnostics.push(
-            Diagnostic::new(Code::UnknownWord, format!("`{whole}` is one word"))
-                .at(span, format!("did you mean `{whole}`?"))
-                .help(format!("replace it with `{whole}`"))
-                .fix(span, whole),
-        );
-        meant.push(Token { kind: TokenKind::Word(word), end: span.end, ..self.tokens[self.at] });
-        self.at += last + 1;
-        true
-    }
-
-    /// `#declare my-size = 3`, `#declare my size = 3`: the names that cannot be, and what is said of each.
-    pub(super) fn find_hyphens(&mut self) {
-        for at in 0..self.tokens.len() {
-            if !matches!(self.tokens[at].kind, TokenKind::Directive(Head::Declare | Head::Local)) {
-                continue;
-            }
-            self.at = at;
-            let part = |kind| {
-                matches!(
-                    kind,
-                    Some(
-                        TokenKind::Name
-                            | TokenKind::Word(_)
-                            | TokenKind::Number
-                            | TokenKind::Mark(Mark::Minus)
-                    )
-                )
-            };
-            let mut end = 2;
-            while part(self.kind(end)) && self.touches(end) {
-                end += 1;
-            }
-            // Of two words.
-            let is_name = |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_)));
-            let parted = end == 2
-                && self.kind(1) == Some(TokenKind::Name)
-                && is_name(self.kind(2))
-                && self.is(3, Mark::Equal);
-            let end = if parted { 3 } else { end };
-            let assigned = self.is(end, Mark::Equal) && part(self.kind(1)) && end > 2;
-            if !assigned || self.is(1, Mark::Minus) {
-                continue;
-            }
-            let span = self.span(1, end - 1);
-            let name = self.text.get(span.range()).unwrap_or("").to_owned();
-            let digit = name.starts_with(|c: char| c.is_ascii_digit());
-            let plain = match parted {
-                true => format!("{}_{}", self.slice(1), self.slice(2)),
-                false => name.replace(['-', '.'], "_"),
-            };
-            let plain = if digit { format!("_{plain}") } else { plain };
-            let why = match digit {
-                true => "a name begins with a letter or `_`",
-                false if parted => "a name has no blank in it",
-                false if name.contains('-') => "a name has no hyphen in it",
-                false => "a name has no dot in it: letters, digits and `_` alone",
-            };
-            let told = Diagnostic::new(Code::UnexpectedCharacter, format!("`{name}` is no name"))
-                .at(span, why)
-                .help(format!("write `{plain}`"));
-            self.hyphens.entry(name).or_insert((told, plain));
-        }
-        self.at = 0;
-    }
-
-    /// Whether the name at `ahead` is the beginning of one that `find_hyphens` has found.
-    pub(super) fn is_hyphen_name(&self, ahead: usize) -> bool {
-        let start = self.tokens.get(self.at + ahead).map_or(0, |token| token.start as usize);
-        let rest = self.text.get(start..).unwrap_or("");
-        self.hyphens.keys().any(|name| rest.starts_with(name.as_str()))
-    }
-
-    /// A name that `find_hyphens` has found.
-    pub(super) fn hyphens(&mut self, meant: &mut Vec<Token>) -> bool {
-        let token = self.tokens[self.at];
-        let rest = self.text.get(token.start as usize..).unwrap_or("");
-        let ends = |name: &&String| {
-            rest.strip_prefix(name.as_str()).is_some_and(|after| {
-                !after.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-')
-            })
-        };
-        let Some(name) = self.hyphens.keys().find(ends).cloned() else { return false };
-        let end = token.start + name.len() as u32;
-        let span = Span { end, ..self.span(0, 0) };
-        if let Some((told, plain)) = self.hyphens.get_mut(&name) {
-            told.fixes.push(Fix { span, text: plain.clone() });
-        }
-        meant.push(Token { kind: TokenKind::Name, end, ..token });
         while self.tokens.get(self.at).is_some_and(|token| token.start < end) {
             self.at += 1;
         }

@@ -120,14 +120,18 @@ impl Reader<'_> {
             return false;
         };
         let span = Span { start: number.start, ..self.span(0, 0) };
-        let goes_on = matches!(
-            self.kind(1),
-            Some(
-                TokenKind::Number
-                    | TokenKind::Name
-                    | TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Minus)
-            )
-        );
+        // `[0% Red]`
+        let in_entry = self.inside.last().is_some_and(|inside| inside.is(Bracket::Square));
+        let is_name = self.kind(1) == Some(TokenKind::Name);
+        let goes_on = !(in_entry && is_name && self.touches(0))
+            && matches!(
+                self.kind(1),
+                Some(
+                    TokenKind::Number
+                        | TokenKind::Name
+                        | TokenKind::Mark(Mark::Open(Bracket::Round) | Mark::Minus)
+                )
+            );
         let text = self.text.get(number.start as usize..number.end as usize).unwrap_or("");
         let Some(value) = text.parse::<f64>().ok().filter(|_| !goes_on) else { return false };
         let part = format!("{}", value / 100.0);

@@ -63,6 +63,12 @@ impl Reader<'_> {
                 word.role() == Role::Statement
                     && matches!(word.family(), Family::Transform | Family::Color)
             }
+            // `sphere { {0, 1, 0}, 1 }`
+            Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma))
+                if bracket == Bracket::Brace =>
+            {
+                self.inside.last().is_some_and(Inside::opens_shape)
+            }
             _ if bracket == Bracket::Brace => false,
             Some(TokenKind::Mark(Mark::Open(Bracket::Brace) | Mark::Comma)) => true,
             // `[0.5 vec3(1, 0, 0)]` in a map.

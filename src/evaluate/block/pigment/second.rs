@@ -140,14 +140,23 @@ impl Evaluator<'_> {
                 let told = diagnostic(message.to_owned(), "a second one").help("leave it out");
                 self.gone_from(told, item, item)
             }
-            (None, None) => {
-                let message = "a pigment has one colour, and this is a second";
-                diagnostic(message.to_owned(), "expected a word of this block, or its end").help(
-                    format!(
+            (None, None) => match self.comma_in_color(token, first.site, item) {
+                Some(comma) => {
+                    let name = self.sources.text(token.span);
+                    let message = format!("no comma stands before `{name}`");
+                    Diagnostic::new(Code::ExtraPart, message)
+                        .at(comma, "this ends the colour")
+                        .help("leave it out")
+                        .fix(comma, "")
+                }
+                None => {
+                    let message = "a pigment has one colour, and this is a second".to_owned();
+                    let label = "expected a word of this block, or its end";
+                    diagnostic(message, label).help(format!(
                         "leave one of the two out, or name a pattern: `checker {before}, {shown}`"
-                    ),
-                )
-            }
+                    ))
+                }
+            },
             (None, Some(_)) => {
                 let message = "a pigment is one colour or one pattern, and not both";
                 let told = diagnostic(message.to_owned(), "a pattern behind a colour")
@@ -165,6 +174,18 @@ impl Evaluator<'_> {
             }
         };
         self.report(&token.here, diagnostic)
+    }
+
+    /// `rgb x, transmit 0.5`: the comma before a component of a colour, if one stands there.
+    fn comma_in_color(&self, token: &Token, first: Site, item: Site) -> Option<Span> {
+        let is_component = matches!(
+            token.kind,
+            TokenKind::Word(Word::Filter | Word::Transmit | Word::Red | Word::Green | Word::Blue)
+        );
+        let between = Span { start: first.span.end, end: item.span.start, ..first.span };
+        let comma = self.side_by_side(first, item).then(|| self.sources.text(between).find(','))?;
+        let start = between.start + comma? as u32;
+        is_component.then_some(Span { start, end: start + 1, ..between })
     }
 
     /// Whether nothing but blanks and a comma stand between two pieces of a text.

@@ -373,7 +373,7 @@ impl Evaluator<'_> {
                 _ if self.is_before_value() || self.at_color() => {
                     if self.color_after(token, "a colour").is_err() {
                         self.skip_values();
-                        return;
+                        return self.skip_colors(token);
                     }
                 }
                 _ => return,
@@ -390,6 +390,11 @@ impl Evaluator<'_> {
             .also(token.span, "for this")
             .help("leave it out");
         self.report(&token.here, diagnostic);
+        self.skip_colors(token);
+    }
+
+    /// Passes over the colours that are left of a pattern of which one was told.
+    fn skip_colors(&mut self, token: &Token) {
         let before = self.told();
         while self.at_color() {
             if self.color_after(token, "a colour").is_err() {
