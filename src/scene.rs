@@ -84,6 +84,8 @@ pub struct Unused {
     pub site: Site,
     /// What it stands for is a light.
     pub is_light: bool,
+    /// What it stands for is a camera.
+    pub is_camera: bool,
 }
 
 /// One object placed in the scene.

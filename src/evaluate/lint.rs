@@ -133,7 +133,8 @@ impl Evaluator<'_> {
             let directive = ["macro", "local"].into_iter().find(|word| before.ends_with(word));
             let directive = directive.unwrap_or("declare");
             let name = name.to_owned();
-            unused.push((Unused { directive, name, site, is_light }, diagnostic));
+            let is_camera = matches!(value, Some(Value::Camera(_)));
+            unused.push((Unused { directive, name, site, is_light, is_camera }, diagnostic));
         }
         unused.sort_by_key(|(one, _)| one.site.span);
         for (one, diagnostic) in unused {

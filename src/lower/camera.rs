@@ -26,6 +26,8 @@ struct Word {
 /// The camera's words, sorted out.
 struct Words {
     location: DoubleVector,
+    /// Whether that is written.
+    placed: bool,
     direction: Word,
     right: Word,
     up: Word,
@@ -66,7 +68,7 @@ impl Lowering<'_, '_> {
         if camera.kind == CameraKind::Orthographic {
             words.fit_to_look_at(dialect);
         }
-        words.turn(dialect)?;
+        words.turn(dialect, camera.site)?;
         let location = map.point(words.location);
         let [forward, right, up] =
             [words.direction, words.right, words.up].map(|word| map.direction(word.vector));
@@ -97,6 +99,7 @@ impl Words {
         let (direction, right) = defaults(dialect);
         let mut words = Self {
             location: DoubleVector::ZERO,
+            placed: false,
             direction: default(direction),
             right: default(right),
             up: default(Vector::Y),
@@ -109,7 +112,9 @@ impl Words {
         for item in &camera.items {
             let word = |v: Vector| Word { vector: exact(v), site: Some(item.site) };
             match item.kind {
-                CameraItemKind::Location(v) => words.location = exact(v),
+                CameraItemKind::Location(v) => {
+                    (words.location, words.placed) = (exact(v), true);
+                }
                 CameraItemKind::LookAt(v) => words.look_at = Some((exact(v), item.site)),
                 CameraItemKind::Sky(v) => words.sky = exact(v),
                 CameraItemKind::Up(v) => words.up = word(v),
@@ -171,9 +176,17 @@ impl Words {
 
     /// `look_at`: turns the three vectors, keeping their lengths and their handedness, so that `sky`
     /// stands upright in the picture. Where the camera looks along `sky`, it keeps its `right`.
-    fn turn(&mut self, dialect: Dialect) -> Result<(), (Fault, Site)> {
+    fn turn(&mut self, dialect: Dialect, camera: Site) -> Result<(), (Fault, Site)> {
         let Some((target, site)) = self.look_at else { return Ok(()) };
         let Some(forward) = (target - self.location).normalized() else {
+            if !self.placed {
+                let message =
+                    "this camera has no `location`, and stands where it looks: at <0, 0, 0>";
+                return Err((
+                    degenerate(message, "expected `location <0, 1, -5>`, or the like"),
+                    camera,
+                ));
+            }
             let fault = degenerate(
                 "this camera stands at the same point that it looks at",
                 "expected another point than `location`",

@@ -33,10 +33,7 @@ impl Lowering<'_, '_> {
             material.is_some_and(|m| m.finish.glow.largest() <= DEFAULT_AMBIENT)
         };
         // Under a ground it is as dark as in a room, where no sky is seen.
-        let is_plane = |solid: u32| {
-            let object = &world.objects[solid as usize];
-            object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
-        };
+        let is_plane = |solid: u32| self.is_plane(solid);
         // A mistake may have kept a part of a solid from being read.
         let is_certain =
             |solid: u32| self.is_sound || world.objects[solid as usize].whole.is_none();
@@ -78,9 +75,13 @@ impl Lowering<'_, '_> {
             let Some(&object) = self.origins.objects.get(solid as usize) else { continue };
             let message =
                 "this light stands inside an opaque object, and lights nothing outside of it";
+            let label = match self.is_plane(solid) {
+                true => "this is opaque, and the light is below it, on its inside",
+                false => "this is opaque, and all around it",
+            };
             let diagnostic = Diagnostic::new(Code::EnclosedLight, message)
                 .at(light.span, "its light does not get out")
-                .also(object.span, "this is opaque, and all around it")
+                .also(object.span, label)
                 .help("give the object `no_shadow`, and light goes through; or move the light out")
                 .traced(light, self.reporter.expansions);
             self.reporter.diagnostics.push(diagnostic);
@@ -90,6 +91,7 @@ impl Lowering<'_, '_> {
     /// Each such light, and the solid around it.
     fn enclosed(&self) -> Vec<(Site, u32)> {
         let world = &self.world;
+        let is_endless = |solid: u32| self.is_plane(solid) && !self.is_inverse(solid);
         let lights = world.lights.iter().zip(&self.lamps).take(MOST_LIGHTS);
         let lamps = lights.filter_map(|(light, &site)| match light.kind {
             LightKind::Point { position } if light.casts_shadows => Some((position, site)),
@@ -101,10 +103,13 @@ impl Lowering<'_, '_> {
         let lamps: Vec<(Vector, Site)> = lamps.collect();
         let mut found = Vec::new();
         for solid in world.solids().filter(|_| !lamps.is_empty()) {
-            let Some(bounds) = bounds(world, solid) else { continue };
-            let size = (bounds.high - bounds.low).max_element();
+            let bounds = bounds(world, solid);
+            if bounds.is_none() && !is_endless(solid) {
+                continue;
+            }
+            let size = bounds.as_ref().map_or(0.0, |b| (b.high - b.low).max_element());
             let within = lamps.iter().filter(|(place, _)| {
-                bounds.contains(*place)
+                bounds.as_ref().is_none_or(|bounds| bounds.contains(*place))
                     && self.is_shut(solid)
                     && !self.may_be_seen_inside(solid)
                     && self.clearly_holds(solid, *place, size)
@@ -184,6 +189,12 @@ impl Lowering<'_, '_> {
         axes.into_iter().all(|axis| {
             self.holds(solid, place - axis * off) && self.holds(solid, place + axis * off)
         })
+    }
+
+    /// A plane that is no part of anything: its inside is all that lies below it.
+    fn is_plane(&self, solid: u32) -> bool {
+        let object = &self.world.objects[solid as usize];
+        object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
     }
 
     /// What is outside of it has no end. (A whole that has none has no bounds.)

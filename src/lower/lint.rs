@@ -91,7 +91,8 @@ impl Lowering<'_, '_> {
     /// No camera, or more than one.
     fn lint_cameras(&mut self) {
         let cameras = &self.scene.cameras;
-        if cameras.is_empty() {
+        // One that is declared alone was told.
+        if cameras.is_empty() && !self.scene.unused.iter().any(|unused| unused.is_camera) {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
             self.reporter.diagnostics.push(Diagnostic::new(Code::NoCamera, message).help(help));
@@ -252,7 +253,7 @@ impl Lowering<'_, '_> {
             let Some(site) = origin(i).and_then(|origin| origin.pigment) else { continue };
             let sums = material.pigment.colors().map(|color| color.filter + color.transmit);
             let most = sums.fold(0.0, f64::max);
-            if most > 1.0 + ROUNDING {
+            if most > 1.0 + ROUNDING && !self.is_percentage(site) {
                 let message = format!("`filter` and `transmit` of this pigment come to {most:.3}");
                 let diagnostic = Diagnostic::new(Code::TooClear, message)
                     .at(site.span, "it would let more through than comes in")
@@ -278,6 +279,22 @@ impl Lowering<'_, '_> {
         for (site, diagnostic) in lints {
             self.reporter.diagnostics.push(diagnostic.traced(site, self.reporter.expansions));
         }
+    }
+
+    /// Whether a part of what makes the pigment at `site` clear was told to be a percentage.
+    fn is_percentage(&self, site: Site) -> bool {
+        let told = self.reporter.diagnostics.iter();
+        let told = told.filter(|one| one.code == Code::SuspiciousUnit);
+        let mut places = told.filter_map(|one| Some(one.primary()?.span));
+        let pigments = self.scene.pigments.iter().filter(|pigment| pigment.site == site);
+        let clear: Vec<Site> = pigments.flat_map(|pigment| pigment.clear.clone()).collect();
+        places.any(|span| {
+            clear.iter().any(|piece| {
+                piece.span.file == span.file
+                    && piece.span.start <= span.start
+                    && span.end <= piece.span.end
+            })
+        })
     }
 
     /// Whether any surface is bright without a light, by more than the default ambient.

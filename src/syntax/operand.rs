@@ -156,6 +156,7 @@ impl<'a> Nest<'a> {
         if self.number_to_another_base(span) || self.grouped_number(span) {
             return;
         }
+        let before = self.at.checked_sub(1).map(|before| self.tokens[before].kind);
         // `1.2.3` and `1e+` come as two tokens that touch.
         while let Some(&next) = self.tokens.get(self.at + 1) {
             let text = self.slice(self.span(next));
@@ -190,7 +191,17 @@ impl<'a> Nest<'a> {
                 };
                 let message = format!("`{text}` is not a number");
                 let told = Diagnostic::new(Code::MalformedNumber, message).at(span, why);
+                // `<1.0.0>`
+                let behind = self.tokens.get(self.at + 1).map(|token| token.kind);
+                let is_alone = before == Some(TokenKind::Mark(Mark::Less))
+                    && behind == Some(TokenKind::Mark(Mark::Greater));
+                let parts: Vec<&str> = text.split('.').collect();
                 self.report(match with_one_point(text) {
+                    _ if is_alone && parts.len() == 3 => {
+                        let right = parts.join(", ");
+                        let help = format!("commas part the numbers of a vector: `<{right}>`");
+                        told.help(help).fix(span, right)
+                    }
                     Some(right) => told.help(format!("is `{right}` meant?")),
                     None => told,
                 });

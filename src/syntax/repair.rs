@@ -244,7 +244,7 @@ impl Repair<'_> {
         self.tell(diagnostic);
     }
 
-    fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
+    pub(super) fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
         let [from, to] = [opener, closer].map(|at| self.tokens[at].start as usize);
         self.text.get(from..to).is_some_and(|between| !between.contains(['\n', '\r']))
     }
@@ -287,7 +287,12 @@ impl Repair<'_> {
                 .fix(self.span(at), right);
             return self.tell(diagnostic);
         }
-        if let Some(open) = self.vector_before(at).filter(|_| bracket != Bracket::Brace) {
+        // `<1, 0, 0)>`: its own comes next.
+        let is_closed =
+            self.tokens.get(at + 1).map(|next| next.kind) == Some(TokenKind::Mark(Mark::Greater));
+        if let Some(open) =
+            self.vector_before(at).filter(|_| bracket != Bracket::Brace && !is_closed)
+        {
             self.inserted.push((at, TokenKind::Mark(Mark::Greater)));
             let message = format!("this `<` is closed by `{closer}`");
             let diagnostic = Diagnostic::new(Code::StrayCloser, message)

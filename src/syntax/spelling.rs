@@ -6,6 +6,7 @@ use super::habits::{color_at, is_no_number};
 use super::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
+use crate::vocabulary::{Role, Word};
 
 /// What other languages write.
 const FOREIGN: &[(&str, &str)] = &[
@@ -73,6 +74,16 @@ pub(super) fn correct_heads(
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
+        // `#camera { … }`
+        if let Some(ours) = Word::from_name(word).filter(|_| is_brace(next))
+            && ours.role() == Role::Statement
+        {
+            let start = span.end - word.len() as u32;
+            let sign = Span { end: start, ..span };
+            diagnostics.push(diagnostic.help(format!("write `{word}` without `#`")).fix(sign, ""));
+            *token = Token { kind: TokenKind::Word(ours), start, ..*token };
+            continue;
+        }
         let is_function = FUNCTIONS.contains(&word) && opens(behind);
         let foreign = FOREIGN.iter().find(|(theirs, _)| *theirs == word).map(|&(_, ours)| ours);
         let foreign = if is_function { Some("macro") } else { foreign };
@@ -117,6 +128,10 @@ fn reads_as_comment(text: &str, head: Span) -> bool {
     let prose = word.starts_with([' ', '\t']) && word.trim_start().starts_with(char::is_uppercase);
     let line = text.get(head.end as usize..).and_then(|rest| rest.split(['\n', '\r']).next());
     prose && line.is_some_and(|line| !line.contains(['=', '(', '"', '{']))
+}
+
+fn is_brace(next: Option<TokenKind>) -> bool {
+    next == Some(TokenKind::Mark(Mark::Open(Bracket::Brace)))
 }
 
 fn opens(next: Option<TokenKind>) -> bool {

@@ -9,7 +9,7 @@ use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Outcome};
+use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
 use super::pieces::WrittenColor;
 
@@ -83,6 +83,9 @@ impl Evaluator<'_> {
         let wanted = components_of(word);
         self.lint_extra_components(token, word, wanted, &given);
         if numbers.len() == 3 && wanted > 3 {
+            if let Some(reported) = self.number_behind_vector(token, &given) {
+                return Err(reported);
+            }
             let lacking = if takes_transmit(word) { "transmit" } else { "filter" };
             self.lint_short_color(&given, word, lacking);
         }
@@ -96,10 +99,44 @@ impl Evaluator<'_> {
         if takes_transmit(word) {
             (all[3], all[4]) = (0.0, all[3]);
         }
+        if numbers.len() == wanted && wanted == 4 {
+            let clear = if takes_transmit(word) { Word::Transmit } else { Word::Filter };
+            let last = self.last_component(given.span);
+            last.into_iter().for_each(|last| self.lint_clear_percentage(&given.here, last, clear));
+        }
         let [red, green, blue, filter, transmit] = all;
         let rgb = Rgb::new(red, green, blue);
         self.lint_color(&given, rgb);
         Ok(Color { rgb: meant(rgb), filter, transmit })
+    }
+
+    /// The last number of a vector that is written as one.
+    fn last_component(&self, vector: Span) -> Option<Span> {
+        let inside = self.sources.text(vector).strip_suffix('>')?.trim_end();
+        let last = inside.rsplit(',').next()?.trim_start();
+        let end = vector.start + inside.len() as u32;
+        Some(Span { start: end - last.len() as u32, end, ..vector })
+    }
+
+    /// `rgbt <1, 1, 1> 0.5`: the fourth number stands behind the vector.
+    fn number_behind_vector(&mut self, token: &Token, given: &Given<Value>) -> Option<Reported> {
+        let next = self.peek_on()?.clone();
+        let between = Span { start: given.span.end, end: next.span.start, ..given.span };
+        let number = self.sources.text(next.span);
+        let vector = self.sources.text(given.span).strip_suffix('>')?;
+        let is_beside = next.span.file == given.span.file
+            && between.start <= between.end
+            && self.sources.text(between).trim().is_empty();
+        if !is_beside || !vector.starts_with('<') || number.parse::<f64>().is_err() {
+            return None;
+        }
+        let right = format!("{vector}, {number}>");
+        let told = Diagnostic::new(Code::WrongArity, "all numbers of a colour stand in its vector")
+            .at(next.span, "expected before the `>`")
+            .help(format!("write `{} {right}`", self.sources.text(token.span)))
+            .fix(given.span.to(next.span), right);
+        self.next();
+        Some(self.report(&given.here, told))
     }
 
     /// `rgb 1 0 0`, `1, 0, 0`: numbers where a vector stands, behind the word of a colour or none. A lone number is
@@ -205,7 +242,12 @@ impl Evaluator<'_> {
             return Err(self.report(&token.here, diagnostic));
         }
         match self.number_after(token, "a number") {
-            Ok(number) => color.set(word, number.value, self.whole(token)),
+            Ok(number) => {
+                if matches!(word, Word::Filter | Word::Transmit) {
+                    self.lint_clear_percentage(&number.here, number.span, word);
+                }
+                color.set(word, number.value, self.whole(token));
+            }
             Err(reported) => {
                 self.skip_color_components();
                 return Err(reported);

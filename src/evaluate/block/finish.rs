@@ -5,9 +5,10 @@ mod reflection;
 mod whole;
 
 use crate::color::Rgb;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin};
 use crate::source::{Site, Span};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
@@ -121,6 +122,9 @@ impl Evaluator<'_> {
                     return Ok(());
                 }
                 _ => {
+                    if let Some(reported) = self.ends_of_reflection(token) {
+                        return Err(reported);
+                    }
                     self.unexpected(token, Place::FINISH);
                     return Err(Reported);
                 }
@@ -276,8 +280,40 @@ impl Evaluator<'_> {
 
     /// How strongly a surface answers light.
     fn strength_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
+        if let Some(reported) = self.color_for_number(token, word) {
+            return Err(reported);
+        }
         let given = self.number_after(token, "a number")?;
         self.lint_strength(&given.here, given.span, word, Rgb::gray(given.value));
         Ok(given.value)
+    }
+
+    /// `diffuse rgb 0.6`, `specular <0.5, 0.5, 0.5>`: one number is for all colours of light.
+    fn color_for_number(&mut self, token: &Token, word: Word) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        let text = self.sources.text(first.span);
+        let is_color = match first.kind {
+            TokenKind::Word(word) => word.family() == Family::Color,
+            _ => text.starts_with('<') && text.ends_with('>'),
+        };
+        if !is_color {
+            return None;
+        }
+        let before = self.told();
+        let color = self.color_after(token, "a number");
+        self.take_back(before);
+        let whole = self.whole(&first).span;
+        let name = word.name();
+        let message = format!("expected a number after `{name}`, found a colour");
+        let told = Diagnostic::new(Code::WrongType, message).at(whole, "expected a number");
+        let gray = color.ok().map(|given| given.value.rgb);
+        let gray = gray.filter(|c| c.red == c.green && c.green == c.blue).map(|c| c.red);
+        let told = match gray.filter(|_| whole.start == first.span.start) {
+            Some(number) => {
+                told.help(format!("write `{name} {number}`")).fix(whole, number.to_string())
+            }
+            None => told.help(format!("one number is for all colours of light: `{name} 0.5`")),
+        };
+        Some(self.report(&token.here, told))
     }
 }

@@ -367,9 +367,19 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         (Word::LightSource, "intensity" | "energy" | "power" | "strength" | "brightness") => {
             Some("a light is as strong as its colour: `rgb 2` is twice `rgb 1`")
         }
-        (Word::Camera, "width") => {
-            Some("`right x*image_width/image_height` is how wide the picture is for its height")
+        (Word::LightSource, "angle" | "cone_angle" | "cone") => {
+            Some("`radius 15 falloff 20` is how wide a spotlight shines, in degrees from its axis")
         }
+        (Word::LightSource, "attenuation" | "decay") => {
+            Some("light fades with the distance by `fade_distance` and `fade_power`")
+        }
+        (Word::LightSource, "shadows" | "shadow") => {
+            Some("a light that throws no shadows is `shadowless`, without a value")
+        }
+        (Word::Camera, "width" | "height" | "size" | "resolution") => Some(
+            "`--size 640x480` says how large the picture is, \
+             `right x*image_width/image_height` how wide for its height",
+        ),
         (Word::Camera, "aspect" | "aspect_ratio") => {
             Some("the picture's width and height give its shape, or `right` does")
         }
@@ -381,6 +391,11 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+/// Whether a name has no word of `place` that it was meant as, whatever resembles it.
+pub(super) fn has_no_word(name: &str, place: Place) -> bool {
+    place.word == Some(Word::Camera) && matches!(name, "height" | "size" | "resolution")
 }
 
 /// `0,5` where a number stands.

@@ -1,6 +1,7 @@
 //! `light_source`: a point, a beam, parallel rays, or the seed's direction.
 
 mod doubt;
+mod form;
 mod order;
 
 use crate::color::Rgb;
@@ -26,7 +27,8 @@ impl Evaluator<'_> {
     pub(super) fn light_source(&mut self, token: &Token) -> Outcome<ObjectId> {
         let site = token.here.site(token.span);
         let opener = token.clone();
-        let (kind, modifiers) = self.block(token, Word::LightSource, |evaluator| {
+        let mut closed_early = None;
+        let outcome = self.block(token, Word::LightSource, |evaluator| {
             let mut modifiers = Vec::new();
             if let Some(declared) = evaluator.declared_light() {
                 let name = evaluator.next();
@@ -50,11 +52,18 @@ impl Evaluator<'_> {
                 return Err(Reported);
             }
             let (mut light, late) = evaluator.light_parts(&opener);
+            if late.as_ref().is_some_and(Late::ends_block) {
+                closed_early = evaluator.closer_before_color();
+            }
             let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut().ok(), late);
             let light = light?;
             outcome?;
             Ok((ObjectKind::LightSource(Box::new(light)), modifiers))
-        })?;
+        });
+        if let (Err(Reported), Some(closer)) = (&outcome, closed_early) {
+            return Err(self.color_behind_light(token, closer));
+        }
+        let (kind, modifiers) = outcome?;
         self.add_object(Object { kind, modifiers, site, item: None })
     }
 
@@ -91,6 +100,9 @@ impl Evaluator<'_> {
     fn light_parts(&mut self, opener: &Token) -> (Outcome<LightSource>, Option<Late>) {
         if self.at_color_word() {
             return (self.color_before_place(opener), None);
+        }
+        if let Some(parts) = self.light_by_kind(opener) {
+            return parts;
         }
         let kind = self.light_place(opener);
         self.semicolon_for_comma();
@@ -165,7 +177,7 @@ impl Evaluator<'_> {
                             light.beam_sites.push((word, piece));
                         }
                     }
-                    Ok(())
+                    self.kind_without_braces(&token)
                 }
                 TokenKind::Word(Word::PointAt) => {
                     written.last = Some(token.clone());

@@ -32,22 +32,24 @@ impl Evaluator<'_> {
         suggest::foreign(name).find(of_block)
     }
 
-    /// `camera { type perspective }`.
-    fn type_of_camera(&mut self, token: &Token) {
-        let kind = match self.peek() {
-            Some(Token { kind: TokenKind::Word(word), span, .. }) => {
-                Some((word.name().to_owned(), *span))
-            }
-            _ => None,
-        };
-        let message = "the kind of a camera stands by itself, without `type`";
+    /// `camera { type perspective }`, `light_source { … type spotlight }`.
+    fn type_of(&mut self, token: &Token, of: Word) {
+        let next = self.peek().cloned();
+        let what = if of == Word::Camera { "camera" } else { "light" };
+        let message = format!("the kind of a {what} stands by itself, without `type`");
         let told = Diagnostic::new(Code::UnknownWord, message).at(token.span, "leave this out");
-        let told = match kind {
-            Some((name, span)) => {
-                let whole = Span { end: span.start, ..token.span };
-                told.help(format!("write `{name}` alone")).fix(whole, "")
+        let told = match &next {
+            Some(next @ Token { kind: TokenKind::Word(word), .. }) => {
+                let whole = Span { end: next.span.start, ..token.span };
+                told.help(format!("write `{}` alone", word.name())).fix(whole, "")
             }
-            None => told.help("as in `perspective` or `orthographic`"),
+            Some(next) if of == Word::LightSource && self.is_all_around(next) => {
+                self.next();
+                told.help("without a word a light shines all around")
+                    .fix(token.span.to(next.span), "")
+            }
+            _ if of == Word::Camera => told.help("as in `perspective` or `orthographic`"),
+            _ => told.help("as in `spotlight` or `parallel`"),
         };
         self.report(&token.here, told);
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. })) {
@@ -87,6 +89,9 @@ impl Evaluator<'_> {
         if word == Word::Alpha && !place.holds(Word::Filter) {
             return self.clear_finish(token, place);
         }
+        if place.word.is_none() && self.closed_too_early(token, word) {
+            return;
+        }
         if let Some(help) = custom(word.name(), place) {
             let message = format!("`{}` has no meaning {}", word.name(), place.name());
             let told = Diagnostic::new(Code::UnknownWord, message)
@@ -95,8 +100,8 @@ impl Evaluator<'_> {
             self.report(&token.here, told);
             return self.skip_values();
         }
-        if word == Word::Type && place.word == Some(Word::Camera) {
-            return self.type_of_camera(token);
+        if let (Word::Type, Some(of @ (Word::Camera | Word::LightSource))) = (word, place.word) {
+            return self.type_of(token, of);
         }
         if let Some(today) = word.today() {
             self.old_word(token, word, today);
@@ -204,6 +209,9 @@ impl Evaluator<'_> {
                 {
                     let of = place.word.map_or("", Word::name);
                     format!("it stands beside `{of}`, not in it")
+                }
+                None if word == Word::Interior && place.word.is_some() => {
+                    "it stands in the object, beside its `texture`".to_owned()
                 }
                 None if word.family() == Family::Texture && place.word == Some(Word::SkySphere) => {
                     "a sky has no surface: it takes `pigment { … }`".to_owned()

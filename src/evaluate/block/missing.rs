@@ -20,7 +20,8 @@ impl Evaluator<'_> {
         let lost = place.and_then(|end| self.lost_comma(Span { start: after.span.end, ..end }));
         let diagnostic = match (next, place, &lost) {
             (Some(found), _, Some((value, _))) => {
-                let sign = self.sources.text(*value).find(" -").map_or(0, |at| at as u32 + 1);
+                let text = self.sources.text(*value);
+                let sign = text.find(" -").or(text.find(".-")).map_or(0, |at| at as u32 + 1);
                 let sign = Span { start: value.start + sign, ..*value };
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
                     .at(Span { end: sign.start + 1, ..sign }, "is a comma missing before this?")
@@ -119,8 +120,18 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn lost_comma(&self, parts: Span) -> Option<(Span, String)> {
         let text = self.sources.text(parts);
         let of_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
-        text.match_indices(" -").find_map(|(at, _)| {
+        let signs = text.match_indices(" -").chain(text.match_indices(".-"));
+        signs.into_iter().find_map(|(at, sign)| {
             let (before, behind) = (text[..at].trim_end(), &text[at + 2..]);
+            // `1.-5`, for `1,-5`: digits around it, and no other point.
+            let is_digit = |c: char| c.is_ascii_digit();
+            let number = before.trim_end_matches(is_digit);
+            let is_point = number.len() < before.len()
+                && !number.ends_with(|c: char| of_name(c))
+                && behind.starts_with(is_digit);
+            if sign == ".-" && !is_point {
+                return None;
+            }
             // A word of blocks is no value.
             let last = before.trim_end_matches(of_name).len();
             let is_value =

@@ -8,6 +8,8 @@ mod blob;
 mod camera;
 mod color;
 mod color_map;
+mod colored;
+mod early;
 mod finish;
 mod habit;
 mod height_field;
@@ -18,6 +20,7 @@ mod item;
 mod julia_fractal;
 mod light;
 mod lone;
+mod meant;
 mod mesh;
 mod misplaced;
 mod missing;
@@ -300,6 +303,9 @@ impl Evaluator<'_> {
             Some(Token { kind: TokenKind::Block(_), .. }) => {}
             next => {
                 let next = next.cloned();
+                if let Some(reported) = self.before_braces(word) {
+                    return Err(reported);
+                }
                 let found = next.as_ref().map_or("nothing".to_owned(), |next| self.describe(next));
                 let name = word.name();
                 let message = format!("expected `{{` after `{name}`, found {found}");

@@ -69,7 +69,14 @@ impl Evaluator<'_> {
                     }
                 }
                 TokenKind::Word(Word::Texture) => {
-                    painted = self.pigment_within(&token);
+                    let inner = self.pigment_within(&token);
+                    let before = painted.filter(|_| !within);
+                    if let (Some(first), Some(inner)) = (before, inner)
+                        && first.expansion == inner.expansion
+                    {
+                        self.lint_replaced(&token, first, "object");
+                    }
+                    painted = inner;
                     within = true;
                 }
                 TokenKind::Word(Word::Material) => painted = None,

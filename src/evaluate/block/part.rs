@@ -346,6 +346,9 @@ impl Evaluator<'_> {
         wanted: &str,
     ) -> Outcome<Given<WrittenColor>> {
         self.skip_commas();
+        if let Some(reported) = self.paint_for_color(after) {
+            return Err(reported);
+        }
         if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
             && word.family() == crate::vocabulary::Family::Color
             && let Some(token) = self.next()

@@ -37,7 +37,6 @@ impl Place {
         ],
         others: &[
             Word::NoiseGenerator,
-            Word::Interior,
             Word::Exponent,
             Word::Function,
             Word::Df3,
@@ -62,7 +61,7 @@ impl Place {
     pub const TEXTURE: Self = Self {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],
-        others: &[Word::NoiseGenerator, Word::Interior, Word::Exponent, Word::Object, Word::Cubic],
+        others: &[Word::NoiseGenerator, Word::Exponent, Word::Object, Word::Cubic],
     };
     pub const DEFAULT: Self = Self {
         word: Some(Word::Default),
@@ -158,6 +157,12 @@ impl Place {
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
             (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
             (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),
+            // Its block of the oldest versions.
+            (Some(_), Word::Refraction)
+                if has_block && self.families.contains(&Family::Modifier) =>
+            {
+                Some(Word::Interior)
+            }
             // As modellers call where an object is.
             (Some(_), Word::Location) if self.families.contains(&Family::Transform) => {
                 Some(Word::Translate)

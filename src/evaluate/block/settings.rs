@@ -119,10 +119,19 @@ impl Evaluator<'_> {
             items: Vec::new(),
         };
         let outer = self.poison.take();
+        let opener = token.clone();
         let outcome = self.block(token, Word::SkySphere, |evaluator| {
-            let mut failed = false;
+            let (mut failed, told) = (false, evaluator.diagnostics.len());
             while let Some(token) = evaluator.next() {
                 failed |= evaluator.sky_item(&token, &mut sky) == Err(Reported);
+            }
+            let is_whole = failed || evaluator.poison.is_some() || !sky.pigments.is_empty();
+            if !is_whole && evaluator.diagnostics.len() == told {
+                let message = "this `sky_sphere` has no `pigment`";
+                let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                    .at(opener.span, "expected `pigment { … }` in it")
+                    .help(Word::SkySphere.sentence());
+                return Err(evaluator.report(&opener.here, diagnostic));
             }
             if failed { Err(Reported) } else { Ok(()) }
         });

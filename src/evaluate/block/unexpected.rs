@@ -12,8 +12,8 @@ use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::Place;
 use super::habit::told_comma;
+use super::meant::{block_for, told_directive};
 use super::place::{is_of_no_part, stands_alone};
-use super::unknown::told_directive;
 
 impl Evaluator<'_> {
     /// An item that the block does not know: says so, and passes over what belongs to it.
@@ -213,6 +213,10 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
+        if let Some(told) = self.needless_value(token, value, place) {
+            self.report(&token.here, told);
+            return self.skip_values();
+        }
         let kind = value.kind();
         let named = self.sources.text(token.span);
         let message = match place.word {
@@ -284,12 +288,8 @@ impl Evaluator<'_> {
         } else if let Some((span, number)) = self.comma_before(token.span) {
             self.declare_with_point(span, &number);
             diagnostic = told_comma(self.sources.text(span), span, number);
-        } else if let (Some(word), Value::Texture(_)) = (place.word, value)
-            && matches!(word, Word::Pigment | Word::Finish)
-        {
-            let own = word.name();
-            diagnostic =
-                diagnostic.help(format!("write `texture {{ {text} }}` instead of this `{own}`"));
+        } else if let Some(help) = place.word.and_then(|word| block_for(value, word, &text)) {
+            diagnostic = diagnostic.help(help);
         } else if let (
             Some(
                 word @ (Word::Lathe | Word::Polygon | Word::Prism | Word::Sor | Word::SphereSweep),

@@ -11,7 +11,8 @@ use crate::vocabulary::{Dialect, Family, Role, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
 use super::super::{Evaluator, Outcome, Symbol};
-use super::habit::{custom, has_other_parts};
+use super::habit::{custom, has_no_word, has_other_parts};
+use super::meant::{told_directive, with_number};
 use super::place::home;
 use super::{Place, opens_value};
 
@@ -131,7 +132,8 @@ impl Evaluator<'_> {
         let near = here
             .filter(|word| has_block || is_built(word) || is_likely(&name, word))
             .or_else(|| word_like(&name, elsewhere))
-            .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name));
+            .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name))
+            .filter(|_| !has_no_word(&name, place));
         if let Some(name) = near.and_then(|near| self.color_meant(near)) {
             let theirs = self.sources.text(span);
             let message = format!("`{theirs}` is not a word {}", place.name());
@@ -171,7 +173,10 @@ impl Evaluator<'_> {
                     None => format!("`{near}` belongs elsewhere"),
                 })
             }
-            Some(near) => meant(diagnostic, span, near),
+            Some(near) => match with_number(near).filter(|_| !self.has_value(has_block)) {
+                Some(whole) => meant(diagnostic, span, whole),
+                None => meant(diagnostic, span, near),
+            },
             None => match (custom, contextual(&name)) {
                 (Some(custom), _) => diagnostic.at(span, custom),
                 (None, Some(_)) if dialect == Dialect::Pov => {
@@ -184,6 +189,11 @@ impl Evaluator<'_> {
             },
         };
         Unknown::Word { told: diagnostic, near }
+    }
+
+    /// Whether a value comes next, or a block instead of one.
+    fn has_value(&mut self, has_block: bool) -> bool {
+        has_block || self.is_before_value() || self.at_color_word()
     }
 
     /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
@@ -287,23 +297,11 @@ pub(in crate::evaluate) enum Unknown {
     },
 }
 
-/// What to say of a directive as another language writes it.
-pub(super) fn told_directive(name: &str, span: Span, place: Place) -> Option<Diagnostic> {
-    let is_directive =
-        |ours: &&str| Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive);
-    let ours = suggest::foreign(name).find(is_directive)?;
-    let message = format!("`{name}` is not a word {}", place.name());
-    let diagnostic = Diagnostic::new(Code::ForeignWord, message)
-        .at(span, format!("did you mean `#{ours}`?"))
-        .help(Word::from_name(ours).map_or("", Word::sentence));
-    Some(diagnostic)
-}
-
 pub(super) const UNKNOWN: &str = "neither a word of the language nor a declared name";
 
 pub(super) fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnostic {
     let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
-    match is_built(near) {
+    match near.contains(' ') || is_built(near) {
         true => diagnostic.help(format!("replace it with `{near}`")).fix(span, near),
         // The right word would be the next error: no fix.
         false => diagnostic.help(format!("`{near}` is not supported yet")),

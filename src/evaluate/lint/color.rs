@@ -61,7 +61,8 @@ impl Evaluator<'_> {
         let message = format!("`{name}` takes {wanted} components, and is given {count}");
         let diagnostic = Diagnostic::new(Code::ExtraComponent, message).at(given.span, meant);
         let base = name.trim_end_matches(['f', 't']);
-        let diagnostic = match self.commas_within(given.span) {
+        let meant = self.commas_within(given.span);
+        let diagnostic = match meant.or_else(|| self.commas_in_color(given.span)) {
             Some(vector) => diagnostic
                 .help(format!("a fraction is written with a point: `{vector}`"))
                 .fix(given.span, vector),
@@ -126,7 +127,7 @@ impl Evaluator<'_> {
         };
         let divided = match written.as_str() {
             "255" => "1".to_owned(),
-            _ => format!("{written}/255"),
+            _ => clear_by_itself(&written).unwrap_or_else(|| format!("{written}/255")),
         };
         let mut diagnostic = Diagnostic::new(
             Code::ColorRange,
@@ -157,10 +158,43 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `<0,5,0,7,1>`: the one colour of three components, none above 1, whose points became commas.
+    fn commas_in_color(&self, span: Span) -> Option<String> {
+        let text = self.sources.text(span).strip_prefix('<')?.strip_suffix('>')?;
+        let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+        let is_typed = |part: &&str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+        if !parts.iter().all(is_typed) || parts.iter().all(|part| matches!(*part, "0" | "1")) {
+            return None;
+        }
+        // Of four, one component has a fraction, of five all but one. `<0, 128, 0, 1>` is rather one of 0 to 255.
+        let (few, many) = (parts.len() == 4, parts.len() == 5);
+        if !many && !(few && parts.iter().all(|part| part.len() == 1)) {
+            return None;
+        }
+        let grouped = |odd: usize| {
+            let mut rest = parts.iter();
+            let colors = (0..3).map(|i| match (i == odd) == few {
+                true => Some(format!("{}.{}", rest.next()?, rest.next()?)),
+                false => Some((*rest.next()?).to_owned()),
+            });
+            let colors: Vec<String> = colors.collect::<Option<_>>()?;
+            let is_part = |color: &String| color.parse::<f64>().is_ok_and(|color| color <= 1.0);
+            colors.iter().all(is_part).then(|| format!("<{}>", colors.join(", ")))
+        };
+        let mut colors = (0..3).filter_map(grouped);
+        let color = colors.next()?;
+        colors.next().is_none().then_some(color)
+    }
+
     /// There is nothing behind a background: what it lets through is black.
     pub(in crate::evaluate) fn lint_background(&mut self, given: &Given<Color>) {
         let Color { rgb, transmit, .. } = given.value;
-        if rgb.is_black() || transmit <= 0.0 {
+        // Of numbers too many, which were told.
+        let is_told = self.diagnostics.iter().any(|one| {
+            let place = one.primary().filter(|_| one.code == Code::ExtraComponent);
+            place.is_some_and(|place| self.taken.is_some_and(|taken| taken.span == place.span))
+        });
+        if rgb.is_black() || transmit <= 0.0 || is_told {
             return;
         }
         let end = self.taken.map_or(given.span, |taken| taken.span);
@@ -189,4 +223,25 @@ impl Evaluator<'_> {
         };
         self.report(&given.here, diagnostic);
     }
+}
+
+/// `<255, 128, 0, 0.5>`: what lets light through is a part already.
+fn clear_by_itself(vector: &str) -> Option<String> {
+    let parts: Vec<&str> = vector.strip_prefix('<')?.strip_suffix('>')?.split(',').collect();
+    let (colors, clear) = parts.split_at_checked(3)?;
+    let is_part = |part: &&str| part.trim().parse::<f64>().is_ok_and(|part| part <= 1.0);
+    let typed = colors.iter().all(|part| is_literal(part.trim()));
+    if clear.is_empty()
+        || !typed
+        || !clear.iter().all(is_part)
+        || clear.iter().all(|c| c.trim() == "0")
+    {
+        return None;
+    }
+    let divided = colors.iter().map(|part| match part.trim() {
+        "0" => "0".to_owned(),
+        part => format!("{part}/255"),
+    });
+    let all: Vec<String> = divided.chain(clear.iter().map(|c| c.trim().to_owned())).collect();
+    Some(format!("<{}>", all.join(", ")))
 }

@@ -17,6 +17,8 @@ const ROUGHEST: f64 = 2.0;
 /// From here on a strength of a whole number, up to 100, is a percentage. Ambient light may be a lamp's.
 const PERCENTAGE: std::ops::RangeInclusive<f64> = 10.0..=100.0;
 const BRIGHT_AMBIENT: f64 = 20.0;
+/// From here on no index of refraction that is typed as a whole number is meant.
+const NO_IOR: f64 = 10.0;
 
 impl Evaluator<'_> {
     /// A surface that takes light away, or gives back more than it gets.
@@ -45,6 +47,20 @@ impl Evaluator<'_> {
             return;
         };
         self.report(here, diagnostic);
+    }
+
+    /// `transmit 50`, of a colour.
+    pub(in crate::evaluate) fn lint_clear_percentage(
+        &mut self,
+        here: &Here,
+        span: Span,
+        word: Word,
+    ) {
+        let text = self.sources.text(span);
+        let number = text.parse::<f64>().ok().filter(|number| number.fract() == 0.0);
+        if let Some(number) = number.filter(|number| PERCENTAGE.contains(number)) {
+            self.report(here, percentage_of(span, word.name(), number));
+        }
     }
 
     /// `ambient 50`: where the surface also scatters light it is no lamp.
@@ -79,6 +95,19 @@ impl Evaluator<'_> {
                     "the way out of a material is known: write its own, {:.2}",
                     1.0 / value
                 ));
+            self.report(&given.here, diagnostic);
+        }
+        let text = self.sources.text(given.span);
+        if value >= NO_IOR && is_literal(text) && !text.contains('.') {
+            let message = format!("no material has an `ior` of {value}");
+            let diagnostic = Diagnostic::new(Code::UnlikelyFinish, message)
+                .at(given.span, "water has 1.33, glass 1.5, diamond 2.4");
+            let diagnostic = match text.split_at(1) {
+                (whole @ ("1" | "2"), rest) => {
+                    diagnostic.help(format!("is a point missing? write `{whole}.{rest}`"))
+                }
+                _ => diagnostic,
+            };
             self.report(&given.here, diagnostic);
         }
         Ok(value)

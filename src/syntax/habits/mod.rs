@@ -191,7 +191,8 @@ impl Reader<'_> {
         match kind {
             TokenKind::Word(word) if self.reserved(word, meant) => true,
             TokenKind::Word(word) => {
-                self.times(meant)
+                self.named_components(meant)
+                    || self.times(meant)
                     || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
                     || (word == Word::Function && self.definer(meant))
@@ -277,7 +278,7 @@ impl Reader<'_> {
             }
             TokenKind::Mark(Mark::Minus) => self.arrow(meant) || self.comment_of_dashes(meant),
             TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
-            TokenKind::Mark(Mark::Less) if self.comment_of_html() => true,
+            TokenKind::Mark(Mark::Less) if self.comment_of_html() || self.doubled_angle() => true,
             TokenKind::Mark(Mark::Or) if self.length_between_bars(meant) => true,
             TokenKind::Mark(Mark::Greater) if self.unopened_vector(meant) => true,
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,

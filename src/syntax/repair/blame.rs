@@ -51,6 +51,17 @@ impl Repair<'_> {
             .at(self.span(open.token), "opened here")
             .also(place, label);
         let beside = outside.filter(|outside| self.stands_beside(open.token, outside.token));
+        let line = outside.filter(|outside| {
+            let is_block = open.opener == Opener::Bracket(Bracket::Brace);
+            is_block && self.are_on_a_line(open.token, outside.token - 1)
+        });
+        // What stands on one line ends with that.
+        let diagnostic = match line.filter(|_| beside.is_none()) {
+            Some(outside) => diagnostic
+                .help("is a `}` missing at the end of its line?")
+                .fix(self.span(outside.token - 1).after(), " }"),
+            None => diagnostic,
+        };
         self.tell(match beside.map(|outside| self.span(outside.token - 1).after()) {
             Some(end) => diagnostic
                 .help(format!("`{found}` stands beside this block, not in it"))

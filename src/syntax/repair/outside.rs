@@ -154,7 +154,14 @@ impl Repair<'_> {
     pub(super) fn may_hold(&self, opener: usize, at: usize) -> bool {
         let TokenKind::Word(inner) = self.tokens[at].kind else { return true };
         let only_outside = matches!(inner.family(), Family::Shape | Family::Csg)
-            || matches!(inner, Word::Camera | Word::GlobalSettings | Word::SkySphere);
+            || matches!(
+                inner,
+                Word::Camera
+                    | Word::LightSource
+                    | Word::GlobalSettings
+                    | Word::SkySphere
+                    | Word::Background
+            );
         let outer = opener.checked_sub(1).map(|before| self.tokens[before].kind);
         let Some(TokenKind::Word(outer)) = outer else { return true };
         let holds_objects = match outer.family() {

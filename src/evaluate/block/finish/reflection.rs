@@ -1,12 +1,13 @@
 //! `reflection` in a finish.
 
 use crate::color::Rgb;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::pieces::{WrittenColor, without_light};
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::{Token, TokenKind};
-use crate::evaluate::{Evaluator, Outcome};
+use crate::evaluate::{Evaluator, Outcome, Reported};
 use crate::scene::Reflection;
-use crate::source::Site;
+use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
@@ -26,10 +27,16 @@ impl Evaluator<'_> {
         };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
             let given = self.written_intensity_after(token)?.value;
+            if let Some(reported) = self.ends_without_braces(token) {
+                return Err(reported);
+            }
             return Ok((plain(given.color().rgb), given.without(|color| color.rgb.is_black())));
         }
         let opener = token.clone();
         self.block(token, Word::Reflection, |evaluator| {
+            if let Some(reported) = evaluator.named_ends() {
+                return Err(reported);
+            }
             let light = |given: &Given<WrittenColor>| given.clone().with(given.value.color().rgb);
             let (least, first) = evaluator.end_of_reflection(&opener)?;
             let mut reflection = plain(least.value.color().rgb);
@@ -67,6 +74,70 @@ impl Evaluator<'_> {
         })
     }
 
+    /// `reflection 0.1, 0.9`, whose first number was taken.
+    fn ends_without_braces(&mut self, token: &Token) -> Option<Reported> {
+        let taken = self.taken?.span;
+        let behind = self.sources.get(taken.file).text.get(taken.end as usize..)?;
+        let second = behind.trim_start().strip_prefix(',')?.trim_start();
+        if !second.starts_with(|c: char| c.is_ascii_digit() || c == '.' || c == '<') {
+            return None;
+        }
+        let _: Outcome<Given<WrittenColor>> = self.written_color_after(token, "a number");
+        let whole = self.whole(token).span;
+        let both = Span { start: token.span.end, ..whole };
+        let text = self.sources.text(both);
+        let both =
+            Span { start: both.start + (text.len() - text.trim_start().len()) as u32, ..both };
+        let right = format!("{{ {} }}", text.trim_start());
+        let message = "the least and the most of a `reflection` stand in braces";
+        let told = Diagnostic::new(Code::MissingPart, message)
+            .at(both, "expected `{` before this, and `}` behind it");
+        let told = match whole.start == token.span.start && !text.contains('#') {
+            true => told.help(format!("write `reflection {right}`")).fix(both, right),
+            false => told.help(Word::Reflection.sentence()),
+        };
+        Some(self.report(&token.here, told))
+    }
+
+    /// `reflection { min 0.1 max 0.5 }`.
+    fn named_ends(&mut self) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        if !matches!(first.kind, TokenKind::Word(Word::Min | Word::Max)) {
+            return None;
+        }
+        let inside = self.within_block()?.span;
+        let ends = ends_by_name(self.sources.text(inside), ["min", "max"]);
+        let message = "the least and the most of a `reflection` have no names";
+        let told = Diagnostic::new(Code::ExtraPart, message).at(first.span, "leave this out");
+        let told = match ends {
+            Some((right, length)) => told
+                .help(format!("write `reflection {{ {right} }}`"))
+                .fix(Span { end: inside.start + length as u32, ..inside }, format!(" {right}")),
+            None => told.help(Word::Reflection.sentence()),
+        };
+        Some(self.report(&first.here, told))
+    }
+
+    /// `reflection_min 0.1 reflection_max 0.5`, as other tools have it, which the name at `token` begins.
+    pub(super) fn ends_of_reflection(&mut self, token: &Token) -> Option<Reported> {
+        let text = self.sources.get(token.span.file).text.get(token.span.start as usize..)?;
+        let (right, length) = ends_by_name(text, ["reflection_min", "reflection_max"])
+            .or_else(|| ends_by_name(text, ["min_reflection", "max_reflection"]))?;
+        let whole = Span { end: token.span.start + length as u32, ..token.span };
+        let right = format!("reflection {{ {right} }}");
+        let message = "the least and the most reflection stand together";
+        let told = Diagnostic::new(Code::ForeignWord, message)
+            .at(token.span, "not a word in `finish`")
+            .help(format!("write `{right}`"))
+            .fix(whole, right);
+        let reported = self.report(&token.here, told);
+        let is_within = |next: &Token| next.span.file == whole.file && next.span.start < whole.end;
+        while self.peek().is_some_and(is_within) {
+            self.next();
+        }
+        Some(reported)
+    }
+
     /// How much is reflected at one end of the angles; all of it as a piece.
     fn end_of_reflection(&mut self, opener: &Token) -> Outcome<(Given<WrittenColor>, Site)> {
         self.skip_commas();
@@ -75,4 +146,19 @@ impl Evaluator<'_> {
         let item = self.whole(first.as_ref().unwrap_or(opener));
         Ok((given, item))
     }
+}
+
+/// `min 0.1 max 0.5` with these names, the least first, at the beginning of a text: the two as they are written here,
+/// and how long it is.
+fn ends_by_name(text: &str, [least, most]: [&str; 2]) -> Option<(String, usize)> {
+    let number = |text: &str, name: &str| {
+        let rest = text.trim_start().strip_prefix(name)?.trim_start();
+        let length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let (number, rest) = rest.split_at(length);
+        number.parse::<f64>().ok().map(|_| (number.to_owned(), rest.len()))
+    };
+    let (low, left) = number(text, least)?;
+    let rest = text[text.len() - left..].trim_start().trim_start_matches(',');
+    let (high, left) = number(rest, most)?;
+    Some((format!("{low}, {high}"), text.len() - left))
 }

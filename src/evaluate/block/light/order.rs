@@ -20,8 +20,15 @@ pub(super) struct Late {
     place: Site,
 }
 
+impl Late {
+    /// Nothing stands in its place.
+    pub fn ends_block(&self) -> bool {
+        self.found.is_none()
+    }
+}
+
 impl Evaluator<'_> {
-    pub(super) fn at_color_word(&mut self) -> bool {
+    pub(in crate::evaluate::block) fn at_color_word(&mut self) -> bool {
         let next = self.peek().map(|token| &token.kind);
         matches!(next, Some(TokenKind::Word(word)) if word.family() == Family::Color)
     }
@@ -81,24 +88,31 @@ impl Evaluator<'_> {
             return Ok(());
         }
         let name = self.describe(&late.opener);
-        let (found, at) = match &late.found {
-            Some(found) => (format!(", found {}", self.describe(found)), found.span),
-            None => (String::new(), late.opener.span),
+        let found = match &late.found {
+            Some(found) => format!(", found {}", self.describe(found)),
+            // It is taken, and that told, behind the block.
+            None if self.closer_before_color().is_some() => return Err(Reported),
+            None => String::new(),
         };
         let mut diagnostic = Diagnostic::new(
             Code::MissingPart,
             format!("expected a colour for the light after {name}{found}"),
-        );
-        diagnostic = match late.found {
-            Some(_) => diagnostic
-                .at(at, "expected a colour for the light")
-                .also(late.opener.span, "for this"),
-            None => diagnostic.at(at, "a colour for the light is missing after this"),
+        )
+        .also(late.opener.span, "for this");
+        diagnostic = match &late.found {
+            Some(found) => diagnostic.at(found.span, "expected a colour for the light"),
+            None => {
+                let sign = self.sources.sign_before(late.place.span);
+                diagnostic.at(sign, "expected a colour for the light after this")
+            }
         };
         diagnostic = diagnostic.help(format!(
             "behind {} write a colour such as `rgb 1`",
             self.before(late.place.span)
         ));
+        if late.ends_block() && late.place.expansion == late.opener.here.expansion {
+            diagnostic = diagnostic.fix(late.place.span, ", rgb 1");
+        }
         Err(self.report(&late.opener.here, diagnostic))
     }
 
