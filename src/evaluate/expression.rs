@@ -253,6 +253,21 @@ impl Evaluator<'_> {
         text.strip_suffix('"').unwrap_or(text)
     }
 
+    /// `A - B` and `A + B` of two declared objects: the solid that is meant.
+    fn objects_of(&self, what: &str, values: [&Value; 2], spans: [Span; 2]) -> Option<String> {
+        let word = match what {
+            "`-`" => Word::Difference,
+            "`+`" => Word::Union,
+            _ => return None,
+        };
+        let names = spans.map(|span| self.sources.text(span));
+        let is_object = values.iter().all(|value| matches!(value, Value::Object(_)));
+        let is_name = |name: &&str| self.scopes.symbol(name).is_some();
+        let [a, b] = names;
+        (is_object && names.iter().all(is_name))
+            .then(|| format!("{} {{ object {{ {a} }} object {{ {b} }} }}", word.name()))
+    }
+
     pub(super) fn operation_error(
         &mut self,
         here: &Here,
@@ -302,7 +317,13 @@ impl Evaluator<'_> {
                     Value::Object(_) if what == "`*`" => diagnostic.help(format!(
                         "an object is scaled in its block: `object {{ {text} scale … }}`"
                     )),
-                    Value::Object(_) if matches!(what, "`+`" | "`-`") => diagnostic
+                    Value::Object(_) if let Some(whole) = self.objects_of(what, values, spans) => {
+                        diagnostic.help(format!("write `{whole}`")).fix(span, whole)
+                    }
+                    Value::Object(_) if what == "`-`" => diagnostic.help(
+                        "objects are taken from others in a `difference`, and moved by `translate`",
+                    ),
+                    Value::Object(_) if what == "`+`" => diagnostic
                         .help("objects are put together in a `union`, and moved by `translate`"),
                     _ => diagnostic,
                 }

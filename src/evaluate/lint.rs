@@ -215,6 +215,11 @@ impl Evaluator<'_> {
 
     /// A second pigment in the block of an object, or of a texture.
     pub(super) fn lint_replaced(&mut self, token: &Token, first: Site, of: &str) {
+        // A loop whose `#end` is missing runs over what stands behind it.
+        let is_lost = |one: &Diagnostic| one.code == Code::MissingEnd;
+        if first.span == token.span && self.diagnostics.iter().any(is_lost) {
+            return;
+        }
         let message = format!("this {of} has two pigments; the last one is used");
         let diagnostic = Diagnostic::new(Code::ReplacedPigment, message)
             .at(token.span, "this one is used")

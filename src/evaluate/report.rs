@@ -113,6 +113,9 @@ impl Evaluator<'_> {
             (Value::Function(_), wanted) if wanted.starts_with("a number") => {
                 Some(format!("a function has a value where it is called: `{text}(x, y, z)`"))
             }
+            (Value::Vector(_), "a number for the height it ends at") => Some(
+                "two heights and a count stand before the points: `prism { 0, 1, 4, …`".to_owned(),
+            ),
             (Value::Vector(_), "a number for the major radius") => {
                 Some("a torus lies around the origin; `translate` moves it".to_owned())
             }

@@ -68,8 +68,15 @@ pub(super) fn drop_echoes(
         {
             return false;
         }
+        // A file that ends in the middle of a block may end in the middle of a word.
+        let is_cut = |place: Span| {
+            let rest = sources.get(place.file).text.get(place.range().end..).unwrap_or("");
+            let unclosed = |fault: &Fault| fault.code == Code::UnclosedBlock;
+            rest.trim().is_empty() && faults.iter().any(unclosed)
+        };
         if !later.code.is_about_place() {
-            return true;
+            let place = later.primary().map(|label| label.span);
+            return later.code != Code::ForeignWord || !place.is_some_and(is_cut);
         }
         let Some(place) = later.primary().map(|label| label.span) else { return false };
         let rest = sources.get(place.file).text.get(place.range().end..).unwrap_or("");
@@ -247,12 +254,16 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// A directive, or a word or an unknown name and its block.
+/// A directive, or a word or an unknown name and its block; what only changes an object begins none.
 fn begins_statement(item: Item, next: Option<&Item>) -> bool {
     let opens = next.is_some_and(|next| matches!(next.kind, ItemKind::Block(_)));
     match item.kind {
         ItemKind::Directive(_) => true,
-        ItemKind::Word(word) => word.role() == Role::Statement && opens,
+        ItemKind::Word(word) => {
+            let changes =
+                matches!(word.family(), Family::Texture | Family::Modifier | Family::Transform);
+            word.role() == Role::Statement && opens && !changes
+        }
         ItemKind::Expression(_) => opens,
         _ => false,
     }

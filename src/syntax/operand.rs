@@ -156,7 +156,6 @@ impl<'a> Nest<'a> {
         if self.number_to_another_base(span) || self.grouped_number(span) {
             return;
         }
-        let before = self.at.checked_sub(1).map(|before| self.tokens[before].kind);
         // `1.2.3` and `1e+` come as two tokens that touch.
         while let Some(&next) = self.tokens.get(self.at + 1) {
             let text = self.slice(self.span(next));
@@ -191,19 +190,14 @@ impl<'a> Nest<'a> {
                 };
                 let message = format!("`{text}` is not a number");
                 let told = Diagnostic::new(Code::MalformedNumber, message).at(span, why);
-                // `<1.0.0>`
-                let behind = self.tokens.get(self.at + 1).map(|token| token.kind);
-                let is_alone = before == Some(TokenKind::Mark(Mark::Less))
-                    && behind == Some(TokenKind::Mark(Mark::Greater));
-                let parts: Vec<&str> = text.split('.').collect();
-                self.report(match with_one_point(text) {
-                    _ if is_alone && parts.len() == 3 => {
-                        let right = parts.join(", ");
-                        let help = format!("commas part the numbers of a vector: `<{right}>`");
-                        told.help(help).fix(span, right)
-                    }
-                    Some(right) => told.help(format!("is `{right}` meant?")),
-                    None => told,
+                let alone = matches!(self.top().kind, FrameKind::Vector)
+                    && self.next_is(TokenKind::Mark(Mark::Greater));
+                self.report(match (with_commas(text).filter(|_| alone), with_one_point(text)) {
+                    (Some(right), _) => told
+                        .help(format!("does a point stand for a comma? write `{right}`"))
+                        .fix(span, right),
+                    (None, Some(right)) => told.help(format!("is `{right}` meant?")),
+                    (None, None) => told,
                 });
                 self.operand(ExpressionKind::Missing, span, false);
             }
@@ -360,4 +354,11 @@ fn with_one_point(text: &str) -> Option<String> {
     let (whole, rest) = text.split_once('.')?;
     let right = format!("{whole}.{}", rest.replace('.', ""));
     right.parse::<f64>().is_ok().then_some(right)
+}
+
+/// `1.0.0` as three whole numbers.
+fn with_commas(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split('.').collect();
+    let whole = |part: &&str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    (parts.len() == 3 && parts.iter().all(whole)).then(|| parts.join(", "))
 }

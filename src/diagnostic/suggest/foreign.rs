@@ -62,7 +62,6 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("vertex_normals", "normal_vectors"),
     ("texcoords", "uv_vectors"),
     ("disk", "disc"),
-    ("circle", "disc"),
     ("pipe", "cylinder"),
     ("rod", "cylinder"),
     ("pyramid", "cone"),
@@ -81,6 +80,11 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("fuse", "union"),
     ("cut", "difference"),
     ("carve", "difference"),
+    // in short
+    ("pig", "pigment"),
+    ("tex", "texture"),
+    ("cyl", "cylinder"),
+    ("sph", "sphere"),
     // other languages
     ("couleur", "color"),
     ("clr", "color"),

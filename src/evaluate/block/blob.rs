@@ -6,6 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::blob::{Blob, Component};
 use crate::scene::{Solid, TransformId};
+use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -62,12 +63,30 @@ impl Evaluator<'_> {
                 "the strengths of this blob add up to no more than its threshold, {}",
                 blob.threshold
             );
-            let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
-                .at(token.span, "nothing is left of it");
+            let diagnostic = Diagnostic::new(Code::DegenerateShape, message);
+            let diagnostic = match self.number_behind(token, Word::Threshold) {
+                Some(threshold) => diagnostic
+                    .at(threshold, "expected less than they add up to: nothing is left of it")
+                    .also(token.span, "of this blob"),
+                None => diagnostic.at(token.span, "nothing is left of it"),
+            };
             self.scene.sizeless.push((Word::Blob.name(), token.here.site(token.span)));
             self.report(&token.here, diagnostic);
         }
         Ok(Solid::Blob(Arc::new(blob)))
+    }
+
+    /// The plain number behind the one `word` of a block that `token` opened.
+    fn number_behind(&self, token: &Token, word: Word) -> Option<Span> {
+        let block = self.within_block().filter(|block| block.span.file == token.span.file)?.span;
+        let mut found = self.sources.text(block).match_indices(word.name());
+        let at = found.next().map(|(at, name)| at + name.len())?;
+        let rest = self.sources.text(block).get(at..)?;
+        let blank = rest.len() - rest.trim_start().len();
+        let number = rest.trim_start().split(|c: char| c.is_whitespace() || c == '}').next()?;
+        let start = block.start + (at + blank) as u32;
+        let is_number = number.parse::<f64>().is_ok() && found.next().is_none();
+        is_number.then(|| Span { start, end: start + number.len() as u32, ..block })
     }
 
     fn threshold(&mut self, token: &Token, word: Word, blob: &mut Blob) -> Outcome<()> {

@@ -340,7 +340,8 @@ impl Evaluator<'_> {
 /// triangle.
 pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
     use Word as W;
-    matches!(
+    let is_other = matches!(theirs, "ring" | "metaball" | "metaballs");
+    let is_listed = matches!(
         word,
         W::Triangle
             | W::Polygon
@@ -350,8 +351,8 @@ pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
             | W::Lathe
             | W::SphereSweep
             | W::Disc
-            | W::Torus
-    ) && suggest::closest(theirs, [word.name()]).is_none()
+    );
+    is_other || is_listed && suggest::closest(theirs, [word.name()]).is_none()
 }
 
 /// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.
@@ -361,6 +362,16 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
         return Some(
             "`CHSV2RGB(<hue, saturation, value>)` of `colors.inc` makes a colour of these",
         );
+    }
+    let is_solid = place.families.contains(&Family::Shape);
+    match name.as_str() {
+        "circle" if is_solid => {
+            return Some("a disc has a normal, too: `disc { <centre>, <normal>, radius }`");
+        }
+        "line" if is_solid => {
+            return Some("a thin cylinder is one: `cylinder { <0, 0, 0>, <1, 1, 1>, 0.02 }`");
+        }
+        _ => {}
     }
     match (place.word?, name.as_str()) {
         (_, "mirror" | "flip") => Some("scaled by -1 a thing is mirrored: `scale <-1, 1, 1>`"),

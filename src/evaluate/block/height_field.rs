@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::heights::{self, Heights};
 use crate::scene::Solid;
 use crate::scene::height_field::HeightField;
+use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::function::{Functions, ParameterName, outside_id};
@@ -117,11 +118,41 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `function { x*y }`, `function 100 { x*y }`: how many heights there are is missing, behind those `before`.
+    fn lacks_sizes(&mut self, before: Option<Span>) -> Option<Reported> {
+        let next = self.peek()?.clone();
+        let TokenKind::Block(_) = next.kind else { return None };
+        let opener = next.span_head();
+        let message = "the `function` of a landscape begins with how many heights it has";
+        let told = Diagnostic::new(Code::MissingPart, message);
+        let told = match before {
+            Some(first) => {
+                let first_text = self.sources.text(first);
+                let right = format!("{first_text}, {first_text}");
+                told.at(opener, "expected how many along z")
+                    .help(format!("write `function {right} {{ … }}`"))
+                    .fix(first, right)
+            }
+            None => told
+                .at(opener, "expected two numbers: how many along x, and along z")
+                .help("write `function 300, 300 { … }`")
+                .fix(Span { end: next.span.start, ..next.span }, "300, 300 "),
+        };
+        let reported = self.report(&next.here, told);
+        self.skip_arguments(Word::Union);
+        Some(reported)
+    }
+
     /// `function W, H { … }`, after its word.
     fn heights_of_function(&mut self, word: &Token) -> Outcome<(String, Heights)> {
+        let mut before = None;
         let mut size = |name: &str| -> Outcome<usize> {
+            if let Some(reported) = self.lacks_sizes(before) {
+                return Err(reported);
+            }
             let given = self.number_after(word, &format!("how many heights {name}"))?;
             let count = given.value.trunc();
+            before = Some(given.span);
             if (2.0..=MOST).contains(&count) {
                 return Ok(count as usize);
             }

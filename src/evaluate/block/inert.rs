@@ -3,12 +3,12 @@
 //! **In:** a word that the vocabulary calls inert. **Out:** nothing but what is wrong with it.
 //! **Invariant:** neither what it holds nor poison in it reaches the scene.
 
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::{Place, is_object_word};
+use super::{Place, opens_object};
 
 impl Evaluator<'_> {
     /// Reads an inert word and what belongs to it; `None` where `token` is none that may stand here.
@@ -74,6 +74,9 @@ impl Evaluator<'_> {
     /// `bounded_by { shape … }` or `bounded_by { clipped_by }`.
     fn bounds(&mut self, token: &Token) -> Outcome<()> {
         self.bounds.clear();
+        if let Some(reported) = self.unbraced(token, Word::BoundedBy, opens_object) {
+            return Err(reported);
+        }
         self.block(token, Word::BoundedBy, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -83,14 +86,10 @@ impl Evaluator<'_> {
                 };
                 match word {
                     Word::ClippedBy => {}
-                    _ if matches!(word.family(), Family::Shape | Family::Csg)
-                        || is_object_word(word) =>
-                    {
-                        match evaluator.object(&token, word) {
-                            Ok(Value::Object(object)) => evaluator.bounds.push(object),
-                            other => failed |= other.is_err(),
-                        }
-                    }
+                    _ if opens_object(word) => match evaluator.object(&token, word) {
+                        Ok(Value::Object(object)) => evaluator.bounds.push(object),
+                        other => failed |= other.is_err(),
+                    },
                     _ => evaluator.unexpected(&token, Place::BOUNDED_BY),
                 }
             }

@@ -6,7 +6,6 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::function::Closed;
 use crate::math::Vector;
 use crate::scene::{Container, Solid};
-use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
@@ -16,6 +15,8 @@ use super::{Given, Place};
 
 /// What stands behind the function of an `isosurface`.
 const OF_ISOSURFACE: &[Word] = &[
+    // One too many.
+    Word::Function,
     Word::Threshold,
     Word::Accuracy,
     Word::ContainedBy,
@@ -50,6 +51,7 @@ impl Evaluator<'_> {
                     open = true;
                     Ok(())
                 }
+                Word::Function => Err(self.second_function(&item)),
                 _ => self.inert(&item, Place::shape(Word::Isosurface)).unwrap_or(Ok(())),
             };
             failed |= outcome.is_err();
@@ -60,6 +62,16 @@ impl Evaluator<'_> {
         let function = function?;
         let container = Box::new(container.unwrap_or(Container::DEFAULT));
         Ok(Solid::Isosurface { function, container, threshold, accuracy, open })
+    }
+
+    /// `isosurface { function { … } function { … } }`.
+    fn second_function(&mut self, item: &Token) -> Reported {
+        let told = Diagnostic::new(Code::ExtraPart, "an isosurface has one function")
+            .at(item.span, "one too many")
+            .help("`min(f, g)` in one is the union of the two, `max(f, g)` what they share");
+        let reported = self.report(&item.here, told);
+        self.skip_function();
+        reported
     }
 
     /// A function that gives a number, with all that it asks.
@@ -167,6 +179,9 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
             Some([u, v]) => Ok(given.with([*u, *v])),
+            Some([_, _, ..]) => {
+                Err(self.too_wide(&given, Word::Parametric, "a corner of u and v", 2))
+            }
             _ => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
         }
     }
@@ -186,22 +201,9 @@ impl Evaluator<'_> {
 
     /// `contained_by { sphere { … } }` or `contained_by { box { … } }`.
     pub(super) fn contained_by(&mut self, token: &Token) -> Outcome<Container> {
-        if let Some(
-            inner @ Token { kind: TokenKind::Word(word @ (Word::Sphere | Word::Box)), .. },
-        ) = self.peek().cloned()
-        {
-            self.next();
-            self.skip_arguments(word);
-            let whole = self.whole(&inner).span;
-            let text = self.sources.text(whole).lines().next().unwrap_or("").to_owned();
-            let diagnostic =
-                Diagnostic::new(Code::MissingPart, "expected `{` after `contained_by`")
-                    .at(token.span, "its block is missing")
-                    .also(inner.span, "this stands in it")
-                    .help(format!("write `contained_by {{ {text} }}`"))
-                    .fix(Span { end: whole.start, ..whole }, "{ ")
-                    .fix(whole.after(), " }");
-            return Err(self.report(&token.here, diagnostic));
+        let fits = |word| matches!(word, Word::Sphere | Word::Box);
+        if let Some(reported) = self.unbraced(token, Word::ContainedBy, fits) {
+            return Err(reported);
         }
         self.block(token, Word::ContainedBy, |evaluator| {
             let shapes = [Word::Sphere, Word::Box];

@@ -113,12 +113,22 @@ impl Evaluator<'_> {
     }
 
     fn smooth_corners(&mut self, token: &Token) -> Outcome<Triangle> {
+        let before = self.told();
         let mut corner = |name: &str| {
             let corner = self.vector_after(token, &format!("a vector for the {name} corner"));
             let normal = self.vector_after(token, &format!("a vector for the {name} normal"));
             Ok((corner?, normal?))
         };
         let (a, b, c) = (corner("first"), corner("second"), corner("third"));
+        if b.is_err() && self.has_plain_points(3) {
+            self.take_back(before);
+            let message = "a `smooth_triangle` has a normal behind each of its corners";
+            let told = Diagnostic::new(Code::MissingPart, message)
+                .at(token.span, "without normals it is a `triangle`")
+                .help("replace it with `triangle`")
+                .fix(token.span, Word::Triangle.name());
+            return Err(self.report(&token.here, told));
+        }
         let ((a, m), (b, n), (c, o)) = (a?, b?, c?);
         Ok(([a, b, c], Some([m, n, o])))
     }
@@ -127,6 +137,9 @@ impl Evaluator<'_> {
     pub(super) fn mesh(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.file_unworded(token, Word::Mesh) {
             return Err(reported);
+        }
+        if self.is_other_mesh(token, Word::Mesh2) {
+            return self.mesh2(token);
         }
         let mut gathered = Gathered::default();
         let mut from_file = None;
@@ -169,6 +182,29 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `mesh { vertex_vectors … }`, `mesh2 { triangle … }`: whether the first part is one of the `other`, which is told.
+    fn is_other_mesh(&mut self, token: &Token, other: Word) -> bool {
+        let Some(Token { kind: TokenKind::Word(part), span, here }) = self.peek().cloned() else {
+            return false;
+        };
+        let is_of_other = match other {
+            Word::Mesh => matches!(part, Word::Triangle | Word::SmoothTriangle),
+            _ => matches!(part, Word::VertexVectors | Word::NormalVectors | Word::FaceIndices),
+        };
+        let opener = self.sources.text(token.span);
+        if !is_of_other || opener == other.name() {
+            return false;
+        }
+        let (name, part) = (other.name(), part.name());
+        let told = Diagnostic::new(Code::MisplacedBlock, format!("`{part}` stands in a `{name}`"))
+            .at(token.span, format!("did you mean `{name}`?"))
+            .also(span, "its first part")
+            .help(format!("replace it with `{name}`"))
+            .fix(token.span, name);
+        self.report(&here, told);
+        true
+    }
+
     /// One triangle of a mesh. A texture of its own, and coordinates for one, it may have.
     fn mesh_triangle(&mut self, token: &Token, word: Word, all: &mut Gathered) -> Outcome<()> {
         self.block(token, word, |evaluator| {
@@ -185,6 +221,9 @@ impl Evaluator<'_> {
                     ) => {
                         evaluator.dress(&next, word, &mut dress, &mut all.textures)?;
                     }
+                    TokenKind::Word(Word::Pigment | Word::Finish | Word::Normal) => {
+                        return Err(evaluator.untextured(&next));
+                    }
                     _ => {
                         evaluator.unexpected(&next, Place::shape(word));
                         return Err(Reported);
@@ -194,6 +233,30 @@ impl Evaluator<'_> {
             all.add(token, &triangle, dress);
             Ok(())
         })
+    }
+
+    /// `triangle { <…>, <…>, <…> pigment { … } }` in a mesh.
+    fn untextured(&mut self, first: &Token) -> Reported {
+        let mut next = Some(first.clone());
+        while let Some(Token { kind: TokenKind::Word(word), .. }) = next {
+            self.skip_arguments(word);
+            let of_texture = |kind: &TokenKind| {
+                matches!(kind, TokenKind::Word(Word::Pigment | Word::Finish | Word::Normal))
+            };
+            next = self.next_if(of_texture);
+        }
+        let whole = self.whole(first).span;
+        let text = self.sources.text(whole).to_owned();
+        let told = Diagnostic::new(Code::MisplacedBlock, "a triangle of a mesh takes a `texture`")
+            .at(first.span, "expected `texture { … }` around this");
+        let told = match text.contains('#') {
+            true => told,
+            false => {
+                let right = format!("texture {{ {text} }}");
+                told.help(format!("write `{right}`")).fix(whole, right)
+            }
+        };
+        self.report(&first.here, told)
     }
 
     /// `inside_vector` and `hierarchy`, which may stand among a mesh's parts.

@@ -232,8 +232,17 @@ impl Evaluator<'_> {
             }
         } else {
             let own = home(word).filter(|home| Some(*home) != place.word);
+            let is_outside = word.family() == Family::Modifier
+                && own.is_none()
+                && matches!(
+                    place.word,
+                    Some(Word::Texture | Word::Pigment | Word::Finish | Word::Interior)
+                );
             let label = match (own, place.word) {
                 (Some(own), _) => format!("it belongs in `{} {{ … }}`", own.name()),
+                (None, Some(of)) if is_outside => {
+                    format!("it belongs in the object, outside of `{}`", of.name())
+                }
                 (None, Some(_)) => "expected a word of this block, or its end".to_owned(),
                 (None, None) => "expected an object, a light, a camera, or settings".to_owned(),
             };
@@ -243,6 +252,7 @@ impl Evaluator<'_> {
                 .help(format!("`{name}`: {}", word.sentence()));
             match (own, place.word) {
                 (Some(_), _) => diagnostic,
+                (None, Some(_)) if is_outside => diagnostic,
                 (None, Some(home)) => diagnostic.help(home.sentence().to_owned()),
                 (None, None) if matches!(word.family(), Family::Transform | Family::Modifier) => {
                     diagnostic.help(format!("it belongs in an object: `sphere {{ … {name} … }}`"))

@@ -2,10 +2,12 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::{Role, Word};
+use crate::syntax::ast::{Item, ItemKind};
+use crate::vocabulary::{Family, Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Reported};
+use super::opens_object;
 
 impl Evaluator<'_> {
     /// `next` stands where `wanted` should, which belongs to `after`.
@@ -87,6 +89,53 @@ impl Evaluator<'_> {
             None => diagnostic,
         };
         self.meant_by_word(diagnostic, next, wanted)
+    }
+
+    /// `sphere { pigment { rgb 1 } 0, 1 }`: a modifier at `next`, and the parts of `after`, of which `wanted` is one,
+    /// behind it.
+    pub(super) fn late_parts(
+        &mut self,
+        after: &Token,
+        next: &Token,
+        wanted: &str,
+    ) -> Option<Reported> {
+        let (TokenKind::Word(solid), TokenKind::Word(modifier)) = (&after.kind, &next.kind) else {
+            return None;
+        };
+        let is_modifier = matches!(modifier.family(), Family::Texture | Family::Modifier)
+            || matches!(modifier, Word::Interior | Word::Material);
+        if !is_modifier || !opens_object(*solid) {
+            return None;
+        }
+        let parts = self.values_behind_block()?;
+        let (name, word) = (solid.name(), modifier.name());
+        let message = format!("the parts of `{name}` stand before its `{word}`");
+        let right = self.sources.text(parts).to_owned();
+        let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+            .at(next.span, format!("expected {wanted}"))
+            .also(parts, "this stands too late")
+            .help(format!("move `{right}` before `{word}`"))
+            .fix(Span { end: next.span.start, ..next.span }, format!("{right} "))
+            .fix(parts, "");
+        let reported = self.report(&next.here, diagnostic);
+        // What stands too late is told.
+        self.missing_at = Some(after.here.site(next.span));
+        Some(reported)
+    }
+
+    /// The values right behind a block among the items that follow, up to where they end.
+    fn values_behind_block(&self) -> Option<Span> {
+        let frame = self.frames.last()?;
+        let ast = &frame.here.unit.ast;
+        let items = ast.items.get(frame.at as usize..frame.end as usize)?;
+        let block = items.iter().position(|item| matches!(item.kind, ItemKind::Block(_)))?;
+        let is_value = |item: &&Item| matches!(item.kind, ItemKind::Expression(_));
+        let behind = items.get(block + 1..)?;
+        let comma = |item: &&Item| matches!(item.kind, ItemKind::Comma);
+        let first = behind.iter().find(|item| !comma(item)).filter(is_value)?;
+        let last = behind.iter().take_while(|item| is_value(item) || comma(item));
+        let last = last.filter(is_value).last()?;
+        Some(first.span.to(last.span))
     }
 
     /// `green ,5`: a comma right behind the word whose value it stands for.

@@ -5,10 +5,12 @@
 
 mod bare;
 mod blob;
+mod braces;
 mod camera;
 mod color;
 mod color_map;
 mod colored;
+mod counted;
 mod early;
 mod finish;
 mod habit;
@@ -20,11 +22,13 @@ mod item;
 mod julia_fractal;
 mod light;
 mod lone;
+mod matrix;
 mod meant;
 mod mesh;
 mod misplaced;
 mod missing;
 mod misspelt;
+mod mistaken;
 mod modifier;
 mod named;
 mod object;
@@ -110,9 +114,7 @@ impl Evaluator<'_> {
                 self.global_settings(token)?;
                 self.needs_poison()
             }
-            TokenKind::Word(word)
-                if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
-            {
+            TokenKind::Word(word) if opens_object(word) => {
                 match self.object(token, word)? {
                     Value::Object(object) => self.place(object, token),
                     Value::Poison(poison) => {
@@ -168,7 +170,13 @@ impl Evaluator<'_> {
         let value = match &token.kind {
             TokenKind::Expression(id) => match self.misspelt_block(token, *id) {
                 Some(reported) => Err(reported),
-                None => self.joined_value(token),
+                None => match self.joined_value(token) {
+                    Ok(value) => match self.copy_without_word(token, &value) {
+                        Some(reported) => Err(reported),
+                        None => Ok(value),
+                    },
+                    outcome => outcome,
+                },
             },
             TokenKind::Literal(_) => self.joined_value(token),
             TokenKind::Word(word) => self.word_block(token, *word),
@@ -181,6 +189,7 @@ impl Evaluator<'_> {
                         .help(help);
                 Err(self.report(&token.here, diagnostic))
             }
+            TokenKind::Block(_) if self.objects_meant(token) => Err(self.unjoined(token)),
             TokenKind::Block(_) | TokenKind::Entry(_) | TokenKind::Comma | TokenKind::Semicolon => {
                 Err(self.expected("a value", Some(token), (&token.here, token.span)))
             }
@@ -234,9 +243,7 @@ impl Evaluator<'_> {
             _ if word.family() == Family::Color => {
                 self.color_from(token).map(|color| Value::Color(color.color()))
             }
-            _ if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) => {
-                self.object(token, word)
-            }
+            _ if opens_object(word) => self.object(token, word),
             _ if !word.is_built() || word == Word::Background => {
                 let poison = Poison::new(word, token.here.site(token.span));
                 self.skip_arguments(word);
@@ -244,6 +251,9 @@ impl Evaluator<'_> {
             }
             _ if matches!(word.role(), Role::Function { .. }) => {
                 Err(self.lacks_parentheses(token, word))
+            }
+            _ if word.family() == Family::Transform && word != Word::Inverse => {
+                Err(self.bare_transform(token, word))
             }
             _ => {
                 let name = word.name();
@@ -325,8 +335,9 @@ impl Evaluator<'_> {
                     Some(Token { kind: TokenKind::Expression(id), span, here })
                         if matches!(here.unit.expression(id).kind, ExpressionKind::Name(_)) =>
                     {
-                        let text = format!("{{ {} }}", self.sources.text(span));
-                        diagnostic.help(format!("write `{name} {text}`")).fix(span, text)
+                        let (place, text) = self.named_outside(word, span);
+                        let end = if text.ends_with('}') { "" } else { " … }" };
+                        diagnostic.help(format!("write `{name} {text}{end}`")).fix(place, text)
                     }
                     Some(Token { kind: TokenKind::Expression(id), here, .. })
                         if matches!(
@@ -369,6 +380,11 @@ impl Evaluator<'_> {
     }
 }
 
+/// Words that open an object.
+fn opens_object(word: Word) -> bool {
+    matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)
+}
+
 /// Words that open an object and are no shapes.
 fn is_object_word(word: Word) -> bool {
     matches!(word, Word::Object | Word::LightSource | Word::LightGroup)
@@ -376,8 +392,7 @@ fn is_object_word(word: Word) -> bool {
 
 /// Words with a block that is a value.
 fn opens_value(word: Word) -> bool {
-    matches!(word.family(), Family::Shape | Family::Csg)
-        || is_object_word(word)
+    opens_object(word)
         || matches!(
             word,
             Word::Texture

@@ -7,8 +7,8 @@ use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
-use super::Place;
 use super::place::is_before_modifiers;
+use super::{Place, opens_object};
 
 /// The first part behind the modifiers of its block, and how many others follow.
 struct Late {
@@ -290,6 +290,9 @@ impl Evaluator<'_> {
 
     /// `clipped_by { shape … }`, or `clipped_by { bounded_by }`: what bounds the object clips it.
     fn clips(&mut self, token: &Token) -> Outcome<Vec<ObjectId>> {
+        if let Some(reported) = self.unbraced(token, Word::ClippedBy, opens_object) {
+            return Err(reported);
+        }
         self.block(token, Word::ClippedBy, |evaluator| {
             let clips = match evaluator.take_word(Word::BoundedBy) {
                 Some(_) => evaluator.bounds.clone(),

@@ -7,7 +7,7 @@ use crate::vocabulary::{Dialect, Family, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::{Place, is_object_word};
+use super::{Place, opens_object};
 
 /// What an object is in the end, through all uses of uses.
 #[derive(Debug, Clone, Copy)]
@@ -117,13 +117,7 @@ impl Evaluator<'_> {
         match *self.peek_declared()? {
             Value::Object(object) => {
                 let token = self.next()?;
-                if let Some(reported) = self.wrong_kind(&token, word, object) {
-                    return Some(Err(reported));
-                }
-                if let Some(next) = self.peek().cloned()
-                    && word.family() == Family::Csg
-                    && matches!(next.kind, TokenKind::Word(w) if matches!(w.family(), Family::Shape | Family::Csg))
-                {
+                if word.family() == Family::Csg && self.object_follows() {
                     let text = self.sources.text(token.span).to_owned();
                     let diagnostic = Diagnostic::new(
                         Code::WrongType,
@@ -135,6 +129,9 @@ impl Evaluator<'_> {
                     let reported = self.report(&token.here, diagnostic);
                     // The others are read for their own mistakes.
                     let _: Outcome<ObjectKind> = self.union(&token);
+                    return Some(Err(reported));
+                }
+                if let Some(reported) = self.wrong_kind(&token, word, object) {
                     return Some(Err(reported));
                 }
                 Some(Ok(ObjectKind::Use(object)))
@@ -160,6 +157,24 @@ impl Evaluator<'_> {
             }
             _ => None,
         }
+    }
+
+    /// Whether another object comes next, with a comma before it or without.
+    fn object_follows(&mut self) -> bool {
+        let Some(next) = self.peek().cloned() else { return false };
+        let name = match next.kind {
+            TokenKind::Word(word) => return opens_object(word),
+            TokenKind::Expression(_) => self.sources.text(next.span),
+            TokenKind::Comma => {
+                let text = &self.sources.get(next.span.file).text;
+                let behind = text.get(next.span.end as usize..).unwrap_or("").trim_start();
+                let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+                &behind[..behind.len() - behind.trim_start_matches(of_name).len()]
+            }
+            _ => return false,
+        };
+        let value = self.scopes.symbol(name).and_then(|symbol| self.scopes.look(symbol));
+        matches!(value, Some(Value::Object(_)))
     }
 
     /// `plane { Ball }`: a declared object stands in a block of its own kind, or in `object`.
@@ -211,9 +226,7 @@ impl Evaluator<'_> {
             return Err(self.expected("a declared object", None, (&token.here, token.span)));
         };
         let value = match next.kind {
-            TokenKind::Word(word)
-                if matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word) =>
-            {
+            TokenKind::Word(word) if opens_object(word) => {
                 self.next();
                 self.object(&next, word)?
             }
@@ -234,6 +247,9 @@ impl Evaluator<'_> {
                 }
                 if let TokenKind::Word(Word::Ttf | Word::Internal) = next.kind {
                     return Err(self.letters_in_object(token, &next));
+                }
+                if let Some(reported) = self.late_parts(token, &next, "the declared object") {
+                    return Err(reported);
                 }
                 let at = (&token.here, token.span);
                 return Err(self.expected("a declared object", Some(&next), at));
@@ -294,8 +310,34 @@ impl Evaluator<'_> {
         shape
     }
 
-    fn union(&mut self, _: &Token) -> Outcome<ObjectKind> {
-        Ok(ObjectKind::Union(self.children()))
+    fn union(&mut self, token: &Token) -> Outcome<ObjectKind> {
+        let (told, lost) = (self.diagnostics.len(), self.lost_children);
+        let children = self.children();
+        let is_lost = self.diagnostics.len() != told || self.lost_children != lost;
+        if children.is_empty() && !is_lost && self.poison.is_none() {
+            self.lint_empty_union(token);
+        }
+        Ok(ObjectKind::Union(children))
+    }
+
+    /// `union { pigment { … } }`: what directives may leave empty is no mistake.
+    fn lint_empty_union(&mut self, token: &Token) {
+        let is_plain =
+            self.within_block().is_some_and(|block| !self.sources.text(block.span).contains('#'));
+        let by_macro = self.silent.is_some();
+        let next = self.peek().map(|next| next.kind.clone());
+        let ends = match next {
+            None => true,
+            Some(TokenKind::Word(word)) => Place::csg(Word::Union).holds(word),
+            _ => false,
+        };
+        if !is_plain || by_macro || !ends || token.kind != TokenKind::Word(Word::Union) {
+            return;
+        }
+        let diagnostic = Diagnostic::new(Code::DegenerateShape, "this union has nothing in it")
+            .at(token.span, "no object stands in its block");
+        // Unless they stand too late.
+        self.owed = Some((token.here.clone(), diagnostic));
     }
 
     /// The objects that a block holds before its modifiers.
@@ -320,7 +362,7 @@ impl Evaluator<'_> {
             }
             let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek() else { break };
             let word = *word;
-            if !(matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)) {
+            if !opens_object(word) {
                 break;
             }
             let Some(token) = self.next() else { break };

@@ -37,6 +37,18 @@ impl Evaluator<'_> {
     pub(super) fn lathe(&mut self, token: &Token) -> Outcome<Solid> {
         let (spline, _) = self.spline_and_sweep(false);
         let points = self.points(token, Word::Lathe, spline)?;
+        // Measured: POV-Ray takes the first and the last as they are.
+        let inner = points.get(1..points.len() - 1).unwrap_or(&[]);
+        let left = inner.iter().find(|point| point.value[0] < 0.0);
+        if let Some(left) = left
+            && spline == Spline::Linear
+            && self.options.dialect == Dialect::Pov
+        {
+            let message = "a point of this lathe is left of its axis: POV-Ray refuses it";
+            let told = Diagnostic::new(Code::OutOfRange, message)
+                .at(left.span, "its first number is how far it is from the axis: 0 or more");
+            return Err(self.report(&left.here, told));
+        }
         let last = &points[points.len() - 1];
         let solid = Solid::Lathe { spline, points: values(&points).into() };
         if solid.is_sizeless() {
@@ -181,10 +193,15 @@ impl Evaluator<'_> {
         let point = self.sources.text(first).to_owned();
         let message =
             format!("the outline of this {name} does not end where it began; it is closed");
-        let diagnostic = Diagnostic::new(Code::OpenOutline, message)
-            .at(end, "the outline ends here")
-            .also(first, "it began here")
-            .help(format!("add the point `{point}` at its end, and count it"));
+        let diagnostic =
+            Diagnostic::new(Code::OpenOutline, message).at(end, "the outline ends here");
+        // Of many points in a run, the text of one has no place of its own.
+        let diagnostic = match point.matches('<').count() > 1 {
+            true => diagnostic.help("add its first point at its end, and count it"),
+            false => diagnostic
+                .also(first, "it began here")
+                .help(format!("add the point `{point}` at its end, and count it")),
+        };
         self.report(here, diagnostic);
     }
 
@@ -315,7 +332,18 @@ impl Evaluator<'_> {
 
     /// How many points there are, and the points.
     fn points(&mut self, token: &Token, word: Word, spline: Spline) -> Outcome<Points> {
+        let label = "expected how many there are before this".to_owned();
+        let lacks = self.misplaced_spline(word, None);
+        if let Some(reported) =
+            lacks.or_else(|| self.uncounted("", label, "how many points follow"))
+        {
+            return Err(reported);
+        }
         let count = self.number_after(token, "a number for how many points follow")?;
+        let lacks = self.misplaced_spline(word, Some(count.span));
+        if let Some(reported) = lacks.or_else(|| self.bare_entries("a point", 2, &count)) {
+            return Err(reported);
+        }
         let least = match spline {
             // Lines around something.
             Spline::Linear if word == Word::Prism => 3,
@@ -355,6 +383,10 @@ impl Evaluator<'_> {
                 Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
                     [numbers.as_slice()[0], numbers.as_slice()[1]]
                 }
+                Value::Vector(_) => {
+                    let what = format!("a point of a {}", word.name());
+                    return Err(self.too_wide(&given, word, &what, 2));
+                }
                 other => {
                     let wanted = "a point of two numbers";
                     return Err(self.wrong_type(&given.here, given.span, wanted, other));
@@ -391,26 +423,5 @@ impl Evaluator<'_> {
         let reported = self.report(&next.here, told);
         self.skip_values();
         Some(reported)
-    }
-
-    /// Of points as plain numbers, of which one stands beyond their count: the count, and how many there are.
-    pub(super) fn count_before(&self, extra: Span) -> Option<(Span, usize)> {
-        let block = self.within_block()?.span;
-        let before = self.sources.text(Span { end: extra.start, ..block });
-        let head = before.split('<').next()?;
-        let plain = |c: char| c.is_ascii_digit() || c.is_whitespace() || ".,<>+-".contains(c);
-        let (points, rest) =
-            (&before[head.len()..], self.sources.text(Span { start: extra.start, ..block }));
-        let more = rest.split(|c: char| !plain(c)).next()?;
-        let digits = head.trim_end_matches(|c: char| c.is_whitespace() || c == ',');
-        let stem = digits.trim_end_matches(|c: char| c.is_ascii_digit());
-        let is_count =
-            stem.len() < digits.len() && stem.ends_with([' ', '\t', '\n', '\r', ',', '{']);
-        if block.file != extra.file || !is_count || !points.chars().all(plain) {
-            return None;
-        }
-        let start = block.start + stem.len() as u32;
-        let count = Span { start, end: block.start + digits.len() as u32, ..block };
-        Some((count, points.matches('<').count() + more.matches('<').count()))
     }
 }

@@ -105,10 +105,11 @@ impl Evaluator<'_> {
             if self.missing_at.replace(place) == Some(place) {
                 return Err(Reported);
             }
-            if let Some(next) = &next
-                && let Some(reported) = self.value_in_braces(after, next, wanted)
-            {
-                return Err(reported);
+            if let Some(next) = &next {
+                let told = self.value_in_braces(after, next, wanted);
+                if let Some(reported) = told.or_else(|| self.late_parts(after, next, wanted)) {
+                    return Err(reported);
+                }
             }
             let diagnostic = self.missing(after, next.as_ref(), wanted);
             return Err(self.report(&after.here, diagnostic));
@@ -163,8 +164,10 @@ impl Evaluator<'_> {
             return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });
         }
         let given = self.given_by(token)?;
-        let number = self.as_number(&given.here, given.span, &given.value, wanted)?;
-        Ok(given.with(number))
+        match given.value.as_number() {
+            Some(number) => Ok(given.with(number)),
+            None => Err(self.no_number(after, &given, wanted)),
+        }
     }
 
     pub(in crate::evaluate) fn as_number(
@@ -225,6 +228,11 @@ impl Evaluator<'_> {
             Ok(Err(token)) => self.given_by(token),
             Err(Reported) => Err(Reported),
         };
+        if let Ok(given) = &first
+            && let Some(reported) = self.number_within(given, number)
+        {
+            return (Err(reported), Err(reported));
+        }
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
             && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)
@@ -237,9 +245,9 @@ impl Evaluator<'_> {
             };
             return (Err(reported), Err(reported));
         }
-        let second = second.and_then(|given| {
-            let number = self.as_number(&given.here, given.span, &given.value, number)?;
-            Ok(given.with(number))
+        let second = second.and_then(|given| match given.value.as_number() {
+            Some(number) => Ok(given.with(number)),
+            None => Err(self.no_number(after, &given, number)),
         });
         (first.and_then(|given| self.as_vector(given, vector)), second)
     }

@@ -4,6 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::math::terms::{count_of_terms, exponents};
 use crate::scene::Solid;
+use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
@@ -17,6 +18,9 @@ const ORDERS: std::ops::RangeInclusive<f64> = 2.0..=15.0;
 impl Evaluator<'_> {
     /// `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
     pub(super) fn quadric(&mut self, token: &Token) -> Outcome<Solid> {
+        if let Some(reported) = self.bare_points(3, 1) {
+            return Err(reported);
+        }
         let squares = self.number_or_vector(token, "a vector for the squares: x², y², z²");
         let products = self.number_or_vector(token, "a vector for the products: xy, xz, yz");
         let singles = self.number_or_vector(token, "a vector for x, y and z");
@@ -81,6 +85,9 @@ impl Evaluator<'_> {
     }
 
     fn order(&mut self, token: &Token) -> Outcome<usize> {
+        if let Some(reported) = self.lacks_order() {
+            return Err(reported);
+        }
         let order = self.number_after(token, "a number for the order")?;
         if !ORDERS.contains(&order.value) || order.value.fract() != 0.0 {
             let message = format!("the order is {}, and must be a whole number", order.value);
@@ -90,6 +97,58 @@ impl Evaluator<'_> {
             return Err(self.report(&order.here, diagnostic));
         }
         Ok(order.value as usize)
+    }
+
+    /// `poly { <1, 0, …> }`: coefficients without the order before them.
+    fn lacks_order(&mut self) -> Option<Reported> {
+        let (list, numbers) = self.peeks_list()?;
+        let degree = (2..=15).find(|&degree| count_of_terms(degree) == numbers);
+        let message = "the order stands before the coefficients";
+        let told = Diagnostic::new(Code::MissingPart, message)
+            .at(list.span, "expected a number for the order before this");
+        let told = match degree {
+            Some(degree) => told
+                .help(format!(
+                    "{numbers} coefficients are of order {degree}: write `{degree}, <…>`"
+                ))
+                .fix(Span { end: list.span.start, ..list.span }, format!("{degree}, ")),
+            None => told,
+        };
+        self.next();
+        Some(self.report(&list.here, told))
+    }
+
+    /// The list of numbers in angle brackets that comes next, and how many there are.
+    fn peeks_list(&mut self) -> Option<(Token, usize)> {
+        let next = self.peek()?.clone();
+        let TokenKind::Expression(id) = next.kind else { return None };
+        let ExpressionKind::Vector(numbers) = next.here.unit.expression(id).kind else {
+            return None;
+        };
+        let count = next.here.unit.ast.arguments(numbers).len();
+        Some((next, count))
+    }
+
+    /// `cubic { 3, <…> }`: an order where the word of the solid says it.
+    fn needless_order(&mut self, form: Word, degree: usize) -> Option<Reported> {
+        let first = self.peek()?.clone();
+        let TokenKind::Expression(id) = first.kind else { return None };
+        let ExpressionKind::Number(number) = first.here.unit.expression(id).kind else {
+            return None;
+        };
+        if number != degree as f64 || form == Word::Poly {
+            return None;
+        }
+        self.next();
+        self.skip_commas();
+        let (list, _) = self.peeks_list()?;
+        let name = form.name();
+        let told = Diagnostic::new(Code::ExtraPart, format!("a `{name}` is of order {degree}"))
+            .at(first.span, "leave this out")
+            .fix(Span { end: list.span.start, ..first.span }, "");
+        let reported = self.report(&first.here, told);
+        self.skip_values();
+        Some(reported)
     }
 
     /// Which term `xyz(i, j, k)` is.
@@ -109,6 +168,9 @@ impl Evaluator<'_> {
     /// A list in angle brackets, of as many numbers as there are terms.
     fn listed(&mut self, token: &Token, form: Word, degree: usize) -> Outcome<Solid> {
         self.skip_commas();
+        if let Some(reported) = self.needless_order(form, degree) {
+            return Err(reported);
+        }
         let list = match self.peek().cloned() {
             Some(Token { kind: TokenKind::Expression(id), span, here }) => {
                 match here.unit.expression(id).kind {

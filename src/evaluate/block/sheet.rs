@@ -4,6 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
 use crate::scene::polygon::Polygon;
+use crate::source::Span;
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::Token;
@@ -22,6 +23,10 @@ impl Evaluator<'_> {
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.5 "Polygon".
     pub(super) fn polygon(&mut self, token: &Token) -> Outcome<Solid> {
+        let label = "expected how many there are before this".to_owned();
+        if let Some(reported) = self.uncounted("", label, "how many points there are") {
+            return Err(reported);
+        }
         let count = self.number_after(token, "how many points there are")?;
         if count.value < 3.0 {
             let message = "a polygon has three points or more";
@@ -33,6 +38,7 @@ impl Evaluator<'_> {
         let wanted = count.value as u32;
         let mut polygon = Polygon::default();
         let mut line: Vec<Vector> = Vec::new();
+        let mut places: Vec<(Vector, Span)> = Vec::new();
         let announced = count.span;
         let (mut last, mut points) = (count.with(Vector::ZERO), 0u64);
         let mut first = announced;
@@ -42,6 +48,7 @@ impl Evaluator<'_> {
             let given = self.given(token, &name);
             self.announced = None;
             let point = self.as_vector(given?, &name)?;
+            places.push((point.value, point.span));
             if line.is_empty() {
                 first = point.span;
             }
@@ -51,19 +58,27 @@ impl Evaluator<'_> {
                 line.push(point.value);
             }
             points += 1;
-            if !self.has_memory(points * size_of::<Vector>() as u64) {
+            if !self.has_memory(points * size_of::<(Vector, Span)>() as u64) {
                 return Err(self.too_much_memory(&token.here, token.span));
             }
             last = point;
         }
-        if !line.is_empty() && !self.goes_on() {
+        if let Some(begins) = unclosed_before(&line) {
+            let [outer, inner] =
+                [line[0], line[begins]].map(|point| crate::math::vector::written(point));
+            let message = "an outline of this polygon does not return to where it began";
+            let diagnostic = Diagnostic::new(Code::OpenOutline, message)
+                .at(last.span, format!("the outline from {inner} on ends here"))
+                .help(format!("add `{outer}` before {inner}, and count it"));
+            self.report(&last.here, diagnostic);
+        } else if !line.is_empty() && !self.goes_on() {
             self.lint_open_outline(Word::Polygon.name(), (&last.here, last.span), first);
         }
         if !line.is_empty() {
             polygon.lines.push(line);
         }
         self.stored += points * size_of::<Vector>() as u64;
-        self.check_flat(token, &mut polygon, &last)?;
+        self.check_flat(token, &mut polygon, &places, &last)?;
         Ok(Solid::Polygon { polygon })
     }
 
@@ -72,6 +87,7 @@ impl Evaluator<'_> {
         &mut self,
         token: &Token,
         polygon: &mut Polygon,
+        places: &[(Vector, Span)],
         last: &Given<Vector>,
     ) -> Outcome<()> {
         let Some(plane) = polygon.plane() else {
@@ -85,10 +101,14 @@ impl Evaluator<'_> {
         let Some(point) = farthest.filter(|point| plane.off(**point) > FLAT_ENOUGH) else {
             return Ok(());
         };
+        // Of many points in a run, the text of one has no place of its own.
+        let place = places.iter().find(|(other, _)| other == point).map(|(_, span)| *span);
+        let is_one = |span: &Span| self.sources.text(*span).matches('<').count() <= 1;
+        let place = place.filter(is_one).unwrap_or(token.span);
         let point = crate::math::vector::written(*point);
         let message = format!("this polygon is not flat: {point} lies beside the plane of others");
         let diagnostic = Diagnostic::new(self.undrawn(Code::OutOfRange), message)
-            .at(token.span, "all points must lie in one plane")
+            .at(place, "all points must lie in one plane")
             .help("a `mesh` may be bent");
         polygon.lines.clear();
         self.nothing(token, &token.here, diagnostic)
@@ -144,4 +164,12 @@ impl Evaluator<'_> {
         }
         Ok(solid)
     }
+}
+
+/// Where, in a line of points that does not come back to its first, another begins that ends with the last of them.
+fn unclosed_before(line: &[Vector]) -> Option<usize> {
+    let (last, before) = line.split_last()?;
+    let begins = before.iter().position(|point| point == last)?;
+    // Both have three corners at least.
+    (begins >= 3 && before.len() >= begins + 3).then_some(begins)
 }

@@ -1,11 +1,12 @@
 //! What stands in each solid's block before its modifiers.
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::math::Vector;
 use crate::scene::{Dialect, Solid};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::{FrameKind, Token, TokenKind};
 use super::super::{Evaluator, Here, Outcome};
 use super::part::Given;
 
@@ -82,10 +83,29 @@ impl Evaluator<'_> {
         {
             return Ok(());
         }
+        let diagnostic = self.in_this_turn(diagnostic);
         let reported = self.report(here, diagnostic);
         match self.options.dialect {
             Dialect::Scene => Err(reported),
             Dialect::Pov => Ok(()),
+        }
+    }
+
+    /// `sphere { I*x, I/10 }` in a loop: what its counter is there.
+    pub(super) fn in_this_turn(&self, told: Diagnostic) -> Diagnostic {
+        let mut counters = self.frames.iter().rev().filter_map(|frame| match frame.kind {
+            FrameKind::For { symbol, value, .. } => Some((self.scopes.name(symbol), value)),
+            _ => None,
+        });
+        let names = |label: &Label, name: &str| {
+            let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            self.sources.text(label.span).split(|c| !of_name(c)).any(|word| word == name)
+        };
+        match counters.find(|(name, _)| told.labels.iter().any(|label| names(label, name))) {
+            Some((name, value)) => {
+                told.help(format!("in this turn of the loop `{name}` is {value}"))
+            }
+            None => told,
         }
     }
 
@@ -119,8 +139,9 @@ impl Evaluator<'_> {
     fn plane(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
         let (normal, distance) = self.vector_and_number(token, WANTED);
-        let normal = normal.and_then(|given| self.as_direction(given, "the normal"));
-        let (normal, distance) = (normal?, distance?);
+        // `plane { <0, 0, 0>, y }`: where the two are mistaken, that is what is told.
+        let distance = distance?;
+        let normal = self.as_direction(normal?, "the normal")?;
         Ok(Solid::Plane { normal: normal.value, distance: distance.value })
     }
 
@@ -156,7 +177,7 @@ impl Evaluator<'_> {
         let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cylinder", &base, &cap)?;
         let radius = radius?;
-        self.lint_lone_height(&base, &cap);
+        self.lint_lone_height("cylinder", &base, &cap);
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a cylinder of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
@@ -190,6 +211,7 @@ impl Evaluator<'_> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
+        let diagnostic = self.in_this_turn(diagnostic);
         Err(self.report(&cap.here, diagnostic))
     }
 
@@ -200,6 +222,7 @@ impl Evaluator<'_> {
         let cap_radius = self.number_after(token, "a number for the radius at the cap");
         let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cone", &base, &cap)?;
+        self.lint_lone_height("cone", &base, &cap);
         let (base_radius, cap_radius) = (base_radius?, cap_radius?);
         let radii = [base_radius.value, cap_radius.value];
         if radii == [0.0; 2] {
@@ -253,6 +276,20 @@ impl Evaluator<'_> {
             )
             .at(hole.span, "expected a number less than the radius")
             .also(radius.span, "the radius");
+            let between = Span { start: radius.span.end, end: hole.span.start, ..radius.span };
+            let is_swapped = hole.value > radius.value
+                && radius.value > 0.0
+                && radius.span.file == hole.span.file
+                && self.sources.text(between).trim() == ",";
+            let diagnostic = if is_swapped {
+                let [less, more] = [radius.span, hole.span].map(|span| self.sources.text(span));
+                let right = format!("{more}, {less}");
+                diagnostic
+                    .help(format!("are the two swapped? write `{right}`"))
+                    .fix(radius.span.to(hole.span), right)
+            } else {
+                diagnostic
+            };
             self.nothing(token, &hole.here, diagnostic)?;
         }
         for radius in [&radius].into_iter().chain(&hole).filter(|radius| radius.value < 0.0) {
@@ -331,7 +368,8 @@ impl Evaluator<'_> {
             Some(&[both]) if !is_bare => [both; 2],
             Some(&[east, north]) => [east, north],
             Some(numbers) => {
-                let second = self.peek().filter(|_| is_bare).map(|next| next.span);
+                let is_pair = is_bare && numbers.len() == 1;
+                let second = self.peek().filter(|_| is_pair).map(|next| next.span);
                 let (found, what) = match numbers.len() {
                     1 => (Code::WrongType, "bare numbers".to_owned()),
                     count => (Code::WrongArity, format!("a vector of {count}")),

@@ -27,6 +27,10 @@ impl Evaluator<'_> {
             let wanted = "`linear_spline`, `b_spline` or `cubic_spline`";
             return Err(self.expected(wanted, found.as_ref(), (&token.here, token.span.after())));
         };
+        let label = "expected how many there are before this".to_owned();
+        if let Some(reported) = self.uncounted("", label, "how many spheres there are") {
+            return Err(reported);
+        }
         let count = self.number_after(&word, "how many spheres there are")?;
         let name = kind.word().name();
         if count.value < kind.least() as f64 {

@@ -5,7 +5,7 @@ use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::scene::TransformId;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
+use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::arity::surplus;
@@ -49,12 +49,13 @@ impl Evaluator<'_> {
         match word {
             Word::Translate => {
                 let given = self.vector_after(token, "a vector")?;
+                self.no_number_after(word, &given)?;
                 self.lint_axis_and_number(token, &given);
                 Ok(Step::Translate(given.value))
             }
             Word::Rotate => {
                 let given = self.vector_after(token, "a vector of degrees")?;
-                self.no_angle_after(&given)?;
+                self.no_number_after(word, &given)?;
                 self.lint_axis_and_number(token, &given);
                 self.lint_rotation(&given);
                 Ok(Step::Rotate(given.value))
@@ -62,6 +63,7 @@ impl Evaluator<'_> {
             Word::Matrix => self.matrix(token),
             _ => {
                 let given = self.vector_after(token, "a vector of factors")?;
+                self.no_number_after(word, &given)?;
                 let factors = given.value;
                 if factors.to_array().contains(&0.0) {
                     let uniform = factors == Vector::ZERO;
@@ -86,6 +88,7 @@ impl Evaluator<'_> {
                             "a direction that is to stay as it is takes the factor 1: `<{x}, {y}, {z}>`"
                         ));
                     }
+                    let diagnostic = self.in_this_turn(diagnostic);
                     return Err(self.report(&given.here, diagnostic));
                 }
                 Ok(Step::Scale(factors))
@@ -93,35 +96,106 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `rotate y 45` and `rotate 45, y`, as other tools write it.
-    fn no_angle_after(&mut self, given: &Given<Vector>) -> Outcome<()> {
-        let is_number = given.expression.is_some_and(|id| {
-            matches!(given.here.unit.expression(id).kind, ExpressionKind::Number(_))
-        });
-        if is_number {
+    /// `rotate y 45`, `rotate 45, y`, `translate x 2 y 3`, `scale y 2`, as other tools write it.
+    fn no_number_after(&mut self, word: Word, given: &Given<Vector>) -> Outcome<()> {
+        let kind = |here: &Here, id| here.unit.expression(id).kind;
+        let first = given.expression.map(|id| kind(&given.here, id));
+        let is_number = matches!(first, Some(ExpressionKind::Number(_)));
+        // Of factors, each number may be all three, and an axis alone is none.
+        if is_number && word == Word::Rotate {
             self.skip_commas();
         }
         let Some(Token { kind: TokenKind::Expression(id), span, here }) = self.peek().cloned()
         else {
             return Ok(());
         };
-        let (first, second) = (self.sources.text(given.span), self.sources.text(span));
-        let (right, label) = match here.unit.expression(id).kind {
-            ExpressionKind::Number(_) if !is_number => {
-                (format!("{second}*{first}"), "expected no number after the vector")
+        let axis = first.and_then(axis_of);
+        let text = |evaluator: &Self, span: Span| evaluator.sources.text(span).to_owned();
+        let (mut pairs, label) = match (kind(&here, id), axis) {
+            (ExpressionKind::Number(_), Some(axis)) => {
+                (vec![(axis, text(self, span))], "expected no number after the vector")
             }
-            ExpressionKind::Word(Word::X | Word::Y | Word::Z) if is_number => {
-                (format!("{first}*{second}"), "expected no vector after the number")
+            (ExpressionKind::Number(_), None) if !is_number && word == Word::Rotate => {
+                (Vec::new(), "expected no number after the vector")
             }
+            (second, None) if is_number && word == Word::Rotate => match axis_of(second) {
+                Some(axis) => {
+                    (vec![(axis, text(self, given.span))], "expected no vector after the number")
+                }
+                None => return Ok(()),
+            },
             _ => return Ok(()),
         };
         self.next();
+        let mut end = span;
+        // Another axis, and its number.
+        while !pairs.is_empty()
+            && let Some((axis, number, last)) = self.axis_and_number()
+        {
+            pairs.push((axis, number));
+            end = last;
+        }
+        let name = word.name();
+        let one = |(axis, number): &(usize, String)| format!("{number}*{}", ["x", "y", "z"][*axis]);
+        let in_order = pairs.is_sorted_by(|(a, _), (b, _)| a < b);
+        let right = match pairs.as_slice() {
+            [] => format!("{}*{}", text(self, span), text(self, given.span)),
+            [pair] if word != Word::Scale => one(pair),
+            // Turns are made about x first, and then y.
+            pairs if in_order => {
+                let mut all = [if word == Word::Scale { "1" } else { "0" }; 3];
+                for (axis, number) in pairs {
+                    all[*axis] = number;
+                }
+                format!("<{}>", all.join(", "))
+            }
+            pairs => {
+                let steps: Vec<String> = pairs.iter().map(one).collect();
+                steps.join(&format!(" {name} "))
+            }
+        };
+        let takes = match word {
+            Word::Rotate => "degrees about x, y and z",
+            Word::Scale => "factors along x, y and z",
+            _ => "how far along x, y and z",
+        };
         let diagnostic =
-            Diagnostic::new(Code::ExtraPart, "`rotate` takes one vector: degrees about x, y and z")
-                .at(span, label)
-                .help(format!("write `rotate {right}`"))
-                .fix(given.span.to(span), right);
+            Diagnostic::new(Code::ExtraPart, format!("`{name}` takes one vector: {takes}"))
+                .at(span, label);
+        let diagnostic = match word == Word::Scale && !in_order {
+            true => diagnostic,
+            false => {
+                diagnostic.help(format!("write `{name} {right}`")).fix(given.span.to(end), right)
+            }
+        };
         Err(self.report(&here, diagnostic))
+    }
+
+    /// `y 45`, `z -2`: an axis and a number that come next, and where they end.
+    fn axis_and_number(&mut self) -> Option<(usize, String, Span)> {
+        let Token { kind: TokenKind::Expression(id), here, span } = self.peek()?.clone() else {
+            return None;
+        };
+        let kind = |here: &Here, id| here.unit.expression(id).kind;
+        let is_number = |here: &Here, id| matches!(kind(here, id), ExpressionKind::Number(_));
+        // `z -2` is read as a difference.
+        if let ExpressionKind::Binary(BinaryOperator::Subtract, axis, number) = kind(&here, id) {
+            let axis = axis_of(kind(&here, axis)).filter(|_| is_number(&here, number))?;
+            let number = self.sources.text(here.unit.expression(number).span);
+            let number = format!("-{number}");
+            self.next();
+            return Some((axis, number, span));
+        }
+        let axis = axis_of(kind(&here, id))?;
+        self.next();
+        let Token { kind: TokenKind::Expression(id), here, span } = self.peek()?.clone() else {
+            return None;
+        };
+        if !is_number(&here, id) {
+            return None;
+        }
+        self.next();
+        Some((axis, self.sources.text(span).to_owned(), span))
     }
 
     /// `matrix <…12 numbers…>`: more numbers than a vector holds.
@@ -144,12 +218,18 @@ impl Evaluator<'_> {
             _ => None,
         };
         let Some(components) = components else {
+            if let Some(reported) = self.bare_matrix(&next) {
+                return Err(reported);
+            }
             return Err(self.expected(
                 "twelve numbers in angle brackets",
                 Some(&next),
                 (&token.here, token.span),
             ));
         };
+        if let Some(reported) = self.matrix_of_rows(&next) {
+            return Err(reported);
+        }
         let unit = next.here.unit.clone();
         let mut numbers = Vec::with_capacity(12);
         for argument in unit.ast.arguments(components) {
@@ -173,10 +253,13 @@ impl Evaluator<'_> {
                 format!("a matrix has 12 numbers, this one has {}", numbers.len()),
             )
             .at(place, "expected four rows of three numbers");
-            let diagnostic = match lost.len() {
-                0 => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
+            let diagnostic = match (lost.len(), self.without_column(next.span)) {
+                (_, Some(right)) => diagnostic
+                    .help("the fourth column is always 0, 0, 0, 1, and is left out")
+                    .fix(next.span, right),
+                (0, None) => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
                 // Of several differences only the author knows which are meant.
-                n if n + numbers.len() != 12 => diagnostic.help("`0 -2` is one number, and `0, -2` are two"),
+                (n, None) if n + numbers.len() != 12 => diagnostic.help("`0 -2` is one number, and `0, -2` are two"),
                 _ => lost.iter().fold(diagnostic, |told, (at, pair)| {
                     told.help(format!("`{pair}` is one number: a comma is missing in it")).fix(*at, ",")
                 }),
@@ -310,6 +393,16 @@ fn named<'s>(scopes: &'s mut Scopes, here: &Here, id: ExpressionId) -> Option<&'
         ExpressionKind::Name(name) => {
             scopes.read(here.symbol(name)).filter(|value| !matches!(value, Value::Macro(_)))
         }
+        _ => None,
+    }
+}
+
+/// Which axis a word is.
+fn axis_of(kind: ExpressionKind) -> Option<usize> {
+    match kind {
+        ExpressionKind::Word(Word::X) => Some(0),
+        ExpressionKind::Word(Word::Y) => Some(1),
+        ExpressionKind::Word(Word::Z) => Some(2),
         _ => None,
     }
 }

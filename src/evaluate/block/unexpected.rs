@@ -135,7 +135,8 @@ impl Evaluator<'_> {
                 self.unexpected_value(token, &value, place);
             }
             TokenKind::Block(contents) => {
-                let diagnostic = match self.braced_macro(token.span) {
+                let braced = self.braced_macro(token.span);
+                let diagnostic = match braced.or_else(|| self.braced_modifiers(token.span, place)) {
                     Some(told) => told,
                     None => {
                         let message = format!(
@@ -213,7 +214,14 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
-        if let Some(told) = self.needless_value(token, value, place) {
+        let told = match (place.word, value) {
+            (Some(Word::Object), Value::Object(_)) => self.second_of_object(token.span),
+            (Some(solid), Value::Number(_) | Value::Vector(_)) => {
+                self.mistaken_parts(solid, token.span)
+            }
+            _ => None,
+        };
+        if let Some(told) = told.or_else(|| self.needless_value(token, value, place)) {
             self.report(&token.here, told);
             return self.skip_values();
         }
@@ -321,7 +329,7 @@ impl Evaluator<'_> {
 
     /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where
     /// it goes on its line.
-    fn line_of_modifiers(&mut self, name: Span) -> Span {
+    pub(super) fn line_of_modifiers(&mut self, name: Span) -> Span {
         let changes = |kind: &TokenKind| match kind {
             TokenKind::Word(word) => {
                 word.family() == Family::Transform

@@ -143,6 +143,7 @@ impl Evaluator<'_> {
     /// `cylinder { <0, 0, 0>, 2, 0.5 }`, typed: a height, where the other end is wanted.
     pub(in crate::evaluate) fn lint_lone_height(
         &mut self,
+        name: &str,
         base: &Given<Vector>,
         cap: &Given<Vector>,
     ) {
@@ -154,7 +155,8 @@ impl Evaluator<'_> {
         }
         let ([x, y, z], height) = (base.value.to_array(), cap.value.y);
         let right = format!("<{x}, {}, {z}>", y + height);
-        let message = "the other end of a cylinder is a place, and a number is on all three axes";
+        let message =
+            format!("the other end of a {name} is a place, and a number is on all three axes");
         let diagnostic = Diagnostic::new(Code::ShortVector, message)
             .at(cap.span, format!("this is <{height}, {height}, {height}>"))
             .help(format!("for a height of {text} write `{right}`"))

@@ -195,13 +195,25 @@ impl Reader<'_> {
         };
         let (whole, inside) = (self.span(0, close), self.span(1, close - 1));
         let text = self.text.get(inside.range()).unwrap_or("");
-        let told = Diagnostic::new(Code::UnexpectedCharacter, "`|` is the operator *or*")
-            .at(whole, "not a sign for length")
-            .help(format!("how long a vector is: `vlength({text})`; of a number: `abs({text})`"));
+        let told = Diagnostic::new(Code::UnexpectedCharacter, "`|` is the operator *or*");
+        let in_formula = is_in_formula(meant);
+        let (word, told) = match in_formula {
+            true => {
+                let right = format!("abs({text})");
+                let told = told.at(whole, "no sign for an absolute value");
+                (Word::Abs, told.help(format!("write `{right}`")).fix(whole, right))
+            }
+            false => {
+                let told = told.at(whole, "not a sign for length");
+                let help =
+                    format!("how long a vector is: `vlength({text})`; of a number: `abs({text})`");
+                (Word::Vlength, told.help(help))
+            }
+        };
         self.diagnostics.push(told);
         let (first, last) = (self.tokens[self.at], self.tokens[self.at + close]);
         let sign = |mark, place: Token| Token { kind: TokenKind::Mark(mark), ..place };
-        meant.push(Token { kind: TokenKind::Word(Word::Vlength), end: first.start, ..first });
+        meant.push(Token { kind: TokenKind::Word(word), end: first.start, ..first });
         meant.push(sign(Mark::Open(Bracket::Round), first));
         meant.extend(&self.tokens[self.at + 1..self.at + close]);
         meant.push(sign(Mark::Close(Bracket::Round), last));
@@ -242,4 +254,31 @@ impl Reader<'_> {
         }
         true
     }
+}
+
+/// Whether what comes next stands in the braces of a `function`, where all values are numbers.
+fn is_in_formula(meant: &[Token]) -> bool {
+    let mut depth = 0;
+    let opener = meant.iter().rposition(|token| {
+        match token.kind {
+            TokenKind::Mark(Mark::Close(Bracket::Brace)) => depth += 1,
+            TokenKind::Mark(Mark::Open(Bracket::Brace)) => depth -= 1,
+            _ => {}
+        }
+        depth < 0
+    });
+    let before = meant.get(..opener.unwrap_or(0)).unwrap_or(&[]);
+    // Its parameters.
+    let names = |token: &&Token| {
+        matches!(
+            token.kind,
+            TokenKind::Name
+                | TokenKind::Word(Word::X | Word::Y | Word::Z | Word::U | Word::V)
+                | TokenKind::Mark(
+                    Mark::Comma | Mark::Open(Bracket::Round) | Mark::Close(Bracket::Round)
+                )
+        )
+    };
+    let word = before.iter().rev().find(|token| !names(token));
+    word.is_some_and(|token| token.kind == TokenKind::Word(Word::Function))
 }

@@ -19,6 +19,7 @@ mod counting;
 mod directive;
 mod dotted;
 mod file;
+mod formula;
 mod head;
 mod letter;
 mod map;
@@ -209,6 +210,7 @@ impl Reader<'_> {
                 self.suffix(meant)
                     || self.letter_in_number(meant)
                     || self.parted_exponent(meant)
+                    || self.exponent_of_fortran(meant)
                     || self.numbered_name(meant)
                     || self.member(meant)
                     || self.number_of_python(meant)

@@ -258,8 +258,49 @@ impl Reader<'_> {
                 .fix(opening, "")
                 .fix(closing, ""),
         );
-        meant.push(Token { kind: STAND_IN, end: whole.end, ..self.tokens[self.at] });
+        let number = &self.tokens[self.at + 4..self.at + close];
+        let is_plain = |token: &Token| {
+            matches!(token.kind, TokenKind::Number | TokenKind::Mark(Mark::Minus | Mark::Plus))
+        };
+        match number.iter().all(is_plain) {
+            true => meant.extend(number),
+            false => meant.push(Token { kind: STAND_IN, end: whole.end, ..self.tokens[self.at] }),
+        }
         self.at += close + 1;
+        true
+    }
+
+    /// `0.25D+00`, `1.0D0`, as Fortran writes an exponent. The number before it stays as it is: nothing is drawn.
+    pub(super) fn exponent_of_fortran(&mut self, meant: &[Token]) -> bool {
+        let Some(number) = self.number_before(meant) else { return false };
+        let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let name = self.slice(0).to_owned();
+        let Some(power) = name.strip_prefix(['D', 'd']).filter(|power| digits(power)) else {
+            return false;
+        };
+        let signed = (self.is(1, Mark::Minus) || self.is(1, Mark::Plus))
+            && self.touches(1)
+            && self.kind(2) == Some(TokenKind::Number)
+            && self.touches(2)
+            && digits(self.slice(2));
+        if power.is_empty() && !signed {
+            return false;
+        }
+        let last = if power.is_empty() { 2 } else { 0 };
+        let (span, all) = (self.span(0, 0), self.span(0, last));
+        let mantissa = self.text.get(number.start as usize..number.end as usize).unwrap_or("");
+        let written = self.text.get(all.range()).unwrap_or("");
+        let right = format!("{mantissa}e{}", &written[1..]);
+        let message = format!("`{name}` is no exponent");
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, message)
+                .at(
+                    Span { start: number.start, ..span },
+                    format!("an exponent is written with `e`: `{right}`"),
+                )
+                .fix(span, format!("e{power}")),
+        );
+        self.at += last + 1;
         true
     }
 

@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, PigmentId, TextureId, TransformId};
 use crate::vocabulary::Word;
 
+use super::super::super::lint::is_literal;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome, Reported};
@@ -130,10 +131,20 @@ impl Evaluator<'_> {
             if listed.len() == count.value as usize {
                 return Ok(listed);
             }
-            let message = format!("`texture_list` has {} entries", listed.len());
+            let found = listed.len();
+            let message = format!("`texture_list` has {found} entries");
             let diagnostic = Diagnostic::new(Code::WrongArity, message)
                 .at(count.span, "another number was announced");
-            Err(evaluator.report(&list.here, diagnostic))
+            let text = evaluator.sources.text(count.span);
+            let diagnostic = match is_literal(text) {
+                true => diagnostic
+                    .help(format!("if these are all, write `{found}` instead of `{text}`"))
+                    .fix(count.span, found.to_string()),
+                false => diagnostic,
+            };
+            evaluator.report(&list.here, diagnostic);
+            // The faces may have mistakes of their own.
+            Ok(listed)
         })
     }
 
@@ -219,6 +230,9 @@ impl Evaluator<'_> {
         match given.value.numbers().as_ref().map(|numbers| numbers.as_slice()) {
             Some(&[u, v]) => Ok([u, v]),
             Some(&[both]) => Ok([both; 2]),
+            Some(&[_, _, ..]) => {
+                Err(self.too_wide(&given, Word::UvVectors, "a place in a texture", 2))
+            }
             _ => Err(self.wrong_type(&given.here, given.span, &wanted, &given.value)),
         }
     }

@@ -51,6 +51,15 @@ impl Evaluator<'_> {
             let site = degenerate.first.unwrap_or(mesh);
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
                 .at(site.span, "left out: nothing of it could be seen");
+            let text = self.sources.text(site.span).trim_matches(['<', '>']);
+            let numbers: Vec<&str> = text.split(',').map(str::trim).collect();
+            let diagnostic = match numbers.as_slice() {
+                [a, b, c] if a == b || a == c => {
+                    diagnostic.help(format!("vertex {a} is two of its corners"))
+                }
+                [_, b, c] if b == c => diagnostic.help(format!("vertex {b} is two of its corners")),
+                _ => diagnostic,
+            };
             self.report_in(site.expansion, diagnostic);
         }
         self.tell_of_aimless(aimless, word, mesh);

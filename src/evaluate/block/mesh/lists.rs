@@ -7,14 +7,13 @@ use crate::math::Vector;
 use crate::scene::mesh::{Face, Triangles};
 use crate::scene::{Solid, TextureId};
 use crate::source::Span;
-use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
 use super::super::super::lint::is_literal;
-use super::super::super::stream::{Token, TokenKind};
+use super::super::super::stream::Token;
 use super::super::super::value::Value;
 use super::super::super::{Evaluator, Here, Outcome, Reported};
-use super::super::Given;
+use super::super::counted::entry_of;
 use super::flaw::{Flawed, Flaws, is_degenerate};
 
 /// What stands in a `mesh2`.
@@ -39,6 +38,8 @@ struct Lists {
     normals: Option<(Token, Vec<Vector>)>,
     uv_vectors: Option<(Token, Vec<Vector>)>,
     textures: Vec<TextureId>,
+    /// They were not understood.
+    textures_lost: bool,
     faces: Option<(Token, Vec<[f64; 3]>)>,
     /// Of each face, where there are textures.
     paint: Vec<Option<[u32; 3]>>,
@@ -52,6 +53,9 @@ impl Evaluator<'_> {
     pub(in super::super) fn mesh2(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.file_unworded(token, Word::Mesh2) {
             return Err(reported);
+        }
+        if self.is_other_mesh(token, Word::Mesh) {
+            return self.mesh(token);
         }
         let mut lists = Lists::default();
         let mut failed = false;
@@ -134,17 +138,23 @@ impl Evaluator<'_> {
         };
         let (normals, indices) = smooth.unwrap_or_default();
         let (uvs, places) = places.unwrap_or_default();
-        let mut degenerate = 0;
+        let (mut degenerate, mut first) = (0, None);
+        let count = corners.len();
         let faces = corners.into_iter().enumerate().filter_map(|(i, all)| {
             let flat = is_degenerate(all.map(|i| vertices[i as usize]));
             degenerate += u32::from(flat);
+            if flat {
+                first.get_or_insert(i);
+            }
             let (normals, uvs) = (indices.get(i).copied(), places.get(i).copied());
             let paint = paint.get(i).copied().flatten();
             (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
         let faces: Vec<Face> = faces.collect();
+        let first = first.and_then(|first| self.entry_in(&of_faces, count, first));
+        let first = first.map(|first| of_faces.here.site(first));
         let flaws = Flaws {
-            degenerate: Flawed { count: degenerate, first: None },
+            degenerate: Flawed { count: degenerate, first },
             aimless: self.aimless(of_normals.as_ref(), &normals, &faces),
         };
         let uvs = uvs.into_iter().map(|uv| [uv.x, uv.y]).collect();
@@ -177,7 +187,9 @@ impl Evaluator<'_> {
             Word::UvVectors => {
                 lists.uv_vectors = Some((list.clone(), vectors(self.entries(list, word, &mut 0)?)));
             }
-            Word::FaceIndices if self.poison.is_some() => self.skip_arguments(word),
+            Word::FaceIndices if self.poison.is_some() || lists.textures_lost => {
+                self.skip_arguments(word);
+            }
             Word::FaceIndices if !lists.textures.is_empty() => {
                 let (painted, told) = self.painted_faces(list, lists.textures.len())?;
                 let (faces, paint) = painted.into_iter().unzip();
@@ -195,7 +207,11 @@ impl Evaluator<'_> {
             Word::UvIndices => {
                 lists.face_uv = Some((list.clone(), self.entries(list, word, &mut 0)?));
             }
-            Word::TextureList => lists.textures = self.texture_list(list)?,
+            Word::TextureList => {
+                let textures = self.texture_list(list);
+                lists.textures_lost = textures.is_err();
+                lists.textures = textures?;
+            }
             _ => return self.mesh_word(list, word, &mut lists.inside),
         }
         Ok(())
@@ -211,13 +227,20 @@ impl Evaluator<'_> {
     ) -> Outcome<Vec<[f64; 3]>> {
         let width = if word == Word::UvVectors { 2 } else { 3 };
         self.block(list, word, |evaluator| {
-            if let Some(reported) = evaluator.uncounted(word) {
+            let name = word.name();
+            let (before, label) =
+                (format!("{name} {{ "), format!("`{name}` begins with how many follow"));
+            if let Some(reported) = evaluator.uncounted(&before, label, "how many there are") {
                 return Err(reported);
             }
             let count = evaluator.number_after(list, "how many there are")?;
             // No more than memory could hold; a count that is none is told by what is missing.
             let wanted = count.value as u32 as usize;
             *announced = wanted;
+            let what = entry_of(word);
+            if let Some(reported) = evaluator.bare_entries(what, width, &count) {
+                return Err(reported);
+            }
             let mut entries: Vec<[f64; 3]> = Vec::new();
             while entries.len() < wanted {
                 evaluator.take_run(width, wanted - entries.len(), &mut entries);
@@ -239,17 +262,21 @@ impl Evaluator<'_> {
                             evaluator.tell_two_numbers(&given.here, id);
                         }
                         if numbers.len() > width {
-                            let wanted = format!("a vector of {width} numbers");
-                            let Given { value, span, here, .. } = &given;
-                            return Err(evaluator.wrong_type(here, *span, &wanted, value));
+                            return Err(evaluator.too_wide(&given, word, what, width));
                         }
                         entry[..numbers.len()].copy_from_slice(numbers);
                         entry
                     }
+                    Some(numbers) if numbers.len() == 1 && word == Word::FaceIndices => {
+                        let message = "this mesh2 has no `texture_list` before its faces";
+                        let told = Diagnostic::new(Code::MissingPart, message)
+                            .at(given.span, "expected a face: a number behind one is its texture");
+                        return Err(evaluator.report(&given.here, told));
+                    }
                     Some(numbers) if numbers.len() == 1 => [numbers.as_slice()[0]; 3],
                     _ => {
-                        let Given { value, span, here, .. } = &given;
-                        return Err(evaluator.wrong_type(here, *span, "a vector", value));
+                        let (here, value) = (&given.here, &given.value);
+                        return Err(evaluator.wrong_type(here, given.span, "a vector", value));
                     }
                 });
             }
@@ -260,31 +287,6 @@ impl Evaluator<'_> {
             }
             Ok(entries)
         })
-    }
-
-    /// `vertex_vectors { <0, 0, 0>, <1, 0, 0> }`, without their count.
-    fn uncounted(&mut self, word: Word) -> Option<Reported> {
-        let first = self.peek()?.clone();
-        let TokenKind::Expression(id) = first.kind else { return None };
-        if !matches!(first.here.unit.expression(id).kind, ExpressionKind::Vector(_)) {
-            return None;
-        }
-        let inside = self.sources.text(self.within_block()?.span);
-        // What directives make cannot be counted here, nor what comments hold.
-        let entries = inside.matches('<').count();
-        let is_plain = !inside.contains(['#', '/']);
-        let name = word.name();
-        let told = Diagnostic::new(Code::WrongType, "expected how many there are, found a vector")
-            .at(first.span, format!("`{name}` begins with how many follow"));
-        let told = match is_plain {
-            true => told
-                .help(format!("write `{name} {{ {entries}, …`"))
-                .fix(Span { end: first.span.start, ..first.span }, format!("{entries}, ")),
-            false => told,
-        };
-        let reported = self.report(&first.here, told);
-        self.skip_values();
-        Some(reported)
     }
 
     /// A list goes on behind its last entry.
@@ -342,6 +344,12 @@ impl Evaluator<'_> {
             };
             let place = self.place_in(list, indices.len(), face, stray).unwrap_or(list.span);
             let diagnostic = Diagnostic::new(Code::OutOfRange, message).at(place, label);
+            let mut all = indices.iter().flatten();
+            let from_one = count > 0 && all.all(|&index| index >= 1.0 && index <= count as f64);
+            let diagnostic = match from_one {
+                true => diagnostic.help("are they counted from 1? the first entry is 0"),
+                false => diagnostic,
+            };
             return Err(self.report(&list.here, diagnostic));
         }
         Ok(indices.iter().map(|all| all.map(|index| index as u32)).collect())
@@ -352,11 +360,24 @@ impl Evaluator<'_> {
         let text = &self.sources.get(list.span.file).text;
         let rest = text.get(list.span.range().end..)?;
         let block = rest.get(..rest.find('}')?)?;
-        if block.contains(['#', '/']) || block.matches('<').count() != entries {
+        if block.contains(['#', '/']) {
             return None;
         }
-        let (open, _) = block.match_indices('<').nth(entry)?;
-        let length = block[open..].find('>')? + 1;
+        let (open, length) = if block.matches('<').count() == entries {
+            let (open, _) = block.match_indices('<').nth(entry)?;
+            (open, block[open..].find('>')? + 1)
+        } else {
+            // `-z` among them: what stands between commas, behind the count.
+            let mut depth = 0;
+            let parts = block.split(|c| {
+                depth += i32::from(c == '<') - i32::from(c == '>');
+                c == ',' && depth == 0
+            });
+            let parts: Vec<&str> = parts.collect();
+            let part = parts.get(entry + 1).filter(|_| parts.len() == entries + 1)?;
+            let before: usize = parts[..=entry].iter().map(|part| part.len() + 1).sum();
+            (before + part.len() - part.trim_start().len(), part.trim().len())
+        };
         let start = list.span.range().end + open;
         Some(Span::new(list.span.file, start, start + length))
     }
@@ -392,9 +413,16 @@ impl Evaluator<'_> {
         if found == of {
             return Ok(());
         }
-        let message = format!("{found} {of_what} for {of} of what has one each: every {what}");
+        let many = if what == "vertex" { "vertices" } else { "faces" };
+        let message = format!("{found} {of_what} for {of} {many}");
         let diagnostic = Diagnostic::new(Code::WrongArity, message)
             .at(list.span, format!("expected one for each {what}: {of}"));
+        let diagnostic = match (of_what, what) {
+            ("normals", "vertex") => {
+                diagnostic.help("or `normal_indices`, which say which of them each corner has")
+            }
+            _ => diagnostic,
+        };
         Err(self.report(&list.here, diagnostic))
     }
 }

@@ -1,0 +1,74 @@
+//! The numbers of a `matrix` as other tools print them: in rows, with a fourth column, without brackets.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::{Evaluator, Reported};
+
+/// How many rows and columns a matrix has here, and how many columns elsewhere.
+const ROWS: usize = 4;
+const COLUMNS: usize = 3;
+const COLUMNS_ELSEWHERE: usize = 4;
+
+impl Evaluator<'_> {
+    /// `matrix 1,0,0, 0,1,0, 0,0,1, 0,0,0`: the first of the numbers is taken.
+    pub(super) fn bare_matrix(&mut self, first: &Token) -> Option<Reported> {
+        let text = self.sources.get(first.span.file).text.get(first.span.start as usize..)?;
+        let of_number = |c: char| c.is_ascii_digit() || c.is_whitespace() || ".,+-eE".contains(c);
+        let plain = &text[..text.find(|c| !of_number(c)).unwrap_or(text.len())];
+        let plain = plain.trim_end_matches(|c: char| c.is_whitespace() || c == ',');
+        let numbers = plain.split([',', ' ', '\t', '\n', '\r']).filter(|part| !part.is_empty());
+        let numbers: Vec<&str> = numbers.collect();
+        let all_plain = numbers.iter().all(|number| number.parse::<f64>().is_ok());
+        if numbers.len() != ROWS * COLUMNS || !all_plain {
+            return None;
+        }
+        let whole = Span { end: first.span.start + plain.len() as u32, ..first.span };
+        let right = format!("<{plain}>");
+        let told = Diagnostic::new(
+            Code::ExpectedExpression,
+            "the numbers of a matrix stand in angle brackets",
+        )
+        .at(whole, "expected `<` before these, and `>` behind")
+        .fix(whole, right);
+        let reported = self.report(&first.here, told);
+        self.skip_values();
+        Some(reported)
+    }
+
+    /// `matrix <<1,0,0>, <0,1,0>, <0,0,1>, <0,0,0>>`.
+    pub(super) fn matrix_of_rows(&mut self, matrix: &Token) -> Option<Reported> {
+        let TokenKind::Expression(_) = matrix.kind else { return None };
+        let inside = self.sources.text(matrix.span).strip_prefix('<')?.strip_suffix('>')?;
+        if inside.matches('<').count() != ROWS {
+            return None;
+        }
+        let flat = inside.replace(['<', '>'], "");
+        let numbers: Vec<&str> = flat.split(',').map(str::trim).collect();
+        let all_plain = numbers.iter().all(|number| number.parse::<f64>().is_ok());
+        if numbers.len() != ROWS * COLUMNS || !all_plain {
+            return None;
+        }
+        let right = format!("<{}>", flat.trim());
+        let told =
+            Diagnostic::new(Code::WrongArity, "a matrix is 12 numbers in one pair of brackets")
+                .at(matrix.span, "expected numbers, not vectors")
+                .help(format!("write `matrix {right}`"))
+                .fix(matrix.span, right);
+        Some(self.report(&matrix.here, told))
+    }
+
+    /// `<1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1>` without its fourth column.
+    pub(super) fn without_column(&self, matrix: Span) -> Option<String> {
+        let inside = self.sources.text(matrix).strip_prefix('<')?.strip_suffix('>')?;
+        let numbers: Vec<&str> = inside.split(',').map(str::trim).collect();
+        let values: Option<Vec<f64>> = numbers.iter().map(|number| number.parse().ok()).collect();
+        let column = values?.into_iter().skip(COLUMNS).step_by(COLUMNS_ELSEWHERE);
+        if numbers.len() != ROWS * COLUMNS_ELSEWHERE || !column.eq([0.0, 0.0, 0.0, 1.0]) {
+            return None;
+        }
+        let rows = numbers.chunks(COLUMNS_ELSEWHERE).map(|row| row[..COLUMNS].join(", "));
+        Some(format!("<{}>", rows.collect::<Vec<_>>().join(", ")))
+    }
+}

@@ -1,0 +1,218 @@
+//! Parts of a solid in the order, or in the number, that another solid has them: `torus { 0, 1, 0.2 }`.
+//!
+//! **In:** a solid of which a part was refused. **Out:** what was meant, where the text of all its parts shows it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::vocabulary::Word;
+
+use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
+use super::super::{Evaluator, Reported};
+use super::Given;
+
+/// A part as it is written: a point or a direction, or a number.
+struct Part {
+    span: Span,
+    is_point: bool,
+}
+
+impl Evaluator<'_> {
+    /// A number is wanted for `after`, and this is none. Where the other parts show why, they are passed over.
+    pub(super) fn no_number(
+        &mut self,
+        after: &Token,
+        given: &Given<Value>,
+        wanted: &str,
+    ) -> Reported {
+        let told = match (&after.kind, &given.value) {
+            (&TokenKind::Word(solid), Value::Vector(_)) => self.mistaken_parts(solid, given.span),
+            _ => None,
+        };
+        let Some(told) = told else {
+            return self.wrong_type(&given.here, given.span, wanted, &given.value);
+        };
+        let reported = self.report(&given.here, told);
+        self.skip_values();
+        // No other part is missing.
+        let end = self.peek().map_or(after.span, |next| next.span);
+        self.missing_at = Some(after.here.site(end));
+        reported
+    }
+
+    /// What to say of the part at `refused`, of the solid that is being read.
+    pub(super) fn mistaken_parts(&self, solid: Word, refused: Span) -> Option<Diagnostic> {
+        let opener = *self.openers.last()?;
+        let parts = self.plain_parts()?;
+        let holds = |part: &Part| part.span.start <= refused.start && refused.end <= part.span.end;
+        if self.sources.text(opener) != solid.name() || !parts.iter().any(holds) {
+            return None;
+        }
+        let kinds: String =
+            parts.iter().map(|part| if part.is_point { 'p' } else { 'n' }).collect();
+        let at = |i: usize| parts[i].span;
+        let text = |i: usize| self.sources.text(at(i));
+        let is_zero = |i: usize| text(i).chars().all(|c| "<0.,> ".contains(c));
+        // Those from the first of `order` on, in another order.
+        let ordered = |told: Diagnostic, first: usize, order: &[usize]| {
+            let right = order.iter().map(|&i| text(i)).collect::<Vec<_>>().join(", ");
+            let last = first + order.len() - 1;
+            told.help(format!("write `{right}`")).fix(at(first).to(at(last)), right)
+        };
+        let told = |code, message: &str| Diagnostic::new(code, message);
+        let cone = "a cone is written `base, radius, cap, radius`";
+        let cylinder = "a cylinder is written `base, cap, radius`";
+        Some(match (solid, kinds.as_str()) {
+            (Word::Cone, "ppnn") => {
+                let told = told(Code::WrongType, cone).at(at(1), "expected the radius at the base");
+                ordered(told, 1, &[2, 1, 3])
+            }
+            (Word::Cone, "ppn") => told(Code::WrongType, cone)
+                .at(at(1), "expected the radius at the base")
+                .help(format!(
+                    "it ends in a point with `{}, {}, {}, 0`; of one radius is a `cylinder`",
+                    text(0),
+                    text(2),
+                    text(1)
+                )),
+            (Word::Cylinder, "ppnn") | (Word::Cylinder, "pnpn") => {
+                let (cap, first, second) = if kinds == "ppnn" { (1, 2, 3) } else { (2, 1, 3) };
+                if text(first) == text(second) && cap == 2 {
+                    let told = told(Code::WrongType, cylinder).at(at(1), "expected the cap");
+                    let right = format!("{}, {}", text(2), text(3));
+                    told.help(format!("write `{right}`")).fix(at(1).to(at(3)), right)
+                } else {
+                    let right = format!("{}, {}, {}", text(first), text(cap), text(second));
+                    told(Code::ExtraPart, "with two radii it is a cone")
+                        .at(refused, "a cylinder is written `base, cap, radius`")
+                        .also(opener, "did you mean `cone`?")
+                        .help(format!("write `cone {{ {}, {right}`", text(0)))
+                        .fix(opener, Word::Cone.name())
+                        .fix(at(1).to(at(3)), right)
+                }
+            }
+            (Word::Cylinder, "pnp") => {
+                let told = told(Code::WrongType, cylinder).at(at(1), "expected the cap");
+                ordered(told, 1, &[2, 1])
+            }
+            (Word::Disc, "pnp" | "pnpn") => {
+                let message = "a disc is written `centre, normal, radius`: two are swapped";
+                ordered(told(Code::WrongType, message).at(at(1), "expected the normal"), 1, &[2, 1])
+            }
+            (Word::Torus, "pnn") | (Word::Torus, "nnn") if kinds == "pnn" || is_zero(0) => {
+                let place = text(0);
+                let told =
+                    told(Code::ExtraPart, "a torus lies around the origin: it has no centre")
+                        .at(at(0), "expected the two radii alone")
+                        .fix(Span { end: at(1).start, ..at(0) }, "");
+                match is_zero(0) {
+                    true => told.help("leave it out"),
+                    false => told
+                        .help(format!(
+                            "leave it out, and write `translate {place}` behind the radii"
+                        ))
+                        .fix(at(2).after(), format!(" translate {place}")),
+                }
+            }
+            (Word::Plane, "pp") => {
+                let told = told(Code::WrongType, "a plane is written `normal, distance`")
+                    .at(at(1), "expected a number: how far from the origin it lies");
+                let normal = match (is_zero(0), is_zero(1)) {
+                    (true, false) => text(1),
+                    (false, true) => text(0),
+                    _ => return Some(told),
+                };
+                let right = format!("{normal}, 0");
+                told.help(format!("write `{right}`")).fix(at(0).to(at(1)), right)
+            }
+            (Word::Box, "ppn") => told(Code::ExtraPart, "a box has two corners, and sharp edges")
+                .at(at(2), "one part too many")
+                .help(format!(
+                    "`Round_Box({}, {}, {}, 0)` of `shapes.inc` is a rounded one",
+                    text(0),
+                    text(1),
+                    text(2)
+                )),
+            _ => return None,
+        })
+    }
+
+    /// `sphere { <1, 2, 3, 0.5> }`: the number that should stand behind the vector is its fourth.
+    pub(super) fn number_within(&mut self, given: &Given<Value>, wanted: &str) -> Option<Reported> {
+        let Value::Vector(components) = &given.value else { return None };
+        let text = self.sources.text(given.span).to_owned();
+        let goes_on = self.goes_on();
+        let (point, number) = text.strip_suffix('>')?.rsplit_once(',')?;
+        if components.len() != 4 || goes_on || self.commas_within(given.span).is_some() {
+            return None;
+        }
+        let right = format!("{}>, {}", point.trim_end(), number.trim());
+        let message = "the vector has three numbers, and a fourth stands behind it";
+        let told = Diagnostic::new(Code::WrongArity, message)
+            .at(given.span, format!("expected {wanted} behind this"))
+            .help(format!("write `{right}`"))
+            .fix(given.span, right);
+        Some(self.report(&given.here, told))
+    }
+
+    /// Whether the block being read has so many points before its first word, and nothing else.
+    pub(super) fn has_plain_points(&self, count: usize) -> bool {
+        let parts = self.plain_parts().unwrap_or_default();
+        parts.len() == count && parts.iter().all(|part| part.is_point)
+    }
+
+    /// The parts of the block being read, up to its first word: literals, axes and names of numbers and vectors.
+    /// `None` where anything else is among them.
+    fn plain_parts(&self) -> Option<Vec<Part>> {
+        let block = self.within_block()?.span;
+        let text = self.sources.text(block);
+        let (mut parts, mut at) = (Vec::new(), 0);
+        loop {
+            at += text[at..].len()
+                - text[at..].trim_start_matches([',', ' ', '\t', '\r', '\n']).len();
+            let rest = &text[at..];
+            let (length, is_point) = match rest.chars().next() {
+                None => break,
+                Some('<') => {
+                    let length = rest.find('>')? + 1;
+                    let inside = &rest[1..length];
+                    (!inside.contains(['<', '{', '#', '/', '"'])).then_some((length, true))?
+                }
+                Some(_) => {
+                    let ends = |c: char| c.is_whitespace() || ",{}<".contains(c);
+                    let word = &rest[..rest.find(ends).unwrap_or(rest.len())];
+                    match self.is_point(word) {
+                        Some(is_point) => (word.len(), is_point),
+                        None if Word::from_name(word).is_some() => break,
+                        None => return None,
+                    }
+                }
+            };
+            let start = block.start + at as u32;
+            parts
+                .push(Part { span: Span { start, end: start + length as u32, ..block }, is_point });
+            at += length;
+            // A calculation with blanks in it.
+            if text[at..].trim_start().starts_with(['*', '/', '+', '-', '.', '(', '[']) {
+                return None;
+            }
+        }
+        (!parts.is_empty()).then_some(parts)
+    }
+
+    /// Whether a word is a point or a direction, where it is no number; `None` where it is neither.
+    fn is_point(&self, word: &str) -> Option<bool> {
+        if word.parse::<f64>().is_ok() && !word.contains(char::is_alphabetic) {
+            return Some(false);
+        }
+        let (factor, last) = word.rsplit_once('*').unwrap_or(("1", word.trim_start_matches('-')));
+        if factor.parse::<f64>().is_ok() && matches!(last, "x" | "y" | "z") {
+            return Some(true);
+        }
+        match self.scopes.look(self.scopes.symbol(word)?)? {
+            Value::Number(_) => Some(false),
+            Value::Vector(_) => Some(true),
+            _ => None,
+        }
+    }
+}
