@@ -49,6 +49,42 @@ impl Evaluator<'_> {
         span
     }
 
+    /// Where an argument is empty: the sign before which it should stand.
+    pub(super) fn empty_argument(
+        &self,
+        here: &Here,
+        list: &[Argument],
+        empty: usize,
+        call: Span,
+    ) -> Span {
+        if empty + 1 == list.len() {
+            return self.end_of_call(call);
+        }
+        let before = empty.checked_sub(1).map(|before| surplus(here, &list[before..empty]));
+        let text = self.sources.text(call);
+        let from = match before {
+            Some(Some(before)) if before.start >= call.start => (before.end - call.start) as usize,
+            Some(_) => return call,
+            None => text.find('(').unwrap_or(0),
+        };
+        // Its own comma, behind the one that ends what stands before.
+        let mut commas = text.get(from..).unwrap_or("").match_indices(',');
+        match commas.nth(usize::from(before.is_some())) {
+            Some((at, _)) => {
+                let start = call.start + (from + at) as u32;
+                Span { start, end: start + 1, ..call }
+            }
+            None => call,
+        }
+    }
+
+    /// Whether the macro whose name is defined here gives a parameter a value, as other languages do.
+    pub(super) fn has_default(&self, name: Span) -> bool {
+        let behind = self.sources.get(name.file).text.get(name.end as usize..).unwrap_or("");
+        let parameters = behind.split(')').next().unwrap_or("");
+        parameters.trim_start().starts_with('(') && parameters.contains('=')
+    }
+
     pub(super) fn wrong_arity(
         &mut self,
         here: &Here,

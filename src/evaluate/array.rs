@@ -150,7 +150,7 @@ impl Evaluator<'_> {
     pub(super) fn array(&mut self, token: &Token) -> Outcome<Value> {
         let mut dimensions = Vec::new();
         while let Some(Token { kind: TokenKind::Entry(items), here, span }) =
-            self.next_if(|kind| matches!(kind, TokenKind::Entry(_)))
+            self.next_of_array(|kind| matches!(kind, TokenKind::Entry(_)))
         {
             if here.unit.ast.items(items).is_empty() {
                 return Err(self.no_size(&here, span));
@@ -171,7 +171,7 @@ impl Evaluator<'_> {
         let Some(count) = self.array_size(token, &dimensions)? else { return Err(Reported) };
         let mut array = Array { dimensions, elements: vec![None; count], kind: None };
         if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
-            self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
+            self.next_of_array(|kind| matches!(kind, TokenKind::Block(_)))
         {
             let mut at = 0;
             let filled = self.inside_block(&here, contents, span, |evaluator| {
@@ -189,6 +189,11 @@ impl Evaluator<'_> {
             }
         }
         Ok(Value::Array(Arc::new(array)))
+    }
+
+    /// As [`Self::next_if`], where the array may have ended: what stands behind it may ask for it.
+    fn next_of_array(&mut self, suits: impl FnOnce(&TokenKind) -> bool) -> Option<Token> {
+        if self.peek_on().is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
     }
 
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {

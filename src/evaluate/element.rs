@@ -128,7 +128,7 @@ impl Evaluator<'_> {
         value: Outcome<Value>,
     ) -> Outcome<()> {
         let numbers = match (indices?, self.scopes.read(symbol)) {
-            (_, None) => return Err(self.undeclared(here, symbol, span)),
+            (_, None) => return Err(self.array_missing(here, symbol, span)),
             // What is set in something that is not built, or that was reported, is lost.
             (Indices::Poison(_), _) | (_, Some(Value::Poison(_) | Value::Broken)) => return Ok(()),
             (Indices::Numbers(numbers), Some(_)) => numbers,
@@ -240,7 +240,8 @@ impl Evaluator<'_> {
         base: Span,
     ) -> Reported {
         let index = |at: usize| indices.get(at).map_or(base, |id| here.unit.expression(*id).span);
-        let name = self.sources.text(base).to_owned();
+        // Of what is assigned, the place is that of all of it.
+        let name = self.sources.text(base).split('[').next().unwrap_or("").trim().to_owned();
         let diagnostic = match error {
             NoElement::NoArray(0, Value::Broken)
                 if let Some((Word::Spline, _)) =

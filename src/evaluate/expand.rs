@@ -91,6 +91,7 @@ impl Evaluator<'_> {
         let lacks = parameters.is_empty() && self.lacks_parameters(name_span);
         let broken = lacks || parameters.iter().any(is_word);
         let id = MacroId(self.macros.len() as u32);
+        self.lint_local_sum(here, parameters, body);
         let required = parameters.iter().rposition(|p| !p.optional).map_or(0, |last| last + 1);
         let parameters = parameters.iter().map(|p| (here.symbol(p.name), p.optional)).collect();
         self.macros.push(Rc::new(Macro {
@@ -296,6 +297,10 @@ impl Evaluator<'_> {
             let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
+            // `#macro Ball(P, R = 1)`, as has been told.
+            if list.len() < definition.required && self.has_default(definition.defined) {
+                return Err(Reported);
+            }
             let more = list.get(parameters.len()..).and_then(|more| surplus(here, more));
             let at = more.unwrap_or_else(|| self.end_of_call(span));
             let told =
@@ -327,7 +332,10 @@ impl Evaluator<'_> {
             let parameter = self.scopes.name(parameters[empty].0);
             let message = format!("`{parameter}` of macro `{name}` is left empty");
             Diagnostic::new(Code::WrongArity, message)
-                .at(span, format!("expected a value for `{parameter}`"))
+                .at(
+                    self.empty_argument(here, list, empty, span),
+                    format!("expected a value for `{parameter}`"),
+                )
                 .help("only a parameter that is declared `optional` may be left out")
         } else {
             return Ok(());

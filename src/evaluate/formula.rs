@@ -166,6 +166,9 @@ impl Evaluator<'_> {
                     .help("a function takes numbers: `function(x, y, z) { … }` is one of a place");
                 return Err(self.report(here, diagnostic));
             }
+            if let Some(reported) = self.length_of_parameters(here, id) {
+                return Err(reported);
+            }
             let message = format!("`{text}` has no value yet where the function is defined");
             let diagnostic = Diagnostic::new(Code::WrongType, message)
                 .at(parameter, "a parameter of the function")

@@ -2,9 +2,11 @@
 
 mod angle;
 mod color;
+mod condition;
 mod equation;
 mod finish;
 mod light;
+mod local;
 mod lone;
 mod loose;
 mod map;

@@ -66,7 +66,10 @@ impl Evaluator<'_> {
             return Ok(poison.clone());
         }
         let Value::Object(object) = values[0] else {
-            return Err(self.wrong_type(here, spans[0], "an object", &values[0]));
+            // `inside(Point, Object)`
+            let turned = values.iter().any(|value| matches!(value, Value::Object(_)));
+            let help = turned.then(|| format!("the object comes first: {}", word.sentence()));
+            return Err(self.wrong_type_with(here, spans[0], "an object", &values[0], help));
         };
         let mut vectors = [Vector::ZERO; 2];
         for (vector, (value, at)) in vectors.iter_mut().zip(values.iter().zip(&spans).skip(1)) {
@@ -110,11 +113,13 @@ impl Evaluator<'_> {
         {
             let symbol = here.symbol(name);
             if self.scopes.slot(symbol).is_none() {
-                let at = here.unit.expression(id).span;
-                return Err(self.undeclared(here, symbol, at));
+                self.normal_missing(here, symbol, here.unit.expression(id).span);
             }
             self.scopes.mark_used(symbol);
-            self.scopes.overwrite(symbol, Value::vector3(normal));
+            match self.scopes.slot(symbol) {
+                Some(_) => self.scopes.overwrite(symbol, Value::vector3(normal)),
+                None => self.scopes.assign(symbol, Value::vector3(normal)),
+            }
             return Ok(());
         }
         if let Argument::Expression(id) = *argument

@@ -102,6 +102,11 @@ impl Evaluator<'_> {
                 }
                 found @ Value::Poison(_) => poison = poison.or(Some(found)),
                 other => {
+                    if let ([(count, first)], [_]) = (&written[..], &knots[..])
+                        && let Some(reported) = self.counted_spline(&token, *count, *first)
+                    {
+                        return Err(reported);
+                    }
                     let wanted = "a time, the number before each value";
                     return Err(self.wrong_type(&token.here, token.span, wanted, &other));
                 }
@@ -120,6 +125,35 @@ impl Evaluator<'_> {
                 Err(self.report(&opener.here, diagnostic))
             }
         }
+    }
+
+    /// `spline { linear_spline 2, <0,0,0>, <1,1,1> }`: how many values there are, as in a lathe.
+    fn counted_spline(&mut self, token: &Token, count: f64, first: Site) -> Option<Reported> {
+        let block = self.blocks.last().map(|block| block.span)?;
+        if block.file != first.span.file || !block.contains(first.span) || count < 2.0 {
+            return None;
+        }
+        let list = Span { start: first.span.end, end: block.end - 1, ..block };
+        let list = self.sources.text(list);
+        let values: Vec<&str> = list
+            .split_inclusive('>')
+            .map(|value| value.trim_matches(|c: char| c == ',' || c.is_whitespace()))
+            .filter(|value| !value.is_empty())
+            .collect();
+        let is_vector = |value: &&str| value.starts_with('<') && value.ends_with('>');
+        if !values.iter().all(is_vector) || values.len() as f64 != count {
+            return None;
+        }
+        let timed: Vec<String> =
+            values.iter().enumerate().map(|(time, value)| format!("{time}, {value}")).collect();
+        let right = timed.join(", ");
+        let end = first.span.end + list.rfind('>').map_or(0, |at| at as u32 + 1);
+        while self.next().is_some() {}
+        let told = Diagnostic::new(Code::ExtraPart, "a spline does not say how many values it has")
+            .at(first.span, "a time stands before each value")
+            .help(format!("write `{right}`, at times such as these"))
+            .fix(Span { end, ..first.span }, right);
+        Some(self.report(&token.here, told))
     }
 
     /// Two values for one time, which are no jump: one of them does not count.

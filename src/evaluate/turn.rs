@@ -187,6 +187,7 @@ impl Evaluator<'_> {
         for (index, case) in cases.iter().enumerate() {
             let chosen = match case.kind {
                 CaseKind::Value(id) => {
+                    self.lint_condition_as_case(here, id);
                     let case = self.number(here, id)?;
                     self.comparison().same(value, case)
                 }

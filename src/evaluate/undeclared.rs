@@ -4,8 +4,11 @@
 //! one that a standard include declares under just this name, then a close one of the author's, then a
 //! word of the language.
 
+mod elsewhere;
 mod lacking;
 mod parameter;
+mod uncalled;
+mod unmade;
 
 pub(super) use self::lacking::standard_color;
 
@@ -16,7 +19,7 @@ use std::sync::LazyLock;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::{Family, Role, Word, standard_include_of};
+use crate::vocabulary::{Family, PREDECLARED, Role, Word, standard_include_of};
 
 use super::stream::{Token, TokenKind};
 use super::value::Value;
@@ -235,13 +238,15 @@ impl Evaluator<'_> {
             return None;
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
+            diagnostic = self.by_uncalled_macro(symbol, diagnostic);
             // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
             let theirs = suggest::foreign(name).filter(|_| !is_own).find(|ours| {
-                Word::from_name(ours).is_some_and(|word| match word.role() {
-                    Role::Statement => begins,
-                    Role::Value => !is_called,
-                    Role::Function { .. } => is_called,
-                })
+                PREDECLARED.iter().any(|(known, _)| known == ours)
+                    || Word::from_name(ours).is_some_and(|word| match word.role() {
+                        Role::Statement => begins,
+                        Role::Value => !is_called,
+                        Role::Function { .. } => is_called,
+                    })
             });
             if let Some(ours) = theirs {
                 let meant = format!("did you mean `{ours}`?");
@@ -385,7 +390,7 @@ impl Evaluator<'_> {
                 stays("`select(A, -1, 0, 1)` is below 0, 0, or above")
             }
             "step" => stays("0 or 1: `(X >= Edge)`"),
-            _ => None,
+            other => self.function_elsewhere(other, span, &argument),
         }
     }
 }

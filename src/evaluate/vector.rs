@@ -11,6 +11,10 @@ use super::stream::TokenKind;
 use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
+/// What a vector or a colour is asked for.
+const COMPONENTS: [&str; 12] =
+    ["x", "y", "z", "t", "u", "v", "red", "green", "blue", "filter", "transmit", "gray"];
+
 /// What a vector has between its angle brackets, so far.
 #[derive(Default)]
 struct Gathered {
@@ -149,11 +153,16 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let Component::Name(_, span) = component else { return Ok(()) };
         let ours = match self.sources.text(span) {
-            "r" => "red",
-            "g" => "green",
-            "b" => "blue",
+            "r" | "R" => "red",
+            "g" | "G" => "green",
+            "b" | "B" => "blue",
             "w" | "a" => "t",
-            _ => return Ok(()),
+            "grey" => "gray",
+            // `.X`, `.Red`
+            other => match COMPONENTS.iter().find(|one| one.eq_ignore_ascii_case(other)) {
+                Some(ours) => ours,
+                None => return Ok(()),
+            },
         };
         let before = self.sources.text(here.unit.expression(base).span);
         let message = format!("`.{}` is no component", self.sources.text(span));

@@ -165,6 +165,8 @@ impl<'a> Nest<'a> {
                 self.items.truncate(base);
                 id
             }
+            // What closes it was added, and that was told.
+            [] if close.start == close.end => self.add(ExpressionKind::Missing, close),
             [] => {
                 let text = self.slice(close);
                 let message = format!("expected {what} before `{text}`");

@@ -142,8 +142,12 @@ impl<'a> Nest<'a> {
                 self.open(FrameKind::Body(body), at, false);
             }
             (Head::For, _) => {
+                let place = match arguments.len() {
+                    1 | 2 => close,
+                    _ => at.to(close),
+                };
                 self.expected_in_head(
-                    at.to(close),
+                    place,
                     "`#for` takes a name, a start and an end",
                     "expected `(Name, from, to)` or `(Name, from, to, step)`",
                 );

@@ -45,9 +45,10 @@ pub(super) fn correct_heads(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut before = None;
+    let (mut before, mut pairs) = (None, HashSet::new());
     for at in 0..tokens.len() {
         let [next, behind] = [1, 2].map(|more| tokens.get(at + more).map(|next| next.kind));
+        let each = each_of(&tokens[at..], text);
         let Some(token) = tokens.get_mut(at) else { continue };
         let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
@@ -105,6 +106,12 @@ pub(super) fn correct_heads(
                 .fix(Span { end: span.end - word.len() as u32, ..span }, "");
             token.start = span.end - word.len() as u32;
             token.kind = TokenKind::Word(own);
+        } else if let Some([name, array]) = each {
+            let right = format!("#for (I, 0, dimension_size({array}, 1) - 1)");
+            diagnostic = diagnostic.help(format!("write `{right}`, and `{array}[I]` for `{name}`"));
+            // Nothing is known of the name: its body is not run.
+            token.kind = TokenKind::Directive(Head::Ifdef);
+            pairs.extend([at + 3, at + 4]);
         } else if let Some(near) = near.filter(fits) {
             let start = span.end - word.len() as u32;
             diagnostic = diagnostic
@@ -122,7 +129,26 @@ pub(super) fn correct_heads(
         }
         diagnostics.push(diagnostic);
     }
+    if !pairs.is_empty() {
+        let mut at = 0..;
+        tokens.retain(|_| at.next().is_none_or(|at| !pairs.contains(&at)));
+    }
     drop_their_ends(tokens);
+}
+
+/// `#foreach (V, A)`: what stands for each element, and the array.
+fn each_of<'a>(tokens: &[Token], text: &'a str) -> Option<[&'a str; 2]> {
+    let [head, open, name, comma, array, close, ..] = tokens else { return None };
+    let slice = |token: &Token| text.get(token.start as usize..token.end as usize).unwrap_or("");
+    let round = |mark: fn(Bracket) -> Mark| TokenKind::Mark(mark(Bracket::Round));
+    let is_each = head.kind == TokenKind::Directive(Head::Unknown)
+        && matches!(directive_word(slice(head)), "foreach" | "forall")
+        && open.kind == round(Mark::Open)
+        && name.kind == TokenKind::Name
+        && comma.kind == TokenKind::Mark(Mark::Comma)
+        && array.kind == TokenKind::Name
+        && close.kind == round(Mark::Close);
+    is_each.then(|| [slice(name), slice(array)])
 }
 
 /// Whether `#word` is rather a directive that is misspelt, or another language's.

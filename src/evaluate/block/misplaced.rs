@@ -330,15 +330,39 @@ impl Evaluator<'_> {
     pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
         let (name, meant) = (word.name(), today.name());
         let message = format!("`{name}` is a word of old versions");
-        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-            .at(token.span, format!("today it is `{meant}`"))
-            .help(format!("write `{meant}`"))
-            .fix(token.span, meant);
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message);
+        let diagnostic = match self.opacity(token, word) {
+            Some((span, right)) => diagnostic
+                .at(token.span, "how clear a colour is, is `transmit`: 1 less the opacity")
+                .help(format!("write `{right}`; in old files it was `{meant}`"))
+                .fix(span, right),
+            None => diagnostic
+                .at(token.span, format!("today it is `{meant}`"))
+                .help(format!("write `{meant}`"))
+                .fix(token.span, meant),
+        };
         let reported = self.report(&token.here, diagnostic);
         if !self.judge_block(token, today) {
             self.skip_values();
         }
         reported
+    }
+
+    /// `alpha 0.2`: the number behind it is how opaque a colour is, in all other programs of today.
+    fn opacity(&self, token: &Token, word: Word) -> Option<(Span, String)> {
+        /// Since when `alpha` is no word any more.
+        const TODAY: f64 = 3.0;
+        let text = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
+        let blanks = text.len() - text.trim_start().len();
+        let rest = &text[blanks..];
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
+        let number = rest[..end].parse::<f64>().ok().filter(|n| (0.0..=1.0).contains(n))?;
+        let end = token.span.end + (blanks + end) as u32;
+        // As many digits as it has.
+        let digits = rest[..(end - token.span.end) as usize - blanks].split_once('.');
+        let digits = digits.map_or(0, |(_, digits)| digits.len());
+        (word == Word::Alpha && self.version >= TODAY)
+            .then(|| (Span { end, ..token.span }, format!("transmit {:.digits$}", 1.0 - number)))
     }
 
     /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.

@@ -281,6 +281,8 @@ impl Evaluator<'_> {
             let (whole, text) = match (value, place.word) {
                 // `Part translate x`
                 (Value::Object(_), None) => {
+                    let name = self.sources.text(token.span);
+                    diagnostic.message = format!("`{name}` is an object, and placed by `object`");
                     let whole = self.line_of_modifiers(token.span);
                     (whole, format!("{wrapper} {{ {} }}", self.sources.text(whole)))
                 }

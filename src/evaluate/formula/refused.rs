@@ -3,6 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Here, Reported};
 use crate::source::Span;
+use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
@@ -21,6 +22,44 @@ impl Evaluator<'_> {
         .at(span, "a vector elsewhere; in a function it must be a parameter")
         .help(format!("`function (…, {text}) {{ … }}` would make it one"));
         self.report(here, diagnostic)
+    }
+
+    /// `vlength(<x, y, z>)`: a function works on numbers.
+    pub(super) fn length_of_parameters(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<Reported> {
+        let ast = &here.unit.ast;
+        let ExpressionKind::Call(Callee::Word(Word::Vlength, word), list) =
+            here.unit.expression(id).kind
+        else {
+            return None;
+        };
+        let [Argument::Expression(vector)] = *ast.arguments(list) else { return None };
+        let ExpressionKind::Vector(components) = here.unit.expression(vector).kind else {
+            return None;
+        };
+        let squares: Option<Vec<String>> = ast
+            .arguments(components)
+            .iter()
+            .map(|component| {
+                let Argument::Expression(id) = *component else { return None };
+                let expression = here.unit.expression(id);
+                let text = self.sources.text(expression.span);
+                Some(match expression.kind {
+                    ExpressionKind::Name(_) | ExpressionKind::Word(_) => format!("{text}*{text}"),
+                    _ => format!("pow({text}, 2)"),
+                })
+            })
+            .collect();
+        let right = format!("sqrt({})", squares?.join(" + "));
+        let message = "a function works on numbers, and `vlength` on a vector";
+        let diagnostic = Diagnostic::new(Code::WrongType, message)
+            .at(word, "no function of numbers")
+            .help(format!("write `{right}`"))
+            .fix(here.unit.expression(id).span, right);
+        Some(self.report(here, diagnostic))
     }
 
     /// `rand(S)` in a body, which has one value for each set of arguments; POV-Ray refuses it, too.

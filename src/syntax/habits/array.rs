@@ -1,4 +1,5 @@
-//! The values of an array as other languages write them: `array[3] [1, 2, 3]`, `array[3] = { 1, 2, 3 }`.
+//! The sizes and values of an array as other languages write them: `array[2, 2]`, `array[3] [1, 2, 3]`,
+//! `array[3] (1, 2, 3)`, `array[3] = { 1, 2, 3 }`.
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
@@ -7,8 +8,46 @@ use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::Word;
 
 impl Reader<'_> {
-    /// `array[4] [1, 2, 3, 4]`: the values of an array in brackets.
-    pub(super) fn array_list(&mut self, meant: &mut Vec<Token>) -> bool {
+    /// `array[2, 2]`: all sizes of an array in one pair of brackets.
+    pub(super) fn sizes_by_comma(&mut self, meant: &mut Vec<Token>) -> bool {
+        let of_array = meant.last().is_some_and(|last| last.kind == TokenKind::Word(Word::Array));
+        let Some(close) = self.closed(0, Bracket::Square).filter(|_| of_array) else {
+            return false;
+        };
+        // A number or a name, and a comma, in turn.
+        let is_one = |at: usize| match at % 2 == 1 {
+            true => matches!(self.kind(at), Some(TokenKind::Number | TokenKind::Name)),
+            false => self.is(at, Mark::Comma),
+        };
+        if close < 4 || close % 2 == 1 || !(1..close).all(is_one) {
+            return false;
+        }
+        let commas = || (2..close).step_by(2);
+        let sizes: String =
+            (1..close).step_by(2).map(|at| format!("[{}]", self.slice(at))).collect();
+        let message = "each dimension of an array has brackets of its own";
+        let told = Diagnostic::new(Code::UnexpectedCharacter, message)
+            .at(self.span(2, 2), "expected `]` here")
+            .help(format!("write `array{sizes}`"));
+        let gap = |at: usize| Span { end: self.span(at + 1, at + 1).start, ..self.span(at, at) };
+        let told = commas().fold(told, |told, at| told.fix(gap(at), "]["));
+        self.diagnostics.push(told);
+        for (at, token) in self.tokens[self.at..=self.at + close].iter().enumerate() {
+            let square = |bracket: fn(Bracket) -> Mark| Token {
+                kind: TokenKind::Mark(bracket(Bracket::Square)),
+                ..*token
+            };
+            match at > 0 && at < close && at % 2 == 0 {
+                true => meant.extend([square(Mark::Close), square(Mark::Open)]),
+                false => meant.push(*token),
+            }
+        }
+        self.at += close + 1;
+        true
+    }
+
+    /// `array[4] [1, 2, 3, 4]`, `array[2] (1, 2)`: the values of an array in other brackets.
+    pub(super) fn array_list(&mut self, bracket: Bracket, meant: &mut Vec<Token>) -> bool {
         let square = |open: bool| match open {
             true => TokenKind::Mark(Mark::Open(Bracket::Square)),
             false => TokenKind::Mark(Mark::Close(Bracket::Square)),
@@ -17,7 +56,7 @@ impl Reader<'_> {
             if array.kind == TokenKind::Word(Word::Array)
                 && open.kind == square(true)
                 && close.kind == square(false));
-        let Some(close) = self.closed(0, Bracket::Square).filter(|_| of_array) else {
+        let Some(close) = self.closed(0, bracket).filter(|_| of_array) else {
             return false;
         };
         // Those of a second dimension have no commas.

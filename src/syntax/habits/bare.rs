@@ -1,4 +1,4 @@
-//! What stands bare as elsewhere: a string without its quotes, `Line(The End, 2)`, comments, `-- how many` and
+//! What stands bare as elsewhere: a string without its quotes, `Line(The End, 2)`, quotes within one, comments, `-- how many` and
 //! `<!-- snow -->`, a length between bars, `|A|`.
 
 use super::Reader;
@@ -46,6 +46,38 @@ impl Reader<'_> {
         );
         meant.push(Token { kind: TokenKind::String, start: span.start, end: span.end });
         self.at += count;
+        true
+    }
+
+    /// `"say "hello" now"`: quotes within a string.
+    pub(super) fn quotes_within(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_word =
+            |kind| matches!(kind, Some(TokenKind::Name | TokenKind::Word(_) | TokenKind::Number));
+        let end = (1..).find(|&ahead| !is_word(self.kind(ahead))).unwrap_or(1);
+        let touching = end > 1
+            && self.kind(end) == Some(TokenKind::String)
+            && self.touches(1)
+            && self.touches(end);
+        if !touching {
+            return false;
+        }
+        let (first, last) = (self.span(0, 0), self.span(end, end));
+        let between = Span { start: first.end, end: last.start, ..first };
+        let inside = self.text.get(between.range()).unwrap_or("");
+        if inside.contains(['\n', '\r']) {
+            return false;
+        }
+        let closing = Span { start: first.end - 1, ..first };
+        let opening = Span { end: last.start + 1, ..last };
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, "this quote ends the string")
+                .at(closing, format!("`{inside}` stands outside of it"))
+                .help("a quote within a string is written `\\\"`")
+                .fix(closing, "\\\"")
+                .fix(opening, "\\\""),
+        );
+        meant.push(Token { kind: TokenKind::String, start: first.start, end: last.end });
+        self.at += end + 1;
         true
     }
 

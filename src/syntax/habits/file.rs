@@ -1,12 +1,44 @@
 //! The directives of files as other languages call theirs: `#fopen F, "a.txt", write`, `#read F, A, B`,
-//! `#fclose "a.txt"`.
+//! `#fclose "a.txt"`, `import "colors.inc"`.
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
+use crate::vocabulary::Word;
+
+/// What includes a file elsewhere.
+const INCLUDERS: &[&str] = &["import", "require", "load", "use", "using"];
+
+/// How the names of scenes and their includes end.
+const SCENES: &[&str] = &[".inc\"", ".pov\"", ".scene\""];
 
 impl Reader<'_> {
+    /// `import "colors.inc"`
+    pub(super) fn include_of_others(&mut self, meant: &mut Vec<Token>) -> bool {
+        let fits = self.inside.is_empty()
+            && INCLUDERS.contains(&self.slice(0))
+            && self.kind(1) == Some(TokenKind::String)
+            && SCENES.iter().any(|end| self.slice(1).ends_with(end));
+        if !fits {
+            return false;
+        }
+        let (word, span) = (self.slice(0).to_owned(), self.span(0, 0));
+        let message = format!("`{word}` is not a word at the top level");
+        let mut told = Diagnostic::new(Code::ForeignWord, message)
+            .at(span, "did you mean `#include`?")
+            .help(Word::Include.sentence())
+            .fix(span, "#include");
+        if self.is(2, Mark::Semicolon) {
+            told = told.fix(self.span(2, 2), "");
+            self.dropped.insert(self.at + 2, false);
+        }
+        self.diagnostics.push(told);
+        meant.push(Token { kind: TokenKind::Directive(Head::Include), ..self.tokens[self.at] });
+        self.at += 1;
+        true
+    }
+
     pub(super) fn file_directive(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         match head {
             Head::Fopen => self.name_before_handle(meant) || self.parted_by_commas(meant),

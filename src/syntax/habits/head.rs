@@ -11,7 +11,7 @@ impl Reader<'_> {
     /// A directive with its `#`, and a head that is none.
     pub(super) fn head(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         match head {
-            Head::For => self.counting(meant),
+            Head::For => self.counting(meant) || self.body(head, meant),
             Head::If
             | Head::Elseif
             | Head::While
@@ -19,20 +19,36 @@ impl Reader<'_> {
             | Head::Case
             | Head::Ifdef
             | Head::Ifndef => {
-                self.condition(head, meant) || self.then(meant) || self.body(head, meant)
+                (head == Head::If && self.choice_by_parameter(meant))
+                    || self.more_than_a_name(head, meant)
+                    || self.condition(head, meant)
+                    || self.then(meant)
+                    || self.body(head, meant)
             }
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
-            Head::Else => self.body(head, meant),
+            Head::Else => {
+                self.else_then_if(meant)
+                    || self.else_with_condition(meant)
+                    || self.body(head, meant)
+            }
             Head::Unknown => self.hash_comment(),
             Head::Declare | Head::Local => {
-                self.defined_macro(meant) || self.type_before_name(meant) || self.value(head, meant)
+                self.defined_macro(meant)
+                    || self.type_before_name(meant)
+                    || self.function_of_mathematics(meant)
+                    || self.bare_vector(meant)
+                    || self.value(head, meant)
             }
             Head::Default => self.default_case(meant) || self.sign_behind_head(meant),
             Head::Version => self.sign_behind_head(meant),
             Head::End => self.end_of_what(meant),
             Head::Include => self.several_includes(meant),
             Head::Debug | Head::Warning | Head::Error => self.printed_parts(meant),
-            Head::Macro => self.braced_parameters(meant) || self.parameters_unopened(meant),
+            Head::Macro => {
+                self.braced_parameters(meant)
+                    || self.parameters_unopened(meant)
+                    || self.body(head, meant)
+            }
             Head::Fopen | Head::Read | Head::Write | Head::Fclose => {
                 self.file_directive(head, meant)
             }
@@ -137,13 +153,16 @@ impl Reader<'_> {
         if matches!(before, Some(TokenKind::Word(_))) || self.missing_ends() <= 0 {
             return false;
         }
-        let end = match head {
-            Head::Else => 1,
-            _ => match self.closed(1, Bracket::Round) {
-                Some(close) => close + 1,
-                None => return false,
-            },
+        let last = match head {
+            Head::Else => Some(0),
+            Head::Macro => self.closed(2, Bracket::Round),
+            _ => self.closed(1, Bracket::Round),
         };
+        let Some(end) = last.map(|last| last + 1) else { return false };
+        // `#macro Values() { 1, 2 } #end`: of a macro it is what it leaves.
+        if head == Head::Macro && self.has_own_end(end) {
+            return false;
+        }
         let word = head.word();
         let message = format!("the body of `#{word}` stands without braces, and ends with `#end`");
         let at = Diagnostic::new(Code::MissingEnd, message);
@@ -160,16 +179,20 @@ impl Reader<'_> {
         true
     }
 
+    /// Whether the braces that open at `ahead` are followed by an `#end` before another directive opens.
+    fn has_own_end(&self, ahead: usize) -> bool {
+        let Some(close) = self.closed(ahead, Bracket::Brace) else { return false };
+        let next = self.tokens[self.at + close..].iter().find_map(|token| match token.kind {
+            TokenKind::Directive(head) if head == Head::End || head.opens() => Some(head),
+            _ => None,
+        });
+        next == Some(Head::End)
+    }
+
     /// How many directives lack their `#end`.
     fn missing_ends(&self) -> isize {
-        *self.missing_ends.get_or_init(|| {
-            let each = self.tokens.iter().map(|token| match token.kind {
-                TokenKind::Directive(Head::End) | TokenKind::Word(Word::End) => -1,
-                TokenKind::Directive(head) => isize::from(head.opens()),
-                _ => 0,
-            });
-            each.sum()
-        })
+        let [missing, _] = self.ends();
+        missing
     }
 
     /// Whether there is an `#end` for a directive that is written without its `#`.

@@ -1,7 +1,8 @@
 //! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), cases (`case.rs`), the heads of directives (`head.rs`, `condition.rs`) and what
-//! stands beside them (`directive.rs`), colours of the web (`web.rs`), the
-//! parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write them, templates (`template.rs`).
+//! count (`counting.rs`, `sample.rs`), cases and branches (`case.rs`, `branch.rs`), the heads of directives
+//! (`head.rs`, `condition.rs`), what they declare (`declared.rs`) and what stands beside them (`directive.rs`),
+//! colours of the web (`web.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write
+//! them, templates (`template.rs`).
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -12,10 +13,12 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 mod array;
 mod assign;
 mod bare;
+mod branch;
 mod called;
 mod case;
 mod condition;
 mod counting;
+mod declared;
 mod directive;
 mod dotted;
 mod file;
@@ -25,6 +28,7 @@ mod letter;
 mod map;
 mod name;
 mod number;
+mod operation;
 mod operator;
 mod part;
 mod reserved;
@@ -113,8 +117,8 @@ struct Reader<'a> {
     closers: OnceCell<HashMap<usize, usize>>,
     /// The names that the text declares anywhere.
     declared: OnceCell<HashSet<&'a str>>,
-    /// How many directives lack their `#end`.
-    missing_ends: OnceCell<isize>,
+    /// How many directives lack their `#end`, and how often `#else #if` stands on one line.
+    missing_ends: OnceCell<[isize; 2]>,
     foreign: Foreign,
     /// Declared names that cannot be, such as `my-size`; what is said of each, and its plain spelling.
     hyphens: BTreeMap<String, (Diagnostic, String)>,
@@ -196,12 +200,14 @@ impl Reader<'_> {
                     || self.times(meant)
                     || self.parted_word(meant)
                     || (word == Word::Int && self.declarer(meant))
-                    || (word == Word::Function && self.definer(meant))
+                    || (word == Word::Function
+                        && (self.function_alone(meant) || self.definer(meant)))
                     || (word == Word::Version && self.version_without_hash(meant))
                     || self.case(word, meant)
                     || self.head_without_hash(word, meant)
                     || self.scad(meant)
                     || self.empty_parentheses(word, meant)
+                    || self.operation(word, meant)
                     || self.member(meant)
                     || self.assigned_block(word, meant)
                     || self.part(meant)
@@ -221,6 +227,9 @@ impl Reader<'_> {
                     || self.declarer(meant)
                     || self.definer(meant)
                     || self.library(meant)
+                    || self.method(meant)
+                    || self.made_by_new()
+                    || self.include_of_others(meant)
                     || self.console(meant)
                     || self.returns()
                     || self.changes(meant)
@@ -248,17 +257,24 @@ impl Reader<'_> {
                     || (!self.ascii && self.sign(meant))
             }
             TokenKind::Mark(Mark::Open(Bracket::Square)) => {
-                self.entry_in_entry(meant) || self.array_list(meant) || self.vector(meant)
+                self.entry_in_entry(meant)
+                    || self.sizes_by_comma(meant)
+                    || self.array_list(Bracket::Square, meant)
+                    || self.vector(meant)
             }
             TokenKind::Mark(Mark::Open(Bracket::Brace)) => {
                 self.template(meant) || self.vector(meant)
             }
-            TokenKind::String => self.part(meant),
+            TokenKind::String => self.quotes_within(meant) || self.part(meant),
             TokenKind::Number => {
                 self.range_of_dots(meant) || self.hexadecimal_color(meant) || self.map(meant)
             }
             TokenKind::Mark(Mark::Open(Bracket::Round)) => {
-                self.uncertain_number(meant) || self.map(meant) || self.vector(meant)
+                self.uncertain_number(meant)
+                    || self.times_group(meant)
+                    || self.array_list(Bracket::Round, meant)
+                    || self.map(meant)
+                    || self.vector(meant)
             }
             TokenKind::Mark(Mark::Dot) => {
                 self.dots()
@@ -266,6 +282,7 @@ impl Reader<'_> {
                     || self.parted_number(meant)
                     || self.color_by_dot(meant)
             }
+            TokenKind::Mark(Mark::Comma) => self.second_name(meant),
             TokenKind::Mark(Mark::Colon) => {
                 self.colon_before_block(meant) || self.colon_in_entry(meant)
             }

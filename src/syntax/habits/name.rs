@@ -6,6 +6,12 @@ use crate::source::Span;
 use crate::syntax::token::{Head, Mark, Token, TokenKind};
 use crate::vocabulary::{Role, Word, standard_include_of};
 
+/// What a vector or a colour is asked for.
+const COMPONENTS: &[&str] = &[
+    "x", "y", "z", "t", "u", "v", "red", "green", "blue", "filter", "transmit", "gray", "grey",
+    "r", "g", "b",
+];
+
 /// No word of the language is longer.
 const LONGEST_WORD: usize = 30;
 
@@ -131,7 +137,18 @@ impl Reader<'_> {
                 && is_name(self.kind(2))
                 && self.is(3, Mark::Equal)
                 && !self.is_type(1);
-            let end = if parted { 3 } else { end };
+            // `ball.radius`: a component of what is declared is another mistake.
+            let dotted = end == 2
+                && self.is(2, Mark::Dot)
+                && self.touches(2)
+                && self.touches(3)
+                && is_name(self.kind(3))
+                && !COMPONENTS.contains(&self.slice(3));
+            let end = match (parted, dotted) {
+                (true, _) => 3,
+                (_, true) => 4,
+                _ => end,
+            };
             let assigned = self.is(end, Mark::Equal) && part(self.kind(1)) && end > 2;
             if !assigned || self.is(1, Mark::Minus) {
                 continue;

@@ -66,11 +66,11 @@ impl Reader<'_> {
 
     /// `3..5`, `3 .. 5`: from one to the other, as other languages have it.
     pub(super) fn range_of_dots(&mut self, meant: &mut Vec<Token>) -> bool {
-        let first = self.slice(0);
+        let ends = self.slice(0).ends_with('.');
         let dot = |ahead: usize| self.is(ahead, Mark::Dot);
         let starts = |kind| matches!(kind, Some(TokenKind::Number | TokenKind::Name));
         // `3..5` comes as `3.` and `.5`, and `3 .. 5` as two points.
-        let (dots, behind) = if first.ends_with('.') && self.touches(1) {
+        let (dots, behind) = if ends && self.touches(1) {
             let joined = self.kind(1) == Some(TokenKind::Number) && self.slice(1).starts_with('.');
             match joined {
                 true => (None, 1),
@@ -88,9 +88,12 @@ impl Reader<'_> {
         } else {
             return false;
         };
+        if behind == 1 && self.two_points(meant) {
+            return true;
+        }
         let (from, to) = (self.span(0, 0), self.span(behind, behind));
         let end = if dots.is_none() { to.start + 1 } else { self.span(behind - 1, behind - 1).end };
-        let start = from.end - u32::from(first.ends_with('.'));
+        let start = from.end - u32::from(ends);
         let signs = Span { start, end, ..from };
         let text = self.text.get(signs.range()).unwrap_or("").trim().to_owned();
         let gap = if self.text.get(end as usize..=end as usize) == Some(" ") { "," } else { ", " };
@@ -109,6 +112,33 @@ impl Reader<'_> {
         meant.push(comma);
         meant.push(Token { start: last.start + u32::from(dots.is_none()), ..last });
         self.at += behind + 1;
+        true
+    }
+
+    /// `<0, 0..5, 0>`: outside of a directive's head, two points are one too many.
+    fn two_points(&mut self, meant: &mut Vec<Token>) -> bool {
+        // `#range (0..5)`
+        let near = &meant[meant.len().saturating_sub(2)..];
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let (whole, part) = (self.slice(0).trim_end_matches('.'), self.slice(1));
+        let part = part.trim_start_matches('.');
+        if near.iter().any(|token| matches!(token.kind, TokenKind::Directive(_)))
+            || !digits(whole)
+            || !digits(part)
+        {
+            return false;
+        }
+        let span = self.span(0, 1);
+        let number = format!("{whole}.{part}");
+        let text = self.text.get(span.range()).unwrap_or("");
+        self.diagnostics.push(
+            Diagnostic::new(Code::MalformedNumber, format!("`{text}` is not a number"))
+                .at(span, "two points stand in it")
+                .help(format!("did you mean `{number}`?"))
+                .fix(span, number),
+        );
+        meant.push(Token { kind: STAND_IN, start: span.start, end: span.end });
+        self.at += 2;
         true
     }
 

@@ -4,8 +4,8 @@ use super::{Open, Repair};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::balance::{Opener, Turn, turn};
-use crate::syntax::token::{Bracket, Mark, TokenKind};
-use crate::vocabulary::Word;
+use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
+use crate::vocabulary::{Role, Word};
 
 impl Repair<'_> {
     /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
@@ -62,12 +62,35 @@ impl Repair<'_> {
                 .fix(self.span(outside.token - 1).after(), " }"),
             None => diagnostic,
         };
+        let of_head = outside.and_then(|outside| self.end_of_condition(&open, outside.token));
         self.tell(match beside.map(|outside| self.span(outside.token - 1).after()) {
             Some(end) => diagnostic
                 .help(format!("`{found}` stands beside this block, not in it"))
                 .fix(end, " }"),
-            None => diagnostic,
+            None => match of_head {
+                Some(end) => diagnostic.help("write `)` before it").fix(end, ")"),
+                None => diagnostic,
+            },
         });
+    }
+
+    /// `#if (A < 2 sphere {`: the end of the condition, where it is a value.
+    fn end_of_condition(&self, open: &Open, outside: usize) -> Option<Span> {
+        let kind = |at: usize| self.tokens.get(at).map(|token| token.kind);
+        let head = open.token.checked_sub(1).and_then(kind);
+        let is_head = matches!(
+            head,
+            Some(TokenKind::Directive(Head::If | Head::Elseif | Head::While | Head::Switch))
+        );
+        let last = outside.checked_sub(1)?;
+        let is_value = match kind(last)? {
+            TokenKind::Number | TokenKind::Name => true,
+            TokenKind::Word(word) => word.role() == Role::Value,
+            TokenKind::Mark(mark) => matches!(mark, Mark::Close(_)),
+            _ => false,
+        };
+        let of_parenthesis = open.opener == Opener::Bracket(Bracket::Round);
+        (of_parenthesis && is_head && is_value).then(|| self.span(last).after())
     }
 
     /// `function(x, y; { … }`: a sign stands where the closer belongs.

@@ -73,8 +73,7 @@ impl Repair<'_> {
                 let ends = self.tokens[at].kind == TokenKind::Mark(Mark::Semicolon);
                 // `#macro G(a, b sphere {`: parameters are names.
                 let head = open.token.checked_sub(2).map(|head| self.tokens[head].kind);
-                let body =
-                    head == Some(TokenKind::Directive(Head::Macro)) && self.begins_statement(at);
+                let body = head == Some(TokenKind::Directive(Head::Macro));
                 // `A[I pigment {`: the index of an element is a value.
                 let before = open.token.checked_sub(1).map(|before| self.tokens[before]);
                 let index = open.opener == Opener::Bracket(Bracket::Square)
@@ -84,8 +83,9 @@ impl Repair<'_> {
                 // `#range (1, 2` and a directive below it.
                 let of_head =
                     before.is_some_and(|head| matches!(head.kind, TokenKind::Directive(_)));
-                (ends || beside || body || of_head && begins || index && self.begins_statement(at))
-                    .then_some(true)
+                // `#if (A < 2 sphere {`: a condition is a value.
+                let opens = (body || index || of_head) && self.begins_statement(at);
+                (ends || beside || opens || of_head && begins).then_some(true)
             }
         }
     }
