@@ -149,14 +149,14 @@ codes! {
     UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
     MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
-    NeverRuns "never-runs" sure "a loop counts away from its end, so it has no turn";
+    NeverRuns "never-runs" sure "a loop counts away from its end, so it has no turn, or a case is never chosen as it is meant";
     CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";
     FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
     ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
     ReplacedPigment "replaced-pigment" lint "an object or a texture has two pigments; the last one is used";
     RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";
     RepeatedParameter "repeated-parameter" sure "two parameters of a macro have one name";
-    LooseOperation "loose-operation" sure "a macro leaves an operation beside an operator that binds tighter";
+    LooseOperation "loose-operation" sure "an operation is taken otherwise than it looks: of what a macro leaves, or in a condition";
     LegacyForm "legacy-form" lint "an old form of the language";
     UnknownLint "unknown-lint" lint "a comment that is to silence a warning does not";
     // files

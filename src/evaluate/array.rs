@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::ast::{Callee, ExpressionKind, ItemKind};
 
 use super::report::count;
 use super::stream::{Token, TokenKind};
@@ -193,7 +194,32 @@ impl Evaluator<'_> {
 
     /// As [`Self::next_if`], where the array may have ended: what stands behind it may ask for it.
     fn next_of_array(&mut self, suits: impl FnOnce(&TokenKind) -> bool) -> Option<Token> {
-        if self.peek_on().is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
+        let follows = match self.calls_for_block() {
+            true => self.peek(),
+            false => self.peek_on(),
+        };
+        if follows.is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
+    }
+
+    /// `array[2] Values()`, of a macro that leaves `{ 1, 2 }`.
+    fn calls_for_block(&self) -> bool {
+        let Some(frame) = self.frames.last().filter(|frame| frame.at < frame.end) else {
+            return false;
+        };
+        let ItemKind::Expression(id) = frame.here.unit.ast.items[frame.at as usize].kind else {
+            return false;
+        };
+        let ExpressionKind::Call(Callee::Name(name, _), _) = frame.here.unit.expression(id).kind
+        else {
+            return false;
+        };
+        let Some(Value::Macro(called)) = self.scopes.look(frame.here.symbol(name)) else {
+            return false;
+        };
+        let first = self.macros[called.0 as usize]
+            .parts()
+            .and_then(|(unit, body)| unit.ast.items(body).first().map(|first| first.kind));
+        matches!(first, Some(ItemKind::Block(_)))
     }
 
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {

@@ -66,6 +66,10 @@ impl Evaluator<'_> {
                                 .at(parentheses, "an element is chosen by `[` and `]`")
                                 .also(name_span, "this is the array");
                         }
+                        if here.unit.ast.arguments(arguments).is_empty() && !is_array {
+                            diagnostic =
+                                diagnostic.help(format!("write `{name}`")).fix(parentheses, "");
+                        }
                         if let Some(declared) = self.scopes.declared(symbol) {
                             diagnostic = diagnostic.also(declared.site.span, "declared here");
                         }

@@ -35,7 +35,7 @@ impl Evaluator<'_> {
             }
             DirectiveKind::If { test, then, otherwise } => {
                 let taken = match test {
-                    Test::Condition(condition) => match self.condition(here, *condition) {
+                    Test::Condition(condition) => match self.asked_condition(here, *condition) {
                         // `#if (Broken) merge { #else union { #end`: one of them opens it.
                         Err(reported)
                             if is_bracket(here, *then) && is_bracket(here, *otherwise) =>
@@ -57,6 +57,7 @@ impl Evaluator<'_> {
                 Ok(())
             }
             DirectiveKind::While { condition, body } => {
+                self.lint_condition(here, *condition);
                 self.push_while(here, *condition, *body, id);
                 Ok(())
             }

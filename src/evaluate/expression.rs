@@ -380,7 +380,6 @@ impl Evaluator<'_> {
         if let Some(number) = self.plain_number(here, id) {
             return Ok(self.comparison().is_true(number));
         }
-        self.lint_condition(here, id);
         let value = self.any_value(here, id)?;
         let span = here.unit.expression(id).span;
         match value.as_truth(self.comparison()) {

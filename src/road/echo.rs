@@ -23,6 +23,8 @@ struct Fault {
     line: usize,
     /// Where what stands out of place may be its consequence.
     doubt: Range<u32>,
+    /// Behind the `#end` before which it was closed: what stands before the `}` that was its own.
+    behind: Range<u32>,
     /// From where on its line holds other statements.
     others: u32,
 }
@@ -40,13 +42,13 @@ pub(super) fn drop_echoes(
         .iter()
         .take(parsed)
         .filter(|fault| fault.code.severity() == Severity::Error)
-        .filter_map(|fault| Some((fault.code, fault.primary()?.span)))
-        .filter(|(_, span)| span.file == ast.file)
+        .filter_map(|fault| Some((fault.code, fault.primary()?.span, behind_end(sources, fault))))
+        .filter(|(_, span, _)| span.file == ast.file)
         .take(MOST_FAULTS)
-        .map(|(code, span)| {
+        .map(|(code, span, behind)| {
             let doubt = statements.doubt(code, span);
             let others = statements.others(code, span);
-            Fault { code, span, line: line(span), doubt, others }
+            Fault { code, span, line: line(span), doubt, behind, others }
         })
         .collect();
     if let (MOST_FAULTS, Some(last)) = (faults.len(), faults.last_mut()) {
@@ -102,13 +104,35 @@ pub(super) fn drop_echoes(
                 _ if fault.span.file != place.file => false,
                 true if is_name => fault.code == Code::UnclosedString && beside,
                 true if is_whole => beside,
-                true => beside || fault.doubt.contains(&place.start),
+                true => {
+                    let doubts = [&fault.doubt, &fault.behind];
+                    beside || doubts.iter().any(|doubt| doubt.contains(&place.start))
+                }
                 false if is_block => false,
                 false => beside && place.start < fault.others,
             }
         })
     };
     diagnostics.retain_after(parsed, keep);
+}
+
+/// `union { … #end pigment { … } }`: from the `#end` before which a block was closed, up to its own `}`.
+fn behind_end(sources: &Sources, fault: &Diagnostic) -> Range<u32> {
+    let of_block = fault.code == Code::UnclosedBlock;
+    let ends =
+        fault.labels.iter().find(|label| !label.primary && sources.text(label.span) == "#end");
+    let Some(end) = ends.filter(|_| of_block).map(|label| label.span) else { return 0..0 };
+    let rest = sources.get(end.file).text.get(end.end as usize..).unwrap_or("");
+    let mut depth = 0;
+    let own = rest.bytes().position(|byte| {
+        depth += match byte {
+            b'{' => 1,
+            b'}' => -1,
+            _ => 0,
+        };
+        depth < 0
+    });
+    own.map_or(0..0, |own| end.end..end.end + own as u32)
 }
 
 /// Where the block that begins at `at` ends, as far as its line shows it.

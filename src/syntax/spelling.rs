@@ -122,6 +122,10 @@ pub(super) fn correct_heads(
             // A comment, as other languages write it (habits/sign.rs).
             continue;
         }
+        if word == "continue" {
+            diagnostic =
+                diagnostic.help("the rest of the turn stands in a condition: `#if (…) … #end`");
+        }
         if diagnostic.help.is_empty()
             && let Some(ours) = suggest::foreign(word).find(|ours| Head::WORDS.contains(ours))
         {

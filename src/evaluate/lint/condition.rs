@@ -2,35 +2,44 @@
 //! `#case (N < 3)`.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::{Evaluator, Here};
+use crate::evaluate::{Evaluator, Here, Outcome};
 use crate::source::Span;
 use crate::syntax::ast::{BinaryOperator, ExpressionId, ExpressionKind, Rank};
 use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_condition(&mut self, here: &Here, condition: ExpressionId) {
-        let mut waiting = vec![condition];
-        while let Some(id) = waiting.pop() {
-            let ExpressionKind::Binary(operator, left, right) = here.unit.expression(id).kind
-            else {
-                continue;
-            };
-            match operator {
-                BinaryOperator::Or if self.lint_value_for_condition(here, id) => {}
-                BinaryOperator::And | BinaryOperator::Or => waiting.extend([right, left]),
-                _ => self.lint_chain(here, (id, operator), left, id == condition),
+        let mut first = condition;
+        while let ExpressionKind::Binary(
+            operator @ (BinaryOperator::And | BinaryOperator::Or),
+            left,
+            right,
+        ) = here.unit.expression(first).kind
+        {
+            if operator == BinaryOperator::Or && self.lint_value_for_condition(here, first) {
+                return;
             }
+            self.lint_chain(here, right, false);
+            first = left;
         }
+        self.lint_chain(here, first, first == condition);
+    }
+
+    /// As [`Self::condition`], of one that is asked where it stands.
+    pub(in crate::evaluate) fn asked_condition(
+        &mut self,
+        here: &Here,
+        condition: ExpressionId,
+    ) -> Outcome<bool> {
+        self.lint_condition(here, condition);
+        self.condition(here, condition)
     }
 
     /// `0 < A < 3`: the second sign compares 1 or 0.
-    fn lint_chain(
-        &mut self,
-        here: &Here,
-        (id, second): (ExpressionId, BinaryOperator),
-        left: ExpressionId,
-        is_whole: bool,
-    ) {
+    fn lint_chain(&mut self, here: &Here, id: ExpressionId, is_whole: bool) {
+        let ExpressionKind::Binary(second, left, _) = here.unit.expression(id).kind else {
+            return;
+        };
         let ExpressionKind::Binary(first, _, middle) = here.unit.expression(left).kind else {
             return;
         };
@@ -52,7 +61,7 @@ impl Evaluator<'_> {
         let sign = Span { start, end: start + second.symbol().len() as u32, ..whole };
         let message = format!("`{}` compares what `{left_text}` comes to: 1 or 0", second.symbol());
         let told = Diagnostic::new(Code::LooseOperation, message)
-            .at(sign, "two conditions, of which each has its own sign")
+            .at(sign, "a comparison takes two values")
             .also(left, "this is 1 or 0")
             .help(format!("write `{right}`"));
         // What is called may give another value the second time.

@@ -49,6 +49,53 @@ impl Reader<'_> {
         true
     }
 
+    /// `f"N = {N}"`: a string with values in it.
+    pub(super) fn formatted_string(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_one = matches!(self.slice(0), "f" | "F")
+            && self.kind(1) == Some(TokenKind::String)
+            && self.touches(1);
+        let inside = self.tokens.get(self.at + 1).map_or("", |_| self.slice(1));
+        let Some(inside) = inside.strip_prefix('"').and_then(|text| text.strip_suffix('"')) else {
+            return false;
+        };
+        if !is_one {
+            return false;
+        }
+        let mut pieces = Vec::new();
+        for (at, piece) in inside.split('{').enumerate() {
+            let (value, text) = match piece.split_once('}') {
+                Some((value, text)) if at > 0 => (value, text),
+                None if at == 0 => ("", piece),
+                _ => return false,
+            };
+            // `{N:.2f}`
+            let (name, digits) = value.split_once(':').unwrap_or((value, ""));
+            let digits = digits.trim_start_matches('.').trim_end_matches('f');
+            let digits = digits.parse::<u32>().map_or("-1".to_owned(), |digits| digits.to_string());
+            if at > 0 {
+                pieces.push(format!("str({}, 0, {digits})", name.trim()));
+            }
+            if !text.is_empty() {
+                pieces.push(format!("\"{text}\""));
+            }
+        }
+        let right = match &pieces[..] {
+            [] => "\"\"".to_owned(),
+            [one] => one.clone(),
+            pieces => format!("concat({})", pieces.join(", ")),
+        };
+        let whole = self.span(0, 1);
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, "no string has values in it")
+                .at(self.span(0, 0), "a string of another language")
+                .help(format!("write `{right}`"))
+                .fix(whole, right),
+        );
+        meant.push(Token { start: whole.start + 1, ..self.tokens[self.at + 1] });
+        self.at += 2;
+        true
+    }
+
     /// `"say "hello" now"`: quotes within a string.
     pub(super) fn quotes_within(&mut self, meant: &mut Vec<Token>) -> bool {
         let is_word =

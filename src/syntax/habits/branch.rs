@@ -74,7 +74,7 @@ impl Reader<'_> {
     }
 
     /// Whether a line ends before the token at `ahead`.
-    fn is_parted(&self, ahead: usize) -> bool {
+    pub(super) fn is_parted(&self, ahead: usize) -> bool {
         let (before, here) = (self.span(ahead - 1, ahead - 1), self.span(ahead, ahead));
         let gap = self.text.get(before.end as usize..here.start as usize).unwrap_or("");
         gap.contains(['\n', '\r'])

@@ -109,9 +109,14 @@ impl Reader<'_> {
         true
     }
 
-    /// `#if (A) then`, `#while (A):`.
-    pub(super) fn then(&mut self, meant: &mut Vec<Token>) -> bool {
-        let Some(close) = self.closed(1, Bracket::Round) else { return false };
+    /// `#if (A) then`, `#while (A):`, `#for (I, 0, 3) do`, `#macro Ball(P):`.
+    pub(super) fn then(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
+        let open = if head == Head::Macro { 2 } else { 1 };
+        let Some(close) = self.closed(open, Bracket::Round) else { return false };
+        let is_joint = |at: usize| {
+            matches!(self.kind(at), Some(TokenKind::Name))
+                && matches!(self.slice(at), "then" | "do" | "begin")
+        };
         if close > 3 && self.slice_is(close - 1, "then") {
             let span = self.span(close - 1, close - 1);
             let before = self.span(close - 2, close - 2);
@@ -125,12 +130,17 @@ impl Reader<'_> {
             self.take(meant);
             return true;
         }
-        if !(self.is(close + 1, Mark::Colon) || self.slice_is(close + 1, "then")) {
+        if !(self.is(close + 1, Mark::Colon) || is_joint(close + 1)) {
             return false;
         }
         let (span, condition) = (self.span(close + 1, close + 1), self.span(close, close));
         let text = self.slice(close + 1).to_owned();
-        let message = format!("no `{text}` stands after a condition");
+        let what = match head {
+            Head::Macro => "the parameters of a macro",
+            Head::For => "the head of a loop",
+            _ => "a condition",
+        };
+        let message = format!("no `{text}` stands after {what}");
         let diagnostic = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(span, "a sign of another language")
             .help("the body begins right after the parenthesis")

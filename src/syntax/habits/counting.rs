@@ -100,6 +100,12 @@ impl Reader<'_> {
         };
         diagnostic = match &right {
             Some(right) => diagnostic.help(format!("write `{right} … #end`: the end is included")),
+            None if self.is_each(from, to) => {
+                let array = self.slice(to - 1);
+                diagnostic.help(format!(
+                    "write `#for (I, 0, dimension_size({array}, 1) - 1) … #end`, and `{array}[I]` for `{name}`"
+                ))
+            }
             None => diagnostic
                 .help(format!("write `#for ({name}, 0, 9) … #end`: from 0 to 9, both included")),
         };
@@ -140,6 +146,12 @@ impl Reader<'_> {
         }
         self.at += end;
         true
+    }
+
+    /// `V in A`: each element of an array.
+    fn is_each(&self, from: usize, to: usize) -> bool {
+        let is_name = |at: usize| self.kind(at) == Some(TokenKind::Name);
+        to == from + 3 && is_name(from) && self.slice_is(from + 1, "in") && is_name(from + 2)
     }
 
     /// Reads the head of a loop between two tokens.

@@ -159,6 +159,42 @@ impl Reader<'_> {
         true
     }
 
+    /// `#declare A = B = 2;`, `#declare A, B = 2;`: two names with one value.
+    pub(super) fn names_of_one(&mut self, meant: &mut Vec<Token>) -> bool {
+        let sign = |at: usize| self.is(at, Mark::Equal) && !(self.is(at + 1, Mark::Equal));
+        let named = [1, 3].iter().all(|&at| self.kind(at) == Some(TokenKind::Name))
+            && (sign(2) || self.is(2, Mark::Comma))
+            && sign(4);
+        let line = self.line_end(5);
+        let Some(end) = (5..line).find(|&at| self.is(at, Mark::Semicolon)).filter(|_| named) else {
+            return false;
+        };
+        let [first, second] = [1, 3].map(|at| self.slice(at).to_owned());
+        // `A = (B = 2)` is rather meant.
+        if self.has_declared(&second) {
+            return false;
+        }
+        let (word, value) = (self.slice(0).to_owned(), self.text_between(4, end));
+        let right = format!("{word} {second} = {value}; {word} {first} = {second}");
+        let message = "each name has a `#declare` of its own";
+        self.diagnostics.push(
+            Diagnostic::new(Code::UnexpectedCharacter, message)
+                .at(self.span(3, 3), "a second name")
+                .help(format!("write `{right};`"))
+                .fix(self.span(0, end - 1), right),
+        );
+        let [head, name, other] = [0, 1, 3].map(|ahead| self.tokens[self.at + ahead]);
+        let last = self.tokens[self.at + end];
+        let mark = |mark| Token { kind: TokenKind::Mark(mark), start: last.start, end: last.start };
+        meant.extend([head, other]);
+        meant.extend(&self.tokens[self.at + 4..self.at + end]);
+        meant.push(mark(Mark::Semicolon));
+        // The places of the first name are before, and what it is given is behind.
+        meant.extend([head, name, mark(Mark::Equal), other]);
+        self.at += end;
+        true
+    }
+
     /// The comma of `#declare A = 1, B = 2;`: two names in one `#declare`.
     pub(super) fn second_name(&mut self, meant: &mut Vec<Token>) -> bool {
         let named = self.kind(1) == Some(TokenKind::Name) && self.is(2, Mark::Equal);

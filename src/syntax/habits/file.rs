@@ -43,9 +43,58 @@ impl Reader<'_> {
         match head {
             Head::Fopen => self.name_before_handle(meant) || self.parted_by_commas(meant),
             Head::Read | Head::Write => self.without_parentheses(head, meant),
-            Head::Fclose => self.closed_by_file_name(),
+            Head::Fclose => self.closed_by_file_name() || self.name_in_parentheses(head, meant),
             _ => false,
         }
+    }
+
+    /// `#fclose (F)`, `#undef (A)`: the one name of a directive, in parentheses.
+    pub(super) fn name_in_parentheses(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
+        let one =
+            self.closed(1, Bracket::Round) == Some(3) && self.kind(2) == Some(TokenKind::Name);
+        if !one {
+            return false;
+        }
+        let (word, name) = (head.word(), self.slice(2).to_owned());
+        let whole = self.span(1, 3);
+        let message = format!("`#{word}` takes its name without parentheses");
+        let gap = if self.touches(1) { " " } else { "" };
+        self.diagnostics.push(
+            Diagnostic::new(Code::ExpectedExpression, message)
+                .at(whole, "expected the name alone")
+                .help(format!("write `#{word} {name}`"))
+                .fix(whole, format!("{gap}{name}")),
+        );
+        meant.extend([self.tokens[self.at], self.tokens[self.at + 2]]);
+        self.at += 4;
+        true
+    }
+
+    /// `#declare X = read(F);`: a directive gives the name its value.
+    pub(super) fn read_as_function(&mut self, meant: &mut Vec<Token>) -> bool {
+        let reads = self.kind(1) == Some(TokenKind::Name)
+            && self.is(2, Mark::Equal)
+            && self.kind(3) == Some(TokenKind::Word(Word::Read))
+            && self.closed(4, Bracket::Round) == Some(6)
+            && self.kind(5) == Some(TokenKind::Name);
+        if !reads {
+            return false;
+        }
+        let last = 6 + usize::from(self.is(7, Mark::Semicolon));
+        let right = format!("#read ({}, {})", self.slice(5), self.slice(1));
+        self.diagnostics.push(
+            Diagnostic::new(Code::ForeignWord, "a file is read by a directive")
+                .at(self.span(3, 6), "`read` gives no value")
+                .help(format!("write `{right}`"))
+                .fix(self.span(0, last), right),
+        );
+        let [head, name, open, file, close] =
+            [0, 1, 4, 5, 6].map(|ahead| self.tokens[self.at + ahead]);
+        let comma = Token { kind: TokenKind::Mark(Mark::Comma), start: file.end, end: file.end };
+        let read = Token { kind: TokenKind::Directive(Head::Read), ..head };
+        meant.extend([read, open, file, comma, name, close]);
+        self.at += last + 1;
+        true
     }
 
     /// `#fopen "a.txt" F read`.

@@ -11,7 +11,7 @@ impl Reader<'_> {
     /// A directive with its `#`, and a head that is none.
     pub(super) fn head(&mut self, head: Head, meant: &mut Vec<Token>) -> bool {
         match head {
-            Head::For => self.counting(meant) || self.body(head, meant),
+            Head::For => self.counting(meant) || self.then(head, meant) || self.body(head, meant),
             Head::If
             | Head::Elseif
             | Head::While
@@ -22,7 +22,7 @@ impl Reader<'_> {
                 (head == Head::If && self.choice_by_parameter(meant))
                     || self.more_than_a_name(head, meant)
                     || self.condition(head, meant)
-                    || self.then(meant)
+                    || self.then(head, meant)
                     || self.body(head, meant)
             }
             Head::Else if self.kind(1) == Some(TokenKind::Word(Word::If)) => self.else_if(meant),
@@ -35,8 +35,10 @@ impl Reader<'_> {
             Head::Declare | Head::Local => {
                 self.defined_macro(meant)
                     || self.type_before_name(meant)
+                    || self.read_as_function(meant)
                     || self.function_of_mathematics(meant)
                     || self.bare_vector(meant)
+                    || self.names_of_one(meant)
                     || self.value(head, meant)
             }
             Head::Default => self.default_case(meant) || self.sign_behind_head(meant),
@@ -47,8 +49,10 @@ impl Reader<'_> {
             Head::Macro => {
                 self.braced_parameters(meant)
                     || self.parameters_unopened(meant)
+                    || self.then(head, meant)
                     || self.body(head, meant)
             }
+            Head::Undef => self.name_in_parentheses(head, meant),
             Head::Fopen | Head::Read | Head::Write | Head::Fclose => {
                 self.file_directive(head, meant)
             }

@@ -238,6 +238,7 @@ impl Reader<'_> {
                     || self.vector(meant)
                     || self.part(meant)
                     || self.bare_string(meant)
+                    || self.formatted_string(meant)
             }
             TokenKind::Directive(Head::Unknown)
                 if self.web_color(meant) || self.number_of_c(meant) =>

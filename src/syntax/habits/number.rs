@@ -394,7 +394,7 @@ impl Reader<'_> {
     }
 
     /// Whether a name is declared in this text before here.
-    fn has_declared(&self, name: &str) -> bool {
+    pub(super) fn has_declared(&self, name: &str) -> bool {
         self.tokens[..self.at].windows(2).any(|pair| {
             let text = self.text.get(pair[1].start as usize..pair[1].end as usize);
             let head = matches!(pair[0].kind, TokenKind::Directive(Head::Declare | Head::Local));

@@ -1,5 +1,5 @@
 //! Operations and calls as other languages write them: `2(A + 1)`, `7 mod 3`, `rgb A + rgb B`, `V.dot(W)`,
-//! `rotate(A, B)`, `pi()`, `new sphere { … }`.
+//! `rotate(A, B)`, `scale(A, 2)`, `pi()`, `new sphere { … }`.
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
@@ -22,6 +22,15 @@ const GROWERS: &[&str] = &["append", "push", "push_back", "add"];
 /// How many tokens before a sign the word that begins its sum is looked for.
 const LONGEST_SUM: usize = 40;
 
+/// An operand, in parentheses where it is more than a name, a number or a vector.
+fn grouped(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_.".contains(c);
+    match text.chars().all(plain) || text.starts_with('<') && text.ends_with('>') {
+        true => text.to_owned(),
+        false => format!("({text})"),
+    }
+}
+
 /// A token of no width.
 fn nothing(kind: TokenKind, place: u32) -> Token {
     Token { kind, start: place, end: place }
@@ -33,7 +42,7 @@ impl Reader<'_> {
         self.called_value(word, meant)
             || self.function_between(word, meant)
             || self.color_word_again(word, meant)
-            || self.turned_point(word, meant)
+            || self.moved_vector(word, meant)
     }
 
     /// `2(A + 1)`: a number, and what it multiplies.
@@ -197,8 +206,8 @@ impl Reader<'_> {
         true
     }
 
-    /// `#declare V = rotate(A, <0, 30, 0>);`: a point is turned by another function.
-    fn turned_point(&mut self, word: Word, meant: &mut Vec<Token>) -> bool {
+    /// `#declare V = rotate(A, <0, 30, 0>);`, `scale(A, 2)`: what moves an object, called with a vector.
+    fn moved_vector(&mut self, word: Word, meant: &mut Vec<Token>) -> bool {
         let wanted = matches!(
             meant.last().map(|last| last.kind),
             Some(TokenKind::Mark(
@@ -206,26 +215,73 @@ impl Reader<'_> {
             ))
         );
         let Some(close) = self.closed(1, Bracket::Round).filter(|_| wanted) else { return false };
-        let is_pair = (2..close).any(|at| self.is(at, Mark::Comma));
-        if word != Word::Rotate || !is_pair {
-            return false;
-        }
+        let Some(comma) = self.one_comma(close) else { return false };
+        let (ours, sign) = match word {
+            Word::Rotate => ("vrotate", None),
+            Word::Scale => ("*", Some(Mark::Star)),
+            Word::Translate => ("+", Some(Mark::Plus)),
+            _ => return false,
+        };
         let span = self.span(0, 0);
+        let [first, second] = [self.text_between(1, comma), self.text_between(comma, close)];
+        let whole = match sign {
+            None => format!("{ours}({first}, {second})"),
+            Some(_) => format!("({})", [grouped(first), grouped(second)].join(ours)),
+        };
+        let name = word.name();
+        let message = format!("`{name}` is a word for objects, and no function of vectors");
         self.diagnostics.push(
-            Diagnostic::new(Code::ForeignWord, "`rotate` turns an object, in its block")
-                .at(span, "a vector is turned by `vrotate`")
-                .help("write `vrotate`")
-                .fix(span, "vrotate"),
+            Diagnostic::new(Code::ForeignWord, message)
+                .at(span, format!("for a vector it is `{ours}`"))
+                .help(format!("write `{whole}`"))
+                .fix(self.span(0, close), whole),
         );
-        meant.push(Token { kind: TokenKind::Word(Word::Vrotate), ..self.tokens[self.at] });
-        self.at += 1;
+        let round = |mark: fn(Bracket) -> Mark, token: Token| Token {
+            kind: TokenKind::Mark(mark(Bracket::Round)),
+            ..token
+        };
+        let [start, comma_token] = [0, comma].map(|ahead| self.tokens[self.at + ahead]);
+        match sign {
+            None => {
+                meant.push(Token { kind: TokenKind::Word(Word::Vrotate), ..start });
+                meant.extend(&self.tokens[self.at + 1..=self.at + close]);
+            }
+            // `((A) + (B))`
+            Some(sign) => {
+                meant.extend([round(Mark::Open, start), self.tokens[self.at + 1]]);
+                meant.extend(&self.tokens[self.at + 2..self.at + comma]);
+                meant
+                    .push(nothing(TokenKind::Mark(Mark::Close(Bracket::Round)), comma_token.start));
+                meant.push(Token { kind: TokenKind::Mark(sign), ..comma_token });
+                meant.push(nothing(TokenKind::Mark(Mark::Open(Bracket::Round)), comma_token.end));
+                meant.extend(&self.tokens[self.at + comma + 1..=self.at + close]);
+                let end = self.tokens[self.at + close].end;
+                meant.push(nothing(TokenKind::Mark(Mark::Close(Bracket::Round)), end));
+            }
+        }
+        self.at += close + 1;
         true
+    }
+
+    /// The only comma of a parenthesis that opens at 1 and closes at `close`, but for those of vectors and calls.
+    fn one_comma(&self, close: usize) -> Option<usize> {
+        let mut depth = 0;
+        let mut commas = (2..close).filter(|&at| {
+            match self.kind(at) {
+                Some(TokenKind::Mark(Mark::Less | Mark::Open(_))) => depth += 1,
+                Some(TokenKind::Mark(Mark::Greater | Mark::Close(_))) => depth -= 1,
+                _ => {}
+            }
+            depth == 0 && self.is(at, Mark::Comma)
+        });
+        let first = commas.next()?;
+        (commas.next().is_none() && first > 2 && first + 1 < close).then_some(first)
     }
 
     /// `V.dot(W)`, `Points.append(3)`: what other languages ask a value itself.
     pub(super) fn method(&mut self, meant: &mut Vec<Token>) -> bool {
         let dotted = self.is(1, Mark::Dot)
-            && self.kind(2) == Some(TokenKind::Name)
+            && matches!(self.kind(2), Some(TokenKind::Name | TokenKind::Word(_)))
             && self.touches(1)
             && self.touches(2)
             && self.touches(3);
@@ -260,7 +316,7 @@ impl Reader<'_> {
             false => format!("{ours}({name}, {})", self.text_between(3, close)),
         };
         let told = Diagnostic::new(Code::ForeignWord, format!("`.{asked}` is a function here"))
-            .at(self.span(2, 2), "no value is asked by a point, but for its components")
+            .at(self.span(2, 2), "behind a point stands only a component")
             .help(format!("write `{right}`"))
             .fix(self.span(0, close), right);
         self.diagnostics.push(told);
@@ -284,7 +340,12 @@ impl Reader<'_> {
             _ => false,
         };
         let opens = self.is(2, Mark::Open(Bracket::Brace));
-        if !made || !opens || self.slice(0) != "new" || self.declares_anywhere("new") {
+        if !made
+            || !opens
+            || self.slice(0) != "new"
+            || self.is_parted(1)
+            || self.declares_anywhere("new")
+        {
             return false;
         }
         let (span, next) = (self.span(0, 0), self.span(1, 1));
