@@ -244,11 +244,6 @@ impl Repair<'_> {
         self.tell(diagnostic);
     }
 
-    pub(super) fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
-        let [from, to] = [opener, closer].map(|at| self.tokens[at].start as usize);
-        self.text.get(from..to).is_some_and(|between| !between.contains(['\n', '\r']))
-    }
-
     fn stray(&mut self, bracket: Bracket, at: usize) {
         self.dropped[at] = true;
         let index = bracket as usize;

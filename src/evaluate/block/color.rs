@@ -55,6 +55,49 @@ impl Evaluator<'_> {
         self.color_components(color, piece)
     }
 
+    /// A colour, with or without `color` and its kin.
+    pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
+        let given = self.written_color_after(after, wanted)?;
+        let color = given.value.color();
+        Ok(given.with(color))
+    }
+
+    /// As [`Self::color_after`], as it is written.
+    pub(super) fn written_color_after(
+        &mut self,
+        after: &Token,
+        wanted: &str,
+    ) -> Outcome<Given<WrittenColor>> {
+        self.skip_commas();
+        if let Some(reported) = self.paint_for_color(after) {
+            return Err(reported);
+        }
+        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
+            && word.family() == crate::vocabulary::Family::Color
+            && let Some(token) = self.next()
+        {
+            let color = self.color_from(&token)?;
+            return Ok(Given {
+                value: color,
+                span: token.span,
+                here: token.here,
+                expression: None,
+            });
+        }
+        if let Some(reported) = self.misspelt_color(after) {
+            return Err(reported);
+        }
+        let given = self.given(after, wanted)?;
+        if !matches!(given.value, Value::Color(_)) {
+            self.bare_components(None, &given)?;
+        }
+        let color = self.plain_color(&given, wanted)?;
+        let bare = !matches!(given.value, Value::Color(_));
+        let mut color = self.color_components(color, given.site())?;
+        color.bare = bare;
+        Ok(given.with(color))
+    }
+
     /// A value that stands for a colour without a word before it.
     pub(super) fn plain_color(&mut self, given: &Given<Value>, wanted: &str) -> Outcome<Color> {
         let Some(color) = given.value.as_color() else {

@@ -9,7 +9,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::word_like;
 use super::super::{Evaluator, Reported};
 use super::Place;
-use super::habit::custom;
+use super::custom::custom;
 use super::unknown::{UNKNOWN, meant};
 
 /// The words beside shapes and textures whose block is a value.

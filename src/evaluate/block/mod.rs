@@ -11,6 +11,7 @@ mod color;
 mod color_map;
 mod colored;
 mod counted;
+mod custom;
 mod early;
 mod finish;
 mod habit;

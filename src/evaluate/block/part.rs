@@ -1,6 +1,5 @@
 //! The parts of a block: values after words, of the kind the place needs.
 
-use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::ObjectId;
@@ -11,7 +10,6 @@ use crate::vocabulary::Word;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome, Reported};
-use super::pieces::WrittenColor;
 
 /// A value and where it stands.
 #[derive(Debug, Clone)]
@@ -338,49 +336,6 @@ impl Evaluator<'_> {
     /// A truth value that may be left out: then true.
     pub(super) fn optional_flag(&mut self, after: &Token) -> Outcome<bool> {
         Ok(self.optional_number(after, 1.0)? != 0.0)
-    }
-
-    /// A colour, with or without `color` and its kin.
-    pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
-        let given = self.written_color_after(after, wanted)?;
-        let color = given.value.color();
-        Ok(given.with(color))
-    }
-
-    /// As [`Self::color_after`], as it is written.
-    pub(super) fn written_color_after(
-        &mut self,
-        after: &Token,
-        wanted: &str,
-    ) -> Outcome<Given<WrittenColor>> {
-        self.skip_commas();
-        if let Some(reported) = self.paint_for_color(after) {
-            return Err(reported);
-        }
-        if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
-            && word.family() == crate::vocabulary::Family::Color
-            && let Some(token) = self.next()
-        {
-            let color = self.color_from(&token)?;
-            return Ok(Given {
-                value: color,
-                span: token.span,
-                here: token.here,
-                expression: None,
-            });
-        }
-        if let Some(reported) = self.misspelt_color(after) {
-            return Err(reported);
-        }
-        let given = self.given(after, wanted)?;
-        if !matches!(given.value, Value::Color(_)) {
-            self.bare_components(None, &given)?;
-        }
-        let color = self.plain_color(&given, wanted)?;
-        let bare = !matches!(given.value, Value::Color(_));
-        let mut color = self.color_components(color, given.site())?;
-        color.bare = bare;
-        Ok(given.with(color))
     }
 
     /// Reports a number outside of what its place allows.

@@ -1,10 +1,107 @@
 //! Functions that other languages call, and what is written here: `round(A)`, `eof(F)`, `noise(x, y, z)`.
 
 use super::Call;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::value::Value;
 use crate::source::Span;
 
 impl Evaluator<'_> {
+    /// `distance(a, b)` where a value should stand: a word of the language that others call. Passes over it.
+    pub(in crate::evaluate) fn called_elsewhere(
+        &mut self,
+        token: &Token,
+        wanted: &str,
+    ) -> Option<Diagnostic> {
+        let TokenKind::Word(word) = token.kind else { return None };
+        let call = self.call_elsewhere(word.name(), token.span, None)?;
+        self.next();
+        // Its arguments.
+        self.skip_behind_parenthesis(token.span);
+        let message = format!("expected {wanted}: `{}` is no function here", word.name());
+        let diagnostic = Diagnostic::new(Code::ForeignWord, message)
+            .at(token.span, "other languages call it")
+            .help(call.help);
+        Some(call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by)))
+    }
+
+    /// Passes over what stands in parentheses right behind `name`.
+    fn skip_behind_parenthesis(&mut self, name: Span) {
+        let Some(next) = self.peek_on().map(|next| next.span) else { return };
+        let text = &self.sources.get(name.file).text;
+        let between = text.get(name.end as usize..next.start as usize);
+        let group = next.file == name.file
+            && between.is_some_and(|between| between.trim().is_empty())
+            && text.get(next.start as usize..).is_some_and(|rest| rest.starts_with('('));
+        if group {
+            self.next();
+        }
+    }
+
+    /// `len(A)`, `random()`: what another language would call, and what is called here.
+    pub(super) fn call_elsewhere(
+        &mut self,
+        name: &str,
+        span: Span,
+        close: Option<&str>,
+    ) -> Option<Call> {
+        if close.is_some_and(|close| close.eq_ignore_ascii_case(name)) {
+            return None;
+        }
+        let text = &self.sources.get(span.file).text;
+        let rest = text.get(span.range().end..)?;
+        let inner = rest.trim_start().strip_prefix('(')?;
+        let inner = inner.split(['(', ')', '\n']).next()?;
+        let start = text.len() - (rest.len() - rest.find('(')? - 1);
+        let argument = inner.trim().to_owned();
+        let symbol = self.scopes.symbol(&argument);
+        let value = symbol.and_then(|symbol| self.scopes.read(symbol)).cloned();
+        let stays = |help: &str| Some(Call { help: help.to_owned(), fixes: Vec::new() });
+        match name.to_lowercase().as_str() {
+            "len" | "length" | "size" | "count" | "sizeof" => match value {
+                Some(Value::Array(_)) => {
+                    let close = Span::new(span.file, start + inner.len(), start + inner.len());
+                    let whole = format!("dimension_size({argument}, 1)");
+                    let fixes = vec![(span, "dimension_size".into()), (close, ", 1".into())];
+                    Some(Call { help: format!("write `{whole}`"), fixes })
+                }
+                Some(Value::String(_)) => Some(Call::renamed(span, "strlen")),
+                None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
+                Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
+                // `length(x, y, z)`: of three numbers.
+                None if inner.matches(',').count() == 2 && !inner.contains('<') => stays(
+                    "the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`",
+                ),
+                _ if name.eq_ignore_ascii_case("length") => None,
+                _ => stays(
+                    "`dimension_size(A, 1)` of an array, `strlen(S)` of a string, `vlength(V)` of a \
+                     vector",
+                ),
+            },
+            "random" | "rnd" | "randf" | "frand" | "drand" if value.is_none() => stays(
+                "`#declare R = seed(1);` once, then `rand(R)` is another number from 0 to 1 each time",
+            ),
+            "mix" | "lerp" => stays("between two values: `A + (B - A)*T`"),
+            "saturate" => stays("within 0 and 1: `min(max(A, 0), 1)`"),
+            "clamp" if !self.has_read("math.inc") => {
+                stays("within two values: `min(max(A, low), high)`")
+            }
+            "distance" => stays("from one point to another: `vlength(B - A)`"),
+            "smoothstep" => {
+                stays("with `#local T = min(max((X - A)/(B - A), 0), 1);` it is `T*T*(3 - 2*T)`")
+            }
+            "hypot" => stays("the length of a vector: `vlength(<A, B, 0>)`"),
+            "fract" | "frac" => stays("what is behind the point: `mod(A, 1)`"),
+            "cbrt" => stays("the third root: `pow(A, 1/3)`"),
+            "sign" | "sgn" if !self.has_read("math.inc") => {
+                stays("`select(A, -1, 0, 1)` is below 0, 0, or above")
+            }
+            "step" => stays("0 or 1: `(X >= Edge)`"),
+            other => self.function_elsewhere(other, span, &argument),
+        }
+    }
+
     /// What to write for the call of `name` at `span`, of which all that stands in its parentheses is `argument`, if
     /// no other parenthesis does.
     pub(super) fn function_elsewhere(

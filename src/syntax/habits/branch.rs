@@ -11,6 +11,23 @@ use crate::vocabulary::{Role, Word};
 const LONGEST_HEAD: usize = 24;
 
 impl Reader<'_> {
+    /// `else if (…)`.
+    pub(super) fn else_if(&mut self, meant: &mut Vec<Token>) -> bool {
+        let span = self.span(0, 1);
+        let diagnostic = Diagnostic::new(Code::UnknownDirective, "`else if` is written `#elseif`")
+            .at(span, "a directive of another language")
+            .help("write `#elseif (…)`")
+            .fix(span, "#elseif");
+        let diagnostic = match self.closed(2, Bracket::Round) {
+            Some(close) => self.braces(close + 1, diagnostic).0,
+            None => diagnostic,
+        };
+        self.diagnostics.push(diagnostic);
+        meant.push(Token { kind: TokenKind::Directive(Head::Elseif), ..self.tokens[self.at] });
+        self.at += 2;
+        true
+    }
+
     fn compares(&self, ahead: usize) -> bool {
         matches!(
             self.kind(ahead),

@@ -8,6 +8,11 @@ use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
 use crate::vocabulary::{Role, Word};
 
 impl Repair<'_> {
+    pub(super) fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
+        let [from, to] = [opener, closer].map(|at| self.tokens[at].start as usize);
+        self.text.get(from..to).is_some_and(|between| !between.contains(['\n', '\r']))
+    }
+
     /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
     pub(super) fn never_closed(&mut self, open: Open, at: usize) {
         if self.closed_by_sign(&open, at) {
