@@ -133,7 +133,7 @@ codes! {
     ShortVector "short-vector" lint "a vector is written with fewer numbers than its place has";
     LostComma "lost-comma" sure "two numbers of a vector, of which the second has a sign, have no comma between them";
     ColorRange "color-range" sure "a colour looks as if written as 0 to 255, or is negative";
-    UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has";
+    UnlikelyFinish "unlikely-finish" lint "a number of a finish that no surface has, or that another one hides";
     UnlikelyLight "unlikely-light" lint "words of a light have no effect, or contradict each other";
     EnclosedLight "enclosed-light" sure "a light stands inside an opaque object, and lights nothing outside of it";
     TooClear "too-clear" lint "a colour is clearer than it can be";

@@ -1,4 +1,5 @@
-//! A pigment or a pattern where one colour stands: `light_source { 0, pigment { rgb 1 } }`, `background { gradient y }`.
+//! A pigment or a pattern where one colour stands: `light_source { 0, pigment { rgb 1 } }`,
+//! `background { gradient y }`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;

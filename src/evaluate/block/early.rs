@@ -1,7 +1,7 @@
 //! What stands behind an object and belongs in it: `sphere { 0, 1 } pigment { rgb 1 }`.
 //!
-//! **In:** a word at the top level that stands only in objects. **Out:** one message at the brace that closes too
-//! early. Where braces are too many as well, `syntax/repair/early.rs` has told it.
+//! **In:** a word at the top level that stands only in objects. **Out:** one message at the brace that
+//! closes too early. Where braces are too many as well, `syntax/repair/early.rs` has told it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -11,8 +11,8 @@ use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
 
 impl Evaluator<'_> {
-    /// Tells of a `token` that belongs in the object right before it, and passes over all that does. `false` where
-    /// no object ends there.
+    /// Tells of a `token` that belongs in the object right before it, and passes over all that does.
+    /// `false` where no object ends there.
     pub(super) fn closed_too_early(&mut self, token: &Token, word: Word) -> bool {
         if !is_of_object(word) {
             return false;

@@ -165,6 +165,7 @@ impl Evaluator<'_> {
                 written.highlights.push((word, self.whole(token)));
             }
             written.classic.get_or_insert((word, token.span));
+            self.lint_word_twice(token, word, &mut written.said);
             let weightless = match word {
                 Word::Phong => Some(classic.phong == 0.0),
                 Word::Specular => Some(classic.specular == 0.0),

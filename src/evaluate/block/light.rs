@@ -167,6 +167,11 @@ impl Evaluator<'_> {
                     self.second_direction(&token, light.as_deref())
                 }
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
+                    if word != Word::Parallel
+                        && written.shapes.iter().any(|of| ![word, Word::Parallel].contains(of))
+                    {
+                        written.second = Some(token.clone());
+                    }
                     written.shapes.push(word);
                     written.last = Some(token.clone());
                     if let Some(light) = &mut light
@@ -274,6 +279,8 @@ fn is_of_a_place(token: &Token) -> bool {
 struct Written {
     /// `parallel`, `spotlight`, `cylinder`. The last counts; but what is `parallel` is no spotlight.
     shapes: Vec<Word>,
+    /// A second kind of beam.
+    second: Option<Token>,
     /// The last word that says where its axis lies.
     last: Option<Token>,
     point_at: Vector,
@@ -302,6 +309,7 @@ impl Written {
         };
         let mut written = Self {
             shapes: Vec::new(),
+            second: None,
             last: None,
             point_at,
             radius: None,

@@ -1,5 +1,5 @@
-//! What was meant by what a block has no use for, or by what stands before one: the place of a camera without its
-//! word, `on` behind a word that takes no value, a name before the braces.
+//! What was meant by what a block has no use for, or by what stands before one: the place of a camera
+//! without its word, `on` behind a word that takes no value, a name before the braces.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -66,7 +66,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `camera perspective { … }`, `camera Cam { … }`: what stands between a word and its braces. Passes over both.
+    /// `camera perspective { … }`, `camera Cam { … }`: what stands between a word and its braces. Passes over
+    /// both.
     pub(super) fn before_braces(&mut self, word: Word) -> Option<Reported> {
         let next = self.peek()?.clone();
         let text = &self.sources.get(next.span.file).text;
@@ -82,36 +83,31 @@ impl Evaluator<'_> {
         let told = |message: String| {
             Diagnostic::new(Code::MissingPart, message).at(next.span, "expected `{` before this")
         };
+        let without = Span { end: brace.start, ..next.span };
         // It stands in the braces, first.
-        let moved = |told: Diagnostic, form: &str| {
-            told.help(format!("write `{of} {{ {name} {form}}}`"))
-                .fix(Span { end: brace.start, ..next.span }, "")
+        let moved = |told: Diagnostic| {
+            told.help(format!("write `{of} {{ {name} … }}`"))
+                .fix(without, "")
                 .fix(brace.after(), format!(" {name}"))
         };
         let told = match next.kind {
             TokenKind::Word(kind) if word == Word::Camera && home(kind) == Some(word) => {
-                let message = format!("the kind of a camera stands inside its braces");
-                moved(told(message), "… ")
+                moved(told("the kind of a camera stands inside its braces".to_owned()))
             }
             TokenKind::Word(kind) if word == Word::LightSource && home(kind) == Some(word) => {
-                let message = format!("`{name}` stands inside the braces of a `{of}`");
-                told(message).help(format!("write `{of} {{ <place>, rgb 1 {name} … }}`"))
+                told(format!("`{name}` stands inside the braces of a `{of}`"))
+                    .help(format!("write `{of} {{ <place>, rgb 1 {name} … }}`"))
             }
             TokenKind::Expression(id)
                 if matches!(next.here.unit.expression(id).kind, ExpressionKind::Name(_)) =>
             {
-                let is_declared = self.unknown_name(&next.here, id).is_none();
-                let message = format!("`{name}` stands before the braces of `{of}`");
-                match is_declared {
-                    true => moved(told(message), "… "),
-                    false => {
-                        let told = told(message)
-                            .help(format!("a name is given by `#declare {name} = {of} {{ … }}`"));
-                        match lone {
-                            true => told.fix(Span { end: brace.start, ..next.span }, ""),
-                            false => told,
-                        }
-                    }
+                let told = told(format!("`{name}` stands before the braces of `{of}`"));
+                let help = format!("a name is given by `#declare {name} = {of} {{ … }}`");
+                match self.unknown_name(&next.here, id) {
+                    None if begins_with_name(word) => moved(told),
+                    None => told.help(self.form_of(word)),
+                    Some(_) if lone => told.help(help).fix(without, ""),
+                    Some(_) => told.help(help),
                 }
             }
             _ => return None,
@@ -134,6 +130,24 @@ impl Evaluator<'_> {
                 "point" | "point_light" | "pointlight" | "omni" | "omni_light"
             )
     }
+}
+
+/// Whether the block of a word may begin with a declared name.
+fn begins_with_name(word: Word) -> bool {
+    use Word as W;
+    matches!(
+        word,
+        W::Object
+            | W::Camera
+            | W::LightSource
+            | W::Texture
+            | W::Pigment
+            | W::Finish
+            | W::Interior
+            | W::Material
+            | W::SkySphere
+            | W::ColorMap
+    )
 }
 
 /// `texture { M }` of a material, `pigment { F }` of a finish: the block that takes what `text` names.

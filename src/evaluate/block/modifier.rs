@@ -71,8 +71,10 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Texture) => {
                     let inner = self.pigment_within(&token);
                     let before = painted.filter(|_| !within);
+                    // Through a clear one it is seen.
                     if let (Some(first), Some(inner)) = (before, inner)
                         && first.expansion == inner.expansion
+                        && self.is_opaque_as_written(inner)
                     {
                         self.lint_replaced(&token, first, "object");
                     }

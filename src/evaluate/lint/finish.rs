@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `transmit 50`, of a colour.
+    /// `transmit 50`, of a colour. One of 100 and more strengthens contrasts, as in POV-Ray's own scenes.
     pub(in crate::evaluate) fn lint_clear_percentage(
         &mut self,
         here: &Here,
@@ -58,9 +58,37 @@ impl Evaluator<'_> {
     ) {
         let text = self.sources.text(span);
         let number = text.parse::<f64>().ok().filter(|number| number.fract() == 0.0);
-        if let Some(number) = number.filter(|number| PERCENTAGE.contains(number)) {
+        let is_percentage = |number: &f64| PERCENTAGE.contains(number) && number < PERCENTAGE.end();
+        if let Some(number) = number.filter(is_percentage) {
             self.report(here, percentage_of(span, word.name(), number));
         }
+    }
+
+    /// `diffuse 0.6 … diffuse 0.2`. What a macro gives may be changed by who calls it, and so may what
+    /// stands before a branch.
+    pub(in crate::evaluate) fn lint_word_twice(
+        &mut self,
+        token: &Token,
+        word: Word,
+        said: &mut Vec<(Word, Site)>,
+    ) {
+        let site = token.here.site(token.span);
+        let before = said.iter().rev().find(|(other, _)| *other == word).map(|(_, first)| *first);
+        said.push((word, site));
+        let Some(first) = before.filter(|first| {
+            let between = Span { end: site.span.start, ..first.span };
+            first.expansion == site.expansion
+                && first.span.file == site.span.file
+                && first.span.end <= site.span.start
+                && !self.sources.text(between).contains('#')
+        }) else {
+            return;
+        };
+        let message = format!("this finish has `{}` twice; the last one is used", word.name());
+        let diagnostic = Diagnostic::new(Code::UnlikelyFinish, message)
+            .at(token.span, "this one is used")
+            .also(first.span, "this one does nothing");
+        self.report(&token.here, diagnostic);
     }
 
     /// `ambient 50`: where the surface also scatters light it is no lamp.

@@ -148,8 +148,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// `min 0.1 max 0.5` with these names, the least first, at the beginning of a text: the two as they are written here,
-/// and how long it is.
+/// `min 0.1 max 0.5` with these names, the least first, at the beginning of a text: the two as they are
+/// written here, and how long it is.
 fn ends_by_name(text: &str, [least, most]: [&str; 2]) -> Option<(String, usize)> {
     let number = |text: &str, name: &str| {
         let rest = text.trim_start().strip_prefix(name)?.trim_start();

@@ -25,6 +25,8 @@ pub(super) struct Written {
     /// Each `ks`.
     pub ks_items: Vec<(f64, Site)>,
     pub classic: Option<(Word, Span)>,
+    /// Each of POV-Ray's words.
+    pub said: Vec<(Word, Site)>,
     /// Enough of the last item for it to weigh nothing, where not all of it is.
     pub pieces: Option<Vec<Site>>,
     pub albedo: Albedo,

@@ -73,6 +73,12 @@ impl Evaluator<'_> {
             let help = "give the light a place: `light_source { <place>, rgb 1 … }`";
             return Err(self.report(&first.here, diagnostic.help(help)));
         }
+        if let Some(second) = &written.second {
+            let message = "a light is a `spotlight` or a `cylinder`; the last one is used";
+            let diagnostic = Diagnostic::new(Code::UnlikelyLight, message)
+                .at(second.span, "this light has the other before it");
+            self.report(&second.here, diagnostic);
+        }
         for Doubt(given, message, label) in doubts(light, written) {
             let diagnostic = Diagnostic::new(Code::UnlikelyLight, message).at(given.span, label);
             self.report(&given.here, diagnostic);

@@ -1,5 +1,5 @@
-//! The kind of a light where it does not stand: before its place, with braces of its own, as `point`; and a light
-//! that is closed before its colour.
+//! The kind of a light where it does not stand: before its place, with braces of its own, as `point`; and
+//! a light that is closed before its colour.
 //!
 //! **Invariant:** what belongs to it is read as it was meant, so that nothing else is told of it.
 
@@ -13,8 +13,8 @@ use super::super::super::{Evaluator, Outcome, Reported};
 use super::order::Late;
 
 impl Evaluator<'_> {
-    /// `light_source { spotlight <1, 2, 3> rgb 1 … }`, `light_source { point <1, 2, 3> … }`: a light that begins
-    /// with its kind.
+    /// `light_source { spotlight <1, 2, 3> rgb 1 … }`, `light_source { point <1, 2, 3> … }`: a light that
+    /// begins with its kind.
     pub(super) fn light_by_kind(
         &mut self,
         opener: &Token,

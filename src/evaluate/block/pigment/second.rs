@@ -106,6 +106,16 @@ impl Evaluator<'_> {
         Some(token.here.site(pigment.span))
     }
 
+    /// Whether the pigment whose word stands at `site` is one colour that lets nothing through, as it is written.
+    pub(in crate::evaluate::block) fn is_opaque_as_written(&self, site: Site) -> bool {
+        let text = &self.sources.get(site.span.file).text;
+        let behind = text.get(site.span.end as usize..).unwrap_or("").trim_start();
+        let paint = behind.strip_prefix('{').and_then(|rest| rest.split('}').next());
+        let mut words = paint.unwrap_or("").split(|c: char| !c.is_ascii_alphabetic());
+        let is_color = words.clone().any(|word| matches!(word, "rgb" | "srgb"));
+        is_color && words.all(|word| matches!(word, "" | "rgb" | "srgb" | "color" | "colour"))
+    }
+
     fn second_in_pigment(
         &mut self,
         token: &Token,
