@@ -10,7 +10,6 @@ use super::Place;
 /// triangle.
 pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
     use Word as W;
-    let is_other = matches!(theirs, "ring" | "metaball" | "metaballs");
     let is_listed = matches!(
         word,
         W::Triangle
@@ -22,7 +21,7 @@ pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
             | W::SphereSweep
             | W::Disc
     );
-    is_other || is_listed && suggest::closest(theirs, [word.name()]).is_none()
+    is_listed && suggest::closest(theirs, [word.name()]).is_none()
 }
 
 /// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.

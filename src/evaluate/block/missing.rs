@@ -107,7 +107,7 @@ impl Evaluator<'_> {
         if !is_modifier || !opens_object(*solid) {
             return None;
         }
-        let parts = self.values_behind_block()?;
+        let parts = self.values_behind_block().filter(|parts| parts.file == next.span.file)?;
         let (name, word) = (solid.name(), modifier.name());
         let message = format!("the parts of `{name}` stand before its `{word}`");
         let right = self.sources.text(parts).to_owned();
@@ -128,13 +128,22 @@ impl Evaluator<'_> {
         let frame = self.frames.last()?;
         let ast = &frame.here.unit.ast;
         let items = ast.items.get(frame.at as usize..frame.end as usize)?;
-        let block = items.iter().position(|item| matches!(item.kind, ItemKind::Block(_)))?;
         let is_value = |item: &&Item| matches!(item.kind, ItemKind::Expression(_));
-        let behind = items.get(block + 1..)?;
-        let comma = |item: &&Item| matches!(item.kind, ItemKind::Comma);
-        let first = behind.iter().find(|item| !comma(item)).filter(is_value)?;
-        let last = behind.iter().take_while(|item| is_value(item) || comma(item));
-        let last = last.filter(is_value).last()?;
+        let is_comma = |item: &&Item| matches!(item.kind, ItemKind::Comma);
+        let blocks =
+            items.iter().zip(1..).filter(|(item, _)| matches!(item.kind, ItemKind::Block(_)));
+        let (first, behind) = blocks.into_iter().find_map(|(_, next)| {
+            let behind = items.get(next..)?;
+            let first = behind.iter().find(|item| !is_comma(item)).filter(is_value)?;
+            Some((first, behind))
+        })?;
+        let count = behind.iter().take_while(|item| is_value(item) || is_comma(item)).count();
+        let (parts, rest) = behind.split_at_checked(count)?;
+        // `fnish { … }` is a misspelt word.
+        if matches!(rest.first(), Some(Item { kind: ItemKind::Block(_), .. })) {
+            return None;
+        }
+        let last = parts.iter().filter(is_value).last()?;
         Some(first.span.to(last.span))
     }
 

@@ -169,7 +169,11 @@ impl Evaluator<'_> {
                 let text = &self.sources.get(next.span.file).text;
                 let behind = text.get(next.span.end as usize..).unwrap_or("").trim_start();
                 let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-                &behind[..behind.len() - behind.trim_start_matches(of_name).len()]
+                let name = &behind[..behind.len() - behind.trim_start_matches(of_name).len()];
+                if Word::from_name(name).is_some_and(opens_object) {
+                    return true;
+                }
+                name
             }
             _ => return false,
         };

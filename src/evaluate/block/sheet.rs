@@ -14,6 +14,9 @@ use super::Given;
 /// How far a polygon's points may be from its plane, over its size: as much as numbers of six digits may.
 const FLAT_ENOUGH: f64 = 1e-5;
 
+/// Among so many points the one that is not in the plane of the others is looked for.
+const MOST_COMPARED: usize = 64;
+
 /// What stands before the points of a `bicubic_patch`.
 const OF_PATCH: &[Word] =
     &[Word::Type, Word::USteps, Word::VSteps, Word::Flatness, Word::UvVectors];
@@ -101,12 +104,13 @@ impl Evaluator<'_> {
         let Some(point) = farthest.filter(|point| plane.off(**point) > FLAT_ENOUGH) else {
             return Ok(());
         };
+        let lone = lone_stray(places);
+        let of = if lone.is_some() { "the others" } else { "others" };
+        let point = crate::math::vector::written(lone.map_or(*point, |(point, _)| point));
         // Of many points in a run, the text of one has no place of its own.
-        let place = places.iter().find(|(other, _)| other == point).map(|(_, span)| *span);
         let is_one = |span: &Span| self.sources.text(*span).matches('<').count() <= 1;
-        let place = place.filter(is_one).unwrap_or(token.span);
-        let point = crate::math::vector::written(*point);
-        let message = format!("this polygon is not flat: {point} lies beside the plane of others");
+        let place = lone.map(|(_, span)| span).filter(is_one).unwrap_or(token.span);
+        let message = format!("this polygon is not flat: {point} lies beside the plane of {of}");
         let diagnostic = Diagnostic::new(self.undrawn(Code::OutOfRange), message)
             .at(place, "all points must lie in one plane")
             .help("a `mesh` may be bent");
@@ -164,6 +168,27 @@ impl Evaluator<'_> {
         }
         Ok(solid)
     }
+}
+
+/// The one point without which the others are flat. Of four, each is such a point.
+fn lone_stray(places: &[(Vector, Span)]) -> Option<(Vector, Span)> {
+    let mut points: Vec<(Vector, Span)> = Vec::new();
+    for place in places {
+        if points.iter().all(|(other, _)| *other != place.0) {
+            points.push(*place);
+        }
+        if points.len() > MOST_COMPARED {
+            return None;
+        }
+    }
+    let is_stray = |stray: &&(Vector, Span)| {
+        let rest = points.iter().map(|(point, _)| *point).filter(|point| *point != stray.0);
+        let rest = Polygon { lines: vec![rest.collect()] };
+        let plane = rest.plane();
+        plane.is_some_and(|plane| rest.lines[0].iter().all(|p| plane.off(*p) <= FLAT_ENOUGH))
+    };
+    let mut strays = points.iter().filter(is_stray);
+    strays.next().filter(|_| strays.next().is_none()).copied()
 }
 
 /// Where, in a line of points that does not come back to its first, another begins that ends with the last of them.

@@ -50,8 +50,7 @@ impl Evaluator<'_> {
         match word {
             Word::UvVectors => {
                 let mut corner = |name| self.uv_after(token, name);
-                let (a, b, c) = (corner("first"), corner("second"), corner("third"));
-                dress.uvs = Some([a?, b?, c?]);
+                dress.uvs = Some([corner("first")?, corner("second")?, corner("third")?]);
             }
             Word::Texture => {
                 let id = self.face_texture(token)?;
