@@ -97,15 +97,8 @@ impl Evaluator<'_> {
         let before = self.told();
         loop {
             self.skip_values();
-            let line = |evaluator: &Self, span: Span| {
-                evaluator.sources.get(span.file).position(span.start as usize).line
-            };
-            // What stands on a line of its own may be another item.
-            let Some(next) = self.peek_on().cloned() else { break };
-            let follows =
-                matches!(next.kind, TokenKind::Word(next) if next.family() == Family::Transform);
-            let end = self.taken.map_or(first.span, |taken| taken.span);
-            if !follows || next.span.file != end.file || line(self, next.span) != line(self, end) {
+            let Some(next) = self.peek_on() else { break };
+            if !matches!(next.kind, TokenKind::Word(next) if next.family() == Family::Transform) {
                 break;
             }
             self.next();
@@ -115,9 +108,10 @@ impl Evaluator<'_> {
         let text = self.sources.text(whole);
         let told = Diagnostic::new(Code::ExpectedExpression, "transforms are declared in a block")
             .at(first.span, format!("`{}` begins no value", word.name()));
-        let told = match text.contains(['#', '{', '\n', '/']) {
+        let told = match text.contains(['#', '{', '/']) {
             true => told.help("write `transform { … }`"),
             false => {
+                let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
                 let right = format!("transform {{ {text} }}");
                 told.help(format!("write `{right}`")).fix(whole, right)
             }

@@ -25,7 +25,11 @@ impl Evaluator<'_> {
             return None;
         }
         let whole = Span { end: first.span.start + plain.len() as u32, ..first.span };
-        let right = format!("<{plain}>");
+        let is_parted = plain.matches(',').count() == numbers.len() - 1;
+        let right = match is_parted {
+            true => format!("<{plain}>"),
+            false => format!("<{}>", numbers.join(", ")),
+        };
         let told = Diagnostic::new(
             Code::ExpectedExpression,
             "the numbers of a matrix stand in angle brackets",

@@ -123,6 +123,14 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
+    /// Whether a part of the block being read was told to be missing.
+    pub(super) fn lacks_part(&self) -> bool {
+        let Some(block) = self.blocks.last().map(|block| block.span) else { return false };
+        self.missing_at.is_some_and(|at| {
+            at.span.file == block.file && block.start <= at.span.start && at.span.end <= block.end
+        })
+    }
+
     /// The values right behind a block among the items that follow, up to where they end.
     fn values_behind_block(&self) -> Option<Span> {
         let frame = self.frames.last()?;

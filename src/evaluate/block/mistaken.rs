@@ -4,12 +4,16 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::ast::{ExpressionId, ExpressionKind, ItemKind};
 use crate::vocabulary::Word;
 
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::{FrameKind, Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Reported};
+use super::super::{Evaluator, Here, Reported};
 use super::Given;
+
+/// How deep in a part is looked for what it is.
+const DEEPEST: u32 = 20;
 
 /// A part as it is written: a point or a direction, or a number.
 struct Part {
@@ -48,8 +52,12 @@ impl Evaluator<'_> {
         if self.sources.text(opener) != solid.name() || !parts.iter().any(holds) {
             return None;
         }
-        let kinds: String =
-            parts.iter().map(|part| if part.is_point { 'p' } else { 'n' }).collect();
+        // `cylinder { 0, y, 1 }`: a number stands for a point.
+        let begins = matches!(solid, Word::Cone | Word::Cylinder | Word::Disc);
+        let letter = |(i, part): (usize, &Part)| {
+            if part.is_point || begins && i == 0 { 'p' } else { 'n' }
+        };
+        let kinds: String = parts.iter().enumerate().map(letter).collect();
         let at = |i: usize| parts[i].span;
         let text = |i: usize| self.sources.text(at(i));
         let is_zero = |i: usize| text(i).chars().all(|c| "<0.,> ".contains(c));
@@ -161,57 +169,62 @@ impl Evaluator<'_> {
         parts.len() == count && parts.iter().all(|part| part.is_point)
     }
 
-    /// The parts of the block being read, up to its first word: literals, axes and names of numbers and vectors.
-    /// `None` where anything else is among them.
+    /// The parts of the block being read, up to its first word, where they are values as they stand. What they are is
+    /// seen in how they are written.
     fn plain_parts(&self) -> Option<Vec<Part>> {
         let block = self.within_block()?.span;
-        let text = self.sources.text(block);
-        let (mut parts, mut at) = (Vec::new(), 0);
-        loop {
-            at += text[at..].len()
-                - text[at..].trim_start_matches([',', ' ', '\t', '\r', '\n']).len();
-            let rest = &text[at..];
-            let (length, is_point) = match rest.chars().next() {
-                None => break,
-                Some('<') => {
-                    let length = rest.find('>')? + 1;
-                    let inside = &rest[1..length];
-                    (!inside.contains(['<', '{', '#', '/', '"'])).then_some((length, true))?
+        let frame = self.frames.last()?;
+        let unit = &frame.here.unit;
+        if !matches!(frame.kind, FrameKind::Block) || unit.ast.file != block.file {
+            return None;
+        }
+        // The items of the block stand in one row, before it what is inside of them.
+        let items = &unit.ast.items;
+        let mut first = frame.at as usize;
+        while let Some(before) = first.checked_sub(1).and_then(|at| items.get(at))
+            && before.span.start >= block.start
+            && items.get(first).is_none_or(|next| {
+                first == frame.end as usize || before.span.end <= next.span.start
+            })
+        {
+            first -= 1;
+        }
+        let mut parts = Vec::new();
+        for item in items.get(first..frame.end as usize)? {
+            match item.kind {
+                ItemKind::Comma => {}
+                ItemKind::Expression(id) => {
+                    let is_point = self.is_point(&frame.here, id, DEEPEST)?;
+                    parts.push(Part { span: item.span, is_point });
                 }
-                Some(_) => {
-                    let ends = |c: char| c.is_whitespace() || ",{}<".contains(c);
-                    let word = &rest[..rest.find(ends).unwrap_or(rest.len())];
-                    match self.is_point(word) {
-                        Some(is_point) => (word.len(), is_point),
-                        None if Word::from_name(word).is_some() => break,
-                        None => return None,
-                    }
-                }
-            };
-            let start = block.start + at as u32;
-            parts
-                .push(Part { span: Span { start, end: start + length as u32, ..block }, is_point });
-            at += length;
-            // A calculation with blanks in it.
-            if text[at..].trim_start().starts_with(['*', '/', '+', '-', '.', '(', '[']) {
-                return None;
+                ItemKind::Word(_) => break,
+                _ => return None,
             }
         }
         (!parts.is_empty()).then_some(parts)
     }
 
-    /// Whether a word is a point or a direction, where it is no number; `None` where it is neither.
-    fn is_point(&self, word: &str) -> Option<bool> {
-        if word.parse::<f64>().is_ok() && !word.contains(char::is_alphabetic) {
-            return Some(false);
-        }
-        let (factor, last) = word.rsplit_once('*').unwrap_or(("1", word.trim_start_matches('-')));
-        if factor.parse::<f64>().is_ok() && matches!(last, "x" | "y" | "z") {
-            return Some(true);
-        }
-        match self.scopes.look(self.scopes.symbol(word)?)? {
-            Value::Number(_) => Some(false),
-            Value::Vector(_) => Some(true),
+    /// Whether an expression is a point or a direction, where it is no number; `None` where neither is seen.
+    fn is_point(&self, here: &Here, id: ExpressionId, depth: u32) -> Option<bool> {
+        let depth = depth.checked_sub(1)?;
+        match here.unit.expression(id).kind {
+            ExpressionKind::Number(_) | ExpressionKind::Component(..) => Some(false),
+            ExpressionKind::Vector(_) | ExpressionKind::Word(Word::X | Word::Y | Word::Z) => {
+                Some(true)
+            }
+            // In a macro the order of its arguments may be what is wrong.
+            ExpressionKind::Name(_) if self.macro_depth > 0 => None,
+            ExpressionKind::Name(name) => match self.scopes.look(here.symbol(name))? {
+                Value::Number(_) => Some(false),
+                Value::Vector(_) => Some(true),
+                _ => None,
+            },
+            ExpressionKind::Unary(_, inner) | ExpressionKind::Group(inner) => {
+                self.is_point(here, inner, depth)
+            }
+            ExpressionKind::Binary(_, left, right) => {
+                Some(self.is_point(here, left, depth)? || self.is_point(here, right, depth)?)
+            }
             _ => None,
         }
     }

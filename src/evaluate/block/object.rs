@@ -117,6 +117,15 @@ impl Evaluator<'_> {
         match *self.peek_declared()? {
             Value::Object(object) => {
                 let token = self.next()?;
+                let copy = match word.family() {
+                    Family::Csg => self.copy_without_word(&token, &Value::Object(object)),
+                    _ => None,
+                };
+                if let Some(reported) = copy {
+                    // The others are read for their own mistakes.
+                    let _: Outcome<ObjectKind> = self.union(&token);
+                    return Some(Err(reported));
+                }
                 if word.family() == Family::Csg && self.object_follows() {
                     let text = self.sources.text(token.span).to_owned();
                     let diagnostic = Diagnostic::new(

@@ -72,6 +72,9 @@ impl Evaluator<'_> {
     /// `prism { SPLINE SWEEP low, high, count, <x, z> … open }`.
     pub(super) fn prism(&mut self, token: &Token) -> Outcome<Solid> {
         let (spline, conic) = self.spline_and_sweep(true);
+        if let Some(reported) = self.misplaced_spline(Word::Prism, None) {
+            return Err(reported);
+        }
         let low = self.number_after(token, "a number for the height it begins at");
         let high = self.number_after(token, "a number for the height it ends at");
         let (low, high) = (low?, high?);

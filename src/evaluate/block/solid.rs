@@ -222,8 +222,8 @@ impl Evaluator<'_> {
         let cap_radius = self.number_after(token, "a number for the radius at the cap");
         let (base, cap) = (base?, cap?);
         self.ends_apart(token, "cone", &base, &cap)?;
-        self.lint_lone_height("cone", &base, &cap);
         let (base_radius, cap_radius) = (base_radius?, cap_radius?);
+        self.lint_lone_height("cone", &base, &cap);
         let radii = [base_radius.value, cap_radius.value];
         if radii == [0.0; 2] {
             let diagnostic =

@@ -98,6 +98,10 @@ impl Evaluator<'_> {
 
     /// `rotate y 45`, `rotate 45, y`, `translate x 2 y 3`, `scale y 2`, as other tools write it.
     fn no_number_after(&mut self, word: Word, given: &Given<Vector>) -> Outcome<()> {
+        // `sphere { translate x 0, 1 }`: the parts that come too late were told.
+        if self.lacks_part() {
+            return Ok(());
+        }
         let kind = |here: &Here, id| here.unit.expression(id).kind;
         let first = given.expression.map(|id| kind(&given.here, id));
         let is_number = matches!(first, Some(ExpressionKind::Number(_)));
@@ -118,7 +122,7 @@ impl Evaluator<'_> {
             (ExpressionKind::Number(_), None) if !is_number && word == Word::Rotate => {
                 (Vec::new(), "expected no number after the vector")
             }
-            (second, None) if is_number && word == Word::Rotate => match axis_of(second) {
+            (second, None) if is_number => match axis_of(second) {
                 Some(axis) => {
                     (vec![(axis, text(self, given.span))], "expected no vector after the number")
                 }

@@ -1,7 +1,7 @@
 //! What to say of an item that its block has no use for.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
-use crate::source::{Site, Span};
+use crate::source::Span;
 use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Word};
 
@@ -195,16 +195,8 @@ impl Evaluator<'_> {
             return;
         }
         // `sphere { pigment { … } 0, 1 }`: that the parts come first was told where one was missing.
-        let block = self.blocks.last().map(|block| block.span);
-        let was_missing = |at: Site| {
-            block.is_some_and(|block| {
-                at.span.file == block.file
-                    && block.start <= at.span.start
-                    && at.span.end <= block.end
-            })
-        };
         if matches!(token.kind, TokenKind::Expression(_) | TokenKind::Literal(_))
-            && self.missing_at.is_some_and(was_missing)
+            && self.lacks_part()
         {
             return self.skip_values();
         }
@@ -216,7 +208,10 @@ impl Evaluator<'_> {
         }
         let told = match (place.word, value) {
             (Some(Word::Object), Value::Object(_)) => self.second_of_object(token.span),
-            (Some(solid), Value::Number(_) | Value::Vector(_)) => {
+            // A decimal comma is told as that.
+            (Some(solid), Value::Number(_) | Value::Vector(_))
+                if self.comma_before(token.span).is_none() =>
+            {
                 self.mistaken_parts(solid, token.span)
             }
             _ => None,
