@@ -4,11 +4,15 @@
 //! closes too early. Where braces are too many as well, `syntax/repair/early.rs` has told it.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
 use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
+use super::is_object_word;
+
+/// How many objects are looked at: the last one has its parts before it.
+const MOST_OBJECTS: usize = 4;
 
 impl Evaluator<'_> {
     /// Tells of a `token` that belongs in the object right before it, and passes over all that does.
@@ -23,36 +27,48 @@ impl Evaluator<'_> {
         if word.family() == Family::Transform && self.sources.text(gap).contains('\n') {
             return false;
         }
-        let Some(root) = self.scene.roots.last() else { return false };
-        let object = &self.scene.objects[root.object.index()];
-        let name = self.sources.text(object.site.span).to_owned();
-        let ends_here = |site: crate::source::Site| {
+        let ends_here = |site: Site| {
+            let block = Span { end: closer.end, start: site.span.end, ..site.span };
             site.expansion == token.here.expansion
                 && site.span.file == closer.file
-                && site.span.end == closer.end
+                && block.start < block.end
+                && is_one_block(self.sources.text(block))
         };
-        if !object.item.is_some_and(ends_here) {
-            return false;
-        }
+        let mut objects = self.scene.objects.iter().rev().take(MOST_OBJECTS);
+        let Some(object) = objects.find(|object| ends_here(object.site)) else { return false };
+        let name = self.sources.text(object.site.span).to_owned();
         self.skip_arguments(word);
-        while let Some(&Token { kind: TokenKind::Word(next), .. }) = self.peek_on()
+        let mut end = self.whole(token).span;
+        while let Some(&Token { kind: TokenKind::Word(next), span, .. }) = self.peek_on()
             && is_of_object(next)
+            && self.is_beside(end, span)
         {
             self.next();
             self.skip_arguments(next);
+            end = self.whole(token).span;
         }
         let message = format!("this `{name}` is closed before its `{}`", word.name());
         let mut told = Diagnostic::new(Code::MisplacedBlock, message)
             .at(closer, "closed here")
             .also(token.span, "this stands only in an object")
             .help("move the `}` behind all that belongs to it");
-        let end = self.whole(token).span;
         let between = Span { start: closer.end, ..end };
-        if end.start == token.span.start && !self.sources.text(between).contains(['#', '/']) {
+        if end.start == token.span.start
+            && end.end > token.span.end
+            && !self.sources.text(between).contains(['#', '/'])
+        {
             told = told.fix(closer, "").fix(end.after(), " }");
         }
         self.report(&token.here, told);
         true
+    }
+
+    /// Whether nothing but blanks parts two places, the second behind the first.
+    fn is_beside(&self, first: Span, second: Span) -> bool {
+        let gap = Span { start: first.end, end: second.start, ..first };
+        first.file == second.file
+            && gap.start <= gap.end
+            && self.sources.text(gap).trim().is_empty()
     }
 
     /// The `}` that nothing but blanks parts from `token`.
@@ -63,10 +79,25 @@ impl Evaluator<'_> {
     }
 }
 
+/// Whether a text is one block with its braces: these are counted, wherever they stand.
+fn is_one_block(text: &str) -> bool {
+    let mut depth = 0_usize;
+    let end = text.trim_start().char_indices().find(|&(_, c)| {
+        match c {
+            '{' => depth += 1,
+            '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0
+    });
+    let block = text.trim_start();
+    block.starts_with('{') && end.is_some_and(|(at, _)| at + 1 == block.len())
+}
+
 /// Words that stand in objects, and nowhere at the top level.
 fn is_of_object(word: Word) -> bool {
     use Word as W;
-    matches!(word.family(), Family::Transform | Family::Modifier)
+    matches!(word.family(), Family::Transform | Family::Modifier) && !is_object_word(word)
         || matches!(
             word,
             W::Pigment | W::Texture | W::Normal | W::Finish | W::Interior | W::Material

@@ -81,6 +81,10 @@ impl Reader<'_> {
             kept.push(self.tokens[self.at + ahead]);
             ahead += 1;
         }
+        // One alone may be a comparison.
+        if names.len() < 2 {
+            return false;
+        }
         let message = "the components of a vector stand without names";
         let mut told = Diagnostic::new(Code::UnexpectedCharacter, message)
             .at(self.span(0, 1), "leave this out")

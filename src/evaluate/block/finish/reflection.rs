@@ -79,7 +79,8 @@ impl Evaluator<'_> {
         let taken = self.taken?.span;
         let behind = self.sources.get(taken.file).text.get(taken.end as usize..)?;
         let second = behind.trim_start().strip_prefix(',')?.trim_start();
-        if !second.starts_with(|c: char| c.is_ascii_digit() || c == '.' || c == '<') {
+        let is_number = second.starts_with(|c: char| c.is_ascii_digit() || c == '.' || c == '<');
+        if !is_number && !second.starts_with("rgb") && !second.starts_with("color") {
             return None;
         }
         let _: Outcome<Given<WrittenColor>> = self.written_color_after(token, "a number");
