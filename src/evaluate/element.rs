@@ -294,9 +294,8 @@ impl Evaluator<'_> {
                     .at(base, format!("expected {wanted}"));
                 match indices.len() {
                     1 if wanted.starts_with('2') => {
-                        let whole = Span { end: index(0).end + 1, ..base };
-                        let whole = self.sources.text(whole);
-                        diagnostic.help(format!("one element is `{whole}[0]`"))
+                        let first = self.sources.text(index(0));
+                        diagnostic.help(format!("one element is `{name}[{first}][0]`"))
                     }
                     _ => diagnostic,
                 }

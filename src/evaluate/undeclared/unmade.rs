@@ -27,7 +27,8 @@ impl Evaluator<'_> {
         let is_known = self.scopes.declared(symbol).is_some()
             || ast.directives.iter().any(|directive| declares(&directive.kind));
         if is_near || is_known {
-            return self.undeclared(here, symbol, target);
+            let end = target.start + name.len() as u32;
+            return self.undeclared(here, symbol, Span { end, ..target });
         }
         let size = self.size_of_elements(&name, target);
         let array = match size {

@@ -286,7 +286,13 @@ impl Reader<'_> {
             return false;
         }
         let (condition, then) = (self.text_between(1, close), self.text_between(close, otherwise));
-        let right = format!("({condition} ? {then} : {})", self.text_between(otherwise, end));
+        let other = self.text_between(otherwise, end);
+        let compares = (2..close).any(|at| self.compares(at));
+        let right = match compares {
+            true => format!("select(-({condition}), {then}, {other})"),
+            // Any number but 0 is true.
+            false => format!("select({condition}, {then}, {other}, {then})"),
+        };
         let name = self.slice(asked).to_owned();
         self.diagnostics.push(
             Diagnostic::new(Code::WrongType, "`#if` is decided once, when the function is defined")
@@ -298,11 +304,14 @@ impl Reader<'_> {
             kind: TokenKind::Mark(mark),
             ..self.tokens[self.at + ahead]
         };
-        meant.push(mark(Mark::Open(Bracket::Round), 0));
-        meant.extend(&self.tokens[self.at + 2..self.at + close]);
-        meant.push(mark(Mark::Question, close));
+        // Below 0 where the condition holds.
+        let round = Mark::Open(Bracket::Round);
+        meant.push(Token { kind: TokenKind::Word(Word::Select), ..self.tokens[self.at] });
+        meant.extend([mark(round, 0), mark(Mark::Minus, 0)]);
+        meant.extend(&self.tokens[self.at + 1..=self.at + close]);
+        meant.push(mark(Mark::Comma, close));
         meant.extend(&self.tokens[self.at + close + 1..self.at + otherwise]);
-        meant.push(mark(Mark::Colon, otherwise));
+        meant.push(mark(Mark::Comma, otherwise));
         meant.extend(&self.tokens[self.at + otherwise + 1..self.at + end]);
         meant.push(mark(Mark::Close(Bracket::Round), end));
         self.at += end + 1;
