@@ -9,6 +9,7 @@ use super::nest::{FrameKind, Nest, State};
 use super::token::{Bracket, Head, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::vocabulary::Word;
 
 /// How many tokens after an `=` the end of its value is looked for.
 const LONGEST_VALUE: usize = 40;
@@ -146,10 +147,11 @@ impl<'a> Nest<'a> {
                     1 | 2 => close,
                     _ => at.to(close),
                 };
-                self.expected_in_head(
-                    place,
-                    "`#for` takes a name, a start and an end",
-                    "expected `(Name, from, to)` or `(Name, from, to, step)`",
+                let message = "`#for` takes a name, a start and an end";
+                self.report(
+                    Diagnostic::new(Code::ExpectedExpression, message)
+                        .at(place, "expected `(Name, from, to)` or `(Name, from, to, step)`")
+                        .help(Word::For.sentence()),
                 );
                 let missing = self.add(ExpressionKind::Missing, at.after());
                 let counter = values.as_deref().and_then(<[_]>::first);
