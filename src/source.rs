@@ -242,15 +242,19 @@ impl Sources {
         &self.get(span.file).text[span.range()]
     }
 
-    /// The character before a place, where something is missing behind it; the place, where none stands there.
+    /// The name, number or sign right before a place, where something is missing behind it; the place, where none
+    /// stands there.
     pub fn sign_before(&self, place: Span) -> Span {
         let before = self.get(place.file).text.get(..place.start as usize).unwrap_or("");
-        let last = before.chars().next_back().filter(|last| !last.is_whitespace());
-        last.map_or(place, |last| Span {
-            start: place.start - last.len_utf8() as u32,
-            end: place.start,
-            ..place
-        })
+        let Some(last) = before.chars().next_back().filter(|last| !last.is_whitespace()) else {
+            return place;
+        };
+        let of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+        let length = match before.len() - before.trim_end_matches(of_word).len() {
+            0 => last.len_utf8(),
+            word => word,
+        };
+        Span { start: place.start - length as u32, end: place.start, ..place }
     }
 
     /// `file:line:column` of where a span starts.

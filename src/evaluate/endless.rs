@@ -62,6 +62,13 @@ pub(super) fn nearly_set(
     })
 }
 
+/// The first name that a condition asks, where the body sets none that it asks.
+pub(super) fn never_set(ast: &Ast, condition: ExpressionId, body: Items) -> Option<&str> {
+    let (asked, set) = (names(ast, condition), declared(ast, body));
+    let sets = |asked: &&str| set.iter().any(|(name, _)| name == asked);
+    asked.first().copied().filter(|_| !asked.iter().any(sets))
+}
+
 /// The names in an expression of operators and parentheses.
 fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
     let (mut open, mut names) = (vec![id], Vec::new());

@@ -228,7 +228,7 @@ impl Evaluator<'_> {
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");
-            let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit";
+            let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         // What stands around a call in each of them counts too: it is all waiting.
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
         let most = u64::from(nesting) + MOST_AROUND * u64::from(macro_depth);
         if around > most {
             let message = format!("macros call each other inside of more than {most} brackets");
-            let help = "a recursion needs a condition that ends it; `--limit macro-depth=N` raises the limit, which is a multiple of it";
+            let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
         // Kept from call to call; an argument that calls a macro itself makes do with another.

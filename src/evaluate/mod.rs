@@ -26,6 +26,7 @@ mod function;
 mod include;
 mod joint;
 mod lint;
+mod memory;
 mod options;
 mod plain;
 mod probe;

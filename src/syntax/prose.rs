@@ -211,7 +211,10 @@ fn comment_sign(line: &str) -> Option<&str> {
 
 /// `follows`: a sentence stands before it.
 fn is_sentence(line: &str, follows: bool) -> bool {
-    if !line.starts_with(char::is_alphabetic) || line.contains(|c| "{}<>[]=;#\"/*+|&".contains(c)) {
+    if !line.starts_with(char::is_alphabetic)
+        || line.ends_with(';')
+        || line.contains(|c| "{}<>[]=#\"/*+|&".contains(c))
+    {
         return false;
     }
     // `Follow (Cart, Here, Ahead)` is rather a call.
@@ -222,13 +225,16 @@ fn is_sentence(line: &str, follows: bool) -> bool {
     let (mut count, mut of_speech, mut punctuated) = (0, 0, false);
     for word in line.split_whitespace() {
         let plain = word.trim_matches(|c| "()".contains(c));
-        let bare = plain.trim_end_matches(['.', ',', '!', '?', ':', '…']);
+        let bare = plain.trim_end_matches(['.', ',', '!', '?', ':', ';', '…']);
         punctuated |= bare.len() < plain.len();
         if !bare.chars().all(|c| c.is_alphanumeric() || "'’-._".contains(c)) {
             return false;
         }
         count += usize::from(bare.starts_with(char::is_alphabetic));
         of_speech += usize::from(SPEECH.contains(&bare.to_lowercase().replace('’', "'").as_str()));
+    }
+    if line.contains(';') && of_speech < 2 {
+        return false;
     }
     let plain = count >= 3 && (of_speech >= 2 || (of_speech == 1 && punctuated));
     let short = count >= 2 && of_speech >= 1 && line.ends_with(['!', '.', '?']);
@@ -247,6 +253,7 @@ mod tests {
             "ich weiss nicht, warum es dunkel ist",
             "this one works:",
             "The end!",
+            "The library builds its cache; this may take a moment.",
         ] {
             assert!(is_sentence(line, false), "{line}");
         }

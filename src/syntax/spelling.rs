@@ -22,6 +22,8 @@ const FOREIGN: &[(&str, &str)] = &[
     ("ende", "end"),
     ("undefine", "undef"),
     ("wend", "end"),
+    ("default_case", "else"),
+    ("otherwise", "else"),
     ("elif", "elseif"),
     ("elsif", "elseif"),
     ("foreach", "for"),

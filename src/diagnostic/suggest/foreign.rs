@@ -343,6 +343,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("instance", "object"),
     ("upper", "strupr"),
     ("toupper", "strupr"),
+    ("touppercase", "strupr"),
+    ("tolowercase", "strlwr"),
     ("lower", "strlwr"),
     ("tolower", "strlwr"),
     ("tostring", "str"),

@@ -79,6 +79,24 @@ impl Evaluator<'_> {
         })
     }
 
+    /// `pigment {{ rgb 1 }}`.
+    pub(super) fn doubled_braces(&self, block: Span) -> Option<Diagnostic> {
+        let text = &self.sources.get(block.file).text;
+        let before = text.get(..block.start as usize)?.trim_end().strip_suffix('{')?.len();
+        let behind = text.get(block.end as usize..)?;
+        let end = block.end as usize + (behind.len() - behind.trim_start().len());
+        let is_doubled = behind.trim_start().starts_with('}') && before < block.start as usize;
+        let closer = Span { start: block.end - 1, ..block };
+        is_doubled.then(|| {
+            Diagnostic::new(Code::ExtraPart, "a second `{` right behind the first has no meaning")
+                .at(opener(block), "one brace is too many")
+                .also(Span { start: end as u32, end: end as u32 + 1, ..block }, "and here, too")
+                .help("leave one pair of the braces out")
+                .fix(opener(block), "")
+                .fix(closer, "")
+        })
+    }
+
     /// `checker { rgb 1 rgb 0 }`, `gradient y { [0 rgb 1] [1 rgb 0] }`: the colours of a pattern.
     pub(super) fn braced_colors(&self, block: Span, told: Diagnostic) -> Diagnostic {
         let text = self.sources.text(block);

@@ -326,9 +326,10 @@ impl Evaluator<'_> {
                     matches!(next.kind, TokenKind::Expression(_))
                         && self.sources.text(next.span).starts_with('(')
                 });
+                let group = group.map(|group| group.span);
                 let mut diagnostic = match group {
                     Some(group) => diagnostic
-                        .at(Span { end: group.span.start + 1, ..group.span }, "expected `{`")
+                        .at(Span { end: group.start + 1, ..group }, "expected `{`")
                         .also(token.span, "its block is missing"),
                     None => diagnostic.at(token.span, "its block is missing"),
                 };
@@ -346,7 +347,14 @@ impl Evaluator<'_> {
                             ExpressionKind::Group(_) | ExpressionKind::GroupItems(_)
                         ) =>
                     {
-                        diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"))
+                        let told =
+                            diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"));
+                        match group.filter(|group| self.sources.text(*group).ends_with(')')) {
+                            Some(group) => told
+                                .fix(Span { end: group.start + 1, ..group }, "{")
+                                .fix(Span { start: group.end - 1, ..group }, "}"),
+                            None => told,
+                        }
                     }
                     Some(Token { kind: TokenKind::Word(own), span, .. })
                         if place::home(own) == Some(word) || own.family() == Family::Color =>

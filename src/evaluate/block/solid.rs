@@ -8,6 +8,7 @@ use crate::vocabulary::Word;
 
 use super::super::stream::{FrameKind, Token, TokenKind};
 use super::super::{Evaluator, Here, Outcome};
+use super::habit::told_comma;
 use super::part::Given;
 
 impl Evaluator<'_> {
@@ -303,6 +304,13 @@ impl Evaluator<'_> {
         let major = self.number_after(token, "a number for the major radius");
         let minor = self.number_after(token, "a number for the minor radius");
         let (major, minor) = (major?, minor?);
+        if minor.value == 0.0
+            && let Some((span, number)) = self.comma_after(minor.span)
+        {
+            let told = told_comma(self.sources.text(span), span, number);
+            self.skip_values();
+            return Err(self.report(&minor.here, told));
+        }
         if minor.value == 0.0 {
             let diagnostic =
                 Diagnostic::new(self.sizeless(), "a torus of minor radius 0 is nothing")

@@ -187,6 +187,13 @@ impl Evaluator<'_> {
                     self.report(&token.here, diagnostic);
                     self.skip_arguments(word);
                 }
+                TokenKind::Word(Word::Scale | Word::Rotate | Word::Translate) => {
+                    let outer = self.poison.take();
+                    if self.unbuilt_part(&token, "a vector").is_err() {
+                        self.skip_values();
+                    }
+                    self.poison = outer;
+                }
                 TokenKind::Word(word) => self.skip_arguments(word),
                 TokenKind::Expression(id) => {
                     if !self.misspelt_item(&token, id, Word::Normal) {

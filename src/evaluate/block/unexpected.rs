@@ -135,7 +135,8 @@ impl Evaluator<'_> {
                 self.unexpected_value(token, &value, place);
             }
             TokenKind::Block(contents) => {
-                let braced = self.braced_macro(token.span);
+                let doubled = || self.doubled_braces(token.span);
+                let braced = self.braced_macro(token.span).or_else(doubled);
                 let diagnostic = match braced.or_else(|| self.braced_modifiers(token.span, place)) {
                     Some(told) => told,
                     None => {

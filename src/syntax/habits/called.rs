@@ -182,7 +182,21 @@ impl Reader<'_> {
         if !called {
             return false;
         }
-        let ours = self.slice(2).to_ascii_lowercase();
+        let theirs = self.slice(2).to_ascii_lowercase();
+        let ours = match theirs.as_str() {
+            "cross" => "vcross",
+            "dot" => "vdot",
+            "norm" | "length" => "vlength",
+            "normalize" => "vnormalize",
+            "power" => "pow",
+            "fabs" => "abs",
+            "arcsin" => "asin",
+            "arccos" => "acos",
+            "arctan" => "atan",
+            "arctan2" => "atan2",
+            _ => &theirs,
+        }
+        .to_owned();
         let Some(word) = Word::from_name(&ours).filter(|word| word.role() != Role::Statement)
         else {
             return false;

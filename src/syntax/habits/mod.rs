@@ -26,6 +26,7 @@ mod file;
 mod formula;
 mod head;
 mod letter;
+mod line;
 mod map;
 mod name;
 mod number;
@@ -196,6 +197,8 @@ impl Reader<'_> {
         }
         match kind {
             TokenKind::Word(word) if self.reserved(word, meant) => true,
+            TokenKind::Word(Word::If) if self.choice_behind(meant) => true,
+            TokenKind::Word(Word::Transmit | Word::Filter) if self.clear_in_vector(meant) => true,
             TokenKind::Word(word) => {
                 self.named_components(meant)
                     || self.times(meant)
@@ -297,11 +300,20 @@ impl Reader<'_> {
             {
                 true
             }
-            TokenKind::Mark(Mark::Minus) => self.arrow(meant) || self.comment_of_dashes(meant),
+            TokenKind::Mark(Mark::Minus) => {
+                self.options_of_command_line(meant)
+                    || self.arrow(meant)
+                    || self.comment_of_dashes(meant)
+            }
             TokenKind::Mark(Mark::Slash) => self.half_comment(meant),
             TokenKind::Mark(Mark::Less) if self.comment_of_html() || self.doubled_angle() => true,
             TokenKind::Mark(Mark::Or) if self.length_between_bars(meant) => true,
-            TokenKind::Mark(Mark::Greater) if self.unopened_vector(meant) => true,
+            TokenKind::Mark(Mark::Plus) if self.options_of_command_line(meant) => true,
+            TokenKind::Mark(Mark::Greater)
+                if self.quoted_lines(meant) || self.unopened_vector(meant) =>
+            {
+                true
+            }
             TokenKind::Mark(Mark::Equal | Mark::Less) if self.turned(meant) => true,
             TokenKind::Mark(Mark::Star)
                 if self.number_without_room(meant) || self.operator(meant) =>

@@ -4,7 +4,10 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
-use crate::vocabulary::Role;
+use crate::vocabulary::{Role, Word};
+
+/// How many tokens of a condition between two values are looked at.
+const LONGEST_CONDITION: usize = 16;
 
 impl Reader<'_> {
     /// `a^2`, `a ** 2`, `a % 2`: what is called instead, with the values on both sides where they are plain.
@@ -52,6 +55,69 @@ impl Reader<'_> {
         let kind = TokenKind::Mark(Mark::Star);
         meant.push(Token { kind, end: span.end, ..self.tokens[self.at] });
         self.at += length;
+        true
+    }
+
+    /// `0.2 if A < 0 else 0.7`, as Python chooses between two values.
+    pub(super) fn choice_behind(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_value = meant.last().is_some_and(ends_a_value) && !self.inside.is_empty();
+        let otherwise = (1..LONGEST_CONDITION)
+            .find(|&at| self.kind(at) == Some(TokenKind::Word(Word::Else)))
+            .filter(|&at| {
+                !(1..=at + 1).any(|at| self.kind(at).is_none() || self.breaks_before(at))
+            });
+        let Some(otherwise) = otherwise.filter(|_| is_value) else { return false };
+        let sides = self.before(meant, "pow").zip(self.behind(otherwise + 1));
+        let Some((left, right)) = sides.filter(|_| otherwise > 1) else { return false };
+        let text = |span: Span| self.text.get(span.range()).unwrap_or("").to_owned();
+        let condition = text(self.span(1, otherwise - 1));
+        let ours = format!("({condition} ? {} : {})", text(left), text(right));
+        let whole = left.to(right);
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::UnexpectedCharacter,
+                "one of two values is chosen by `?` and `:`",
+            )
+            .at(self.span(0, 0), "a choice of another language")
+            .help(format!("write `{ours}`"))
+            .fix(whole, ours),
+        );
+        // The left value stands for the choice.
+        while self.tokens.get(self.at).is_some_and(|token| token.start < right.end) {
+            self.at += 1;
+        }
+        true
+    }
+
+    /// `rgb <0, 1, 0 transmit 0.5>`: what belongs behind the vector.
+    pub(super) fn clear_in_vector(&mut self, meant: &mut Vec<Token>) -> bool {
+        let is_over = self.kind(1) == Some(TokenKind::Number) && self.is(2, Mark::Greater);
+        let in_vector =
+            meant.iter().rev().take(LONGEST_CONDITION).find_map(|token| match token.kind {
+                TokenKind::Mark(Mark::Less) => Some(true),
+                TokenKind::Mark(Mark::Greater | Mark::Open(_)) | TokenKind::Word(_) => Some(false),
+                _ => None,
+            });
+        if !is_over || in_vector != Some(true) {
+            return false;
+        }
+        let last = meant.last().map_or(0, |last| last.end);
+        let (word, part) = (self.slice(0).to_owned(), self.span(0, 1));
+        let (gap, closer) = (Span { start: last, end: last, ..part }, self.span(2, 2));
+        let text = self.text.get(part.range()).unwrap_or("").to_owned();
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::UnexpectedCharacter,
+                format!("`{word}` stands behind the vector"),
+            )
+            .at(self.span(0, 0), "expected `>` before this")
+            .help(format!("write `> {text}`"))
+            .fix(gap, ">")
+            .fix(closer, ""),
+        );
+        meant.push(Token { kind: TokenKind::Mark(Mark::Greater), start: last, end: last });
+        meant.extend([self.tokens[self.at], self.tokens[self.at + 1]]);
+        self.at += 3;
         true
     }
 
