@@ -44,25 +44,26 @@ impl Evaluator<'_> {
     /// function is asked at x and 1 − z, and of its value counts what follows the point (measured).
     pub(super) fn height_field(&mut self, token: &Token) -> Outcome<Solid> {
         let function = self.take_word(Word::Function);
-        let (from, Heights { width, heights: upper_first }) = match &function {
-            Some(function) => self.heights_of_function(function)?,
-            None => self.heights_of_picture(token)?,
+        let read = match &function {
+            Some(function) => self.heights_of_function(function),
+            None => self.heights_of_picture(token),
         };
-        let mut heights = Vec::with_capacity(upper_first.len());
-        upper_first.chunks_exact(width).rev().for_each(|row| heights.extend_from_slice(row));
-        self.stored += size_of_val(&heights[..]) as u64;
-        let mut field = HeightField { from, heights, width, water: 0.0, smooth: false };
-        let mut water = None;
+        // What follows is read for its own mistakes.
+        let (mut smooth, mut water) = (false, None);
         while let Some((item, word)) = self.next_item(&[Word::Smooth, Word::WaterLevel]) {
             match word {
-                Word::Smooth => field.smooth = self.optional_flag(&item)?,
+                Word::Smooth => smooth = self.optional_flag(&item)?,
                 _ => {
-                    let level = self.number_after(&item, "a number for the height of the water")?;
-                    field.water = level.value;
-                    water = Some(level);
+                    water = Some(self.number_after(&item, "a number for the height of the water")?);
                 }
             }
         }
+        let (from, Heights { width, heights: upper_first }) = read?;
+        let mut heights = Vec::with_capacity(upper_first.len());
+        upper_first.chunks_exact(width).rev().for_each(|row| heights.extend_from_slice(row));
+        self.stored += size_of_val(&heights[..]) as u64;
+        let level = water.as_ref().map_or(0.0, |level| level.value);
+        let field = HeightField { from, heights, width, water: level, smooth };
         if let Some(level) = water.filter(|_| field.is_nothing()) {
             let message = "nothing of this landscape is above the water";
             let diagnostic = Diagnostic::new(self.sizeless(), message)

@@ -283,7 +283,8 @@ impl Evaluator<'_> {
         let diagnostic = match own {
             Some(own @ (Word::Pigment | Word::Finish | Word::Interior))
                 if place.word == Some(Word::Texture) && own != Word::Interior
-                    || place.families.contains(&Family::Modifier) =>
+                    || place.families.contains(&Family::Modifier)
+                        && !place.families.contains(&Family::Shape) =>
             {
                 self.in_block_of_its_own(token, own, diagnostic)
             }

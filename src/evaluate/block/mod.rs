@@ -349,7 +349,12 @@ impl Evaluator<'_> {
                     {
                         let told =
                             diagnostic.help(format!("its parts stand in braces: `{name} {{ … }}`"));
-                        match group.filter(|group| self.sources.text(*group).ends_with(')')) {
+                        match group.filter(|group| {
+                            let text = &self.sources.get(group.file).text;
+                            let behind = text.get(group.end as usize..).unwrap_or("");
+                            self.sources.text(*group).ends_with(')')
+                                && !behind.trim_start().starts_with('{')
+                        }) {
                             Some(group) => told
                                 .fix(Span { end: group.start + 1, ..group }, "{")
                                 .fix(Span { start: group.end - 1, ..group }, "}"),

@@ -3,6 +3,7 @@
 
 use super::Reader;
 use super::case::innermost;
+use super::formula::selected;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::{Role, Word};
@@ -28,7 +29,7 @@ impl Reader<'_> {
         true
     }
 
-    fn compares(&self, ahead: usize) -> bool {
+    pub(super) fn compares(&self, ahead: usize) -> bool {
         matches!(
             self.kind(ahead),
             Some(TokenKind::Mark(
@@ -288,11 +289,7 @@ impl Reader<'_> {
         let (condition, then) = (self.text_between(1, close), self.text_between(close, otherwise));
         let other = self.text_between(otherwise, end);
         let compares = (2..close).any(|at| self.compares(at));
-        let right = match compares {
-            true => format!("select(-({condition}), {then}, {other})"),
-            // Any number but 0 is true.
-            false => format!("select({condition}, {then}, {other}, {then})"),
-        };
+        let right = selected(condition, compares, then, other);
         let name = self.slice(asked).to_owned();
         self.diagnostics.push(
             Diagnostic::new(Code::WrongType, "`#if` is decided once, when the function is defined")

@@ -79,7 +79,8 @@ impl Reader<'_> {
         let asked = self.text.get(self.span(2, condition - 1).range())?;
         let then = text(condition + 1, otherwise - 1)?;
         let otherwise = text(otherwise + 1, close - 1)?;
-        Some(format!("({asked} ? {then} : {otherwise})"))
+        let compares = (2..condition).any(|at| self.compares(at));
+        Some(selected(asked, compares, then, otherwise))
     }
 
     /// `#declare F = function(x) = sin(x)*2;`: a formula without its braces.
@@ -161,5 +162,14 @@ impl Reader<'_> {
         meant.push(brace(Mark::Close, last.after()));
         self.at += end;
         true
+    }
+}
+
+/// One of two values by a condition, as functions have it, those of POV-Ray, too.
+pub(super) fn selected(condition: &str, compares: bool, then: &str, otherwise: &str) -> String {
+    match compares {
+        true => format!("select(-({condition}), {then}, {otherwise})"),
+        // Any number but 0 is true.
+        false => format!("select({condition}, {then}, {otherwise}, {then})"),
     }
 }

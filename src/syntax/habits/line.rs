@@ -47,7 +47,7 @@ impl Reader<'_> {
         let is_quote = |at: usize| {
             self.tokens[at].kind == TokenKind::Mark(Mark::Greater) && self.line_begins_at(at)
         };
-        if !is_quote(self.at) || goes_on(meant) {
+        if !is_quote(self.at) || goes_on(meant) || !self.inside.is_empty() || !self.quotes_on() {
             return false;
         }
         let quotes: Vec<usize> = (self.at..self.tokens.len()).filter(|&at| is_quote(at)).collect();
@@ -66,6 +66,15 @@ impl Reader<'_> {
         self.dropped.extend(quotes.into_iter().skip(1).map(|at| (at, false)));
         self.at += 1;
         true
+    }
+
+    /// Whether the next line of words begins with `>`, too.
+    fn quotes_on(&self) -> bool {
+        let start = self.tokens[self.at].start as usize;
+        let mut lines = self.text.get(start..).unwrap_or("").lines().skip(1);
+        lines
+            .find(|line| !line.trim().is_empty())
+            .is_some_and(|line| line.trim_start().starts_with('>'))
     }
 
     fn begins_line(&self) -> bool {
