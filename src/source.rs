@@ -239,7 +239,8 @@ impl Sources {
     }
 
     pub fn text(&self, span: Span) -> &str {
-        &self.get(span.file).text[span.range()]
+        // Where two places of several files were put together, nothing.
+        self.get(span.file).text.get(span.range()).unwrap_or("")
     }
 
     /// The name, number or sign right before a place, where something is missing behind it; the place, where none

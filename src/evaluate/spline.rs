@@ -133,8 +133,8 @@ impl Evaluator<'_> {
         if block.file != first.span.file || !block.contains(first.span) || count < 2.0 {
             return None;
         }
-        let list = Span { start: first.span.end, end: block.end - 1, ..block };
-        let list = self.sources.text(list);
+        let list = Span { start: first.span.end, ..block };
+        let list = self.sources.text(list).strip_suffix('}')?;
         let values: Vec<&str> = list
             .split_inclusive('>')
             .map(|value| value.trim_matches(|c: char| c == ',' || c.is_whitespace()))

@@ -1,3 +1,5 @@
+//! What is suggested for what, and what for nothing.
+
 use super::*;
 
 const WORDS: &[&str] =

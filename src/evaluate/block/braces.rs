@@ -179,6 +179,9 @@ impl Evaluator<'_> {
     pub(super) fn second_of_object(&self, second: Span) -> Option<Diagnostic> {
         let opener = *self.openers.last()?;
         let block = self.within_block()?.span;
+        if !block.contains(second) {
+            return None;
+        }
         let before = self.sources.text(Span { end: second.start, ..block });
         let first = before.trim();
         let is_object = |name: &str| {

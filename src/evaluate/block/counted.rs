@@ -49,7 +49,7 @@ impl Evaluator<'_> {
     /// else stands among them: what directives make cannot be counted here.
     fn entries_from(&self, first: Span) -> Option<&str> {
         let block = self.within_block()?.span;
-        if block.file != first.file || first.start < block.start {
+        if !block.contains(first) || first.end < first.start {
             return None;
         }
         let rest = self.sources.text(Span { start: first.start, ..block });
@@ -114,6 +114,9 @@ impl Evaluator<'_> {
     /// Of points as plain numbers, of which one stands beyond their count: the count, and how many there are.
     pub(super) fn count_before(&self, extra: Span) -> Option<(Span, usize)> {
         let block = self.within_block()?.span;
+        if !block.contains(extra) {
+            return None;
+        }
         let before = self.sources.text(Span { end: extra.start, ..block });
         let head = before.split('<').next()?;
         let plain = |c: char| c.is_ascii_digit() || c.is_whitespace() || ".,<>+-".contains(c);
@@ -124,7 +127,7 @@ impl Evaluator<'_> {
         let stem = digits.trim_end_matches(|c: char| c.is_ascii_digit());
         let is_count =
             stem.len() < digits.len() && stem.ends_with([' ', '\t', '\n', '\r', ',', '{']);
-        if block.file != extra.file || !is_count || !points.chars().all(plain) {
+        if !is_count || !points.chars().all(plain) {
             return None;
         }
         let start = block.start + stem.len() as u32;

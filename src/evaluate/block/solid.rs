@@ -281,6 +281,7 @@ impl Evaluator<'_> {
             let is_swapped = hole.value > radius.value
                 && radius.value > 0.0
                 && radius.span.file == hole.span.file
+                && radius.span.end <= hole.span.start
                 && self.sources.text(between).trim() == ",";
             let diagnostic = if is_swapped {
                 let [less, more] = [radius.span, hole.span].map(|span| self.sources.text(span));

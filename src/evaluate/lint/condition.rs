@@ -9,6 +9,7 @@ use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_condition(&mut self, here: &Here, condition: ExpressionId) {
+        let is_outermost = |id| id == condition;
         let mut first = condition;
         while let ExpressionKind::Binary(
             operator @ (BinaryOperator::And | BinaryOperator::Or),
@@ -16,7 +17,10 @@ impl Evaluator<'_> {
             right,
         ) = here.unit.expression(first).kind
         {
-            if operator == BinaryOperator::Or && self.lint_value_for_condition(here, first) {
+            if operator == BinaryOperator::Or
+                && is_outermost(first)
+                && self.lint_value_for_condition(here, first)
+            {
                 return;
             }
             self.lint_chain(here, right, false);
@@ -117,10 +121,12 @@ impl Evaluator<'_> {
         let span = here.unit.expression(id).span;
         // `#switch (1) #case (N < 3)` asks each in turn.
         let before = self.sources.get(span.file).text.get(..span.start as usize).unwrap_or("");
-        let Some(switch) = before.rfind("switch") else { return };
-        let head = before[switch..].split('#').next().unwrap_or("");
+        let Some(switch) = before.rfind("#switch") else { return };
+        let head = before[switch + 1..].split('#').next().unwrap_or("");
         let asked = self.sources.text(here.unit.expression(asked).span);
-        if !head.contains(asked) || Word::from_name(asked).is_some() {
+        let mut words = head.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let is_asked = words.any(|word| word == asked) && !head.contains(['<', '>', '=', '&', '|']);
+        if !is_asked || Word::from_name(asked).is_some() {
             return;
         }
         let text = self.sources.text(span);

@@ -126,7 +126,8 @@ impl Evaluator<'_> {
             self.report(&given.here, diagnostic);
         }
         let text = self.sources.text(given.span);
-        if value >= NO_IOR && is_literal(text) && !text.contains('.') {
+        let is_whole = text.bytes().all(|byte| byte.is_ascii_digit());
+        if value >= NO_IOR && is_literal(text) && is_whole {
             let message = format!("no material has an `ior` of {value}");
             let diagnostic = Diagnostic::new(Code::UnlikelyFinish, message)
                 .at(given.span, "water has 1.33, glass 1.5, diamond 2.4");

@@ -126,7 +126,7 @@ facts! {
         "#declare F = function(a) { a + x }" => "`x` is no parameter of this function";
     a_parameter_has_no_value_for_a_vector:
         "#declare F = function(a) { vlength(<a,1,2>) }"
-        => "`a` has no value yet where the function is defined";
+        => "a function works on numbers, and `vlength` on a vector";
     a_wrong_number_of_arguments_is_told:
         "#declare F = function(a,b) { a+b } P(F(1))" => "`F` takes 2 arguments, and is given 1";
     what_has_no_value_is_told:

@@ -171,7 +171,7 @@ fn what_does_not_fit_in_a_mesh2_is_told() {
     told("{ 4, <0", "{ 3, <0", "extra-part");
     told("inside_vector", "normal_vectors { 1, y } inside_vector", "wrong-arity");
     told("inside_vector", "normal_indices { 1, 0 } inside_vector", "missing-part");
-    told("<0, 3, 1>", "<0, 3, 1, 2>", "wrong-type");
+    told("<0, 3, 1>", "<0, 3, 1, 2>", "wrong-arity");
     told("inside_vector", "uv_vectors { 3, 0, 0, 0 } inside_vector", "wrong-arity");
     told("inside_vector", "uv_indices { 1, 0 } inside_vector", "out-of-range");
     let uvs = "uv_vectors { 1, 0 } uv_indices { 1, 0 } inside_vector";

@@ -105,7 +105,13 @@ impl Reader<'_> {
             && self.kind(end) == Some(TokenKind::String)
             && self.touches(1)
             && self.touches(end);
-        if !touching {
+        // `#write (F, "x"A"y")`
+        let round = TokenKind::Mark(Mark::Open(Bracket::Round));
+        let opener = meant.iter().rposition(|token| token.kind == round);
+        let is_written = opener
+            .and_then(|at| at.checked_sub(1))
+            .is_some_and(|at| meant[at].kind == TokenKind::Directive(Head::Write));
+        if !touching || is_written || (1..end).any(|at| self.declares_anywhere(self.slice(at))) {
             return false;
         }
         let (first, last) = (self.span(0, 0), self.span(end, end));
@@ -221,7 +227,15 @@ impl Reader<'_> {
     /// `[0 Red [1 Blue]` in a map: the first entry is not closed.
     pub(super) fn entry_in_entry(&mut self, meant: &mut Vec<Token>) -> bool {
         let [.., map, entry] = self.inside.as_slice() else { return false };
-        if !(map.is_map() && entry.is(Bracket::Square) && self.begins_entry()) {
+        // `[0 C[2*K]]`: an index touches what it belongs to, and what is open is closed.
+        let is_index = self.at > 0
+            && self.touches(0)
+            && matches!(
+                meant.last().map(|last| last.kind),
+                Some(TokenKind::Name | TokenKind::Mark(Mark::Close(Bracket::Square)))
+            );
+        let is_one = map.is_map() && entry.is(Bracket::Square) && self.begins_entry();
+        if !is_one || is_index {
             return false;
         }
         let square = TokenKind::Mark(Mark::Open(Bracket::Square));

@@ -54,7 +54,9 @@ impl Reader<'_> {
             _ => false,
         };
         let asks = opens && (2..close).any(|at| self.compares(at));
-        let of_if = matches!(innermost(meant), Some(Head::If | Head::Ifdef | Head::Ifndef));
+        // `sphere { 0, #if (C) 1 #else (A = 1) pigment { … } #end }`: a value of the block.
+        let of_if = self.inside.is_empty()
+            && matches!(innermost(meant), Some(Head::If | Head::Ifdef | Head::Ifndef));
         if !asks || !of_if {
             return false;
         }
@@ -271,7 +273,14 @@ impl Reader<'_> {
                 false => parameters.contains(&name),
             }
         };
-        let Some(asked) = (2..close).find(is_own) else { return false };
+        // `V.x` is no parameter, nor is the axis of a vector that is asked: `vdot(V, x)`.
+        let is_value = |at: &usize| {
+            let called = (2..*at).any(|at| self.is(at, Mark::Open(Bracket::Round)));
+            !self.is(*at - 1, Mark::Dot) && !(parameters.is_empty() && called)
+        };
+        let is_declared = |at: &usize| !self.declares_as_value(self.slice(*at));
+        let mut own = (2..close).filter(is_own).filter(is_value);
+        let Some(asked) = own.find(is_declared) else { return false };
         let next = |from: usize| {
             let rest = self.tokens.get(self.at + from..)?;
             let is_directive = |token: &Token| matches!(token.kind, TokenKind::Directive(_));

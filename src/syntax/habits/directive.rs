@@ -143,7 +143,8 @@ impl Reader<'_> {
             return false;
         }
         let comma = self.is(2, Mark::Comma);
-        let joins = matches!(self.kind(2), Some(TokenKind::String))
+        // `text { ttf #debug "loading" "crystal.ttf" … }`
+        let joins = self.inside.is_empty() && matches!(self.kind(2), Some(TokenKind::String))
             || matches!(self.kind(2), Some(TokenKind::Word(word)) if gives_text(word));
         let end = self.line_end(1);
         let end = (2..end).find(|&at| self.is(at, Mark::Semicolon)).unwrap_or(end);

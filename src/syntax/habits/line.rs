@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::token::{Mark, Token, TokenKind};
+use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 
 /// Letters that an option of POV-Ray's command line begins with, before a number.
 const OPTIONS: &str = "WHAQRJFKSENP";
@@ -19,7 +19,7 @@ impl Reader<'_> {
             digit
                 && name.get(..1).is_some_and(|first| OPTIONS.contains(&first.to_ascii_uppercase()))
         };
-        if !begins || !is_option {
+        if !begins || !is_option || self.declares_anywhere(self.slice(1)) {
             return false;
         }
         let start = self.tokens[self.at].start as usize;
@@ -94,6 +94,6 @@ impl Reader<'_> {
 /// Whether what is read goes on behind its last token: `#declare A = B` and a sum on the next line.
 fn goes_on(meant: &[Token]) -> bool {
     meant.last().is_some_and(|last| {
-        !matches!(last.kind, TokenKind::Mark(Mark::Semicolon | Mark::Close(_)) | TokenKind::String)
+        !matches!(last.kind, TokenKind::Mark(Mark::Semicolon | Mark::Close(Bracket::Brace)))
     })
 }

@@ -4,7 +4,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::token::{Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Role, Word, standard_include_of};
+use crate::vocabulary::{Role, Word, standard_include_of, standard_names};
 
 /// What a vector or a colour is asked for.
 const COMPONENTS: &[&str] = &[
@@ -76,7 +76,10 @@ impl Reader<'_> {
             |name: &str| self.declares_anywhere(name) || standard_include_of(name).is_some();
         let joined = [format!("{first}_{second}"), format!("{first}{second}")];
         let whole = joined.into_iter().find(|name| standard_include_of(name).is_some());
-        let Some(whole) = whole.filter(|_| !is_known(first) && !self.breaks_before(last)) else {
+        // `Bright-Gold` of an include of one's own is a difference.
+        let is_difference = last == 2 && is_known(second) && self.includes_own();
+        let is_one = !is_known(first) && !is_difference && !self.breaks_before(last);
+        let Some(whole) = whole.filter(|_| is_one) else {
             return false;
         };
         let span = self.span(0, last);
@@ -89,6 +92,15 @@ impl Reader<'_> {
         meant.push(Token { kind: TokenKind::Name, end: span.end, ..self.tokens[self.at] });
         self.at += last + 1;
         true
+    }
+
+    /// Whether the text includes a file that is no standard one.
+    fn includes_own(&self) -> bool {
+        self.tokens.windows(2).any(|two| {
+            let name = self.text.get(two[1].start as usize..two[1].end as usize).unwrap_or("");
+            two[0].kind == TokenKind::Directive(Head::Include)
+                && standard_names(name.trim_matches('"')).next().is_none()
+        })
     }
 
     /// Where a further part of a word stands behind the one at `ahead`, after a blank or a hyphen.

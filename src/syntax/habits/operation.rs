@@ -2,6 +2,7 @@
 //! `rotate(A, B)`, `scale(A, 2)`, `pi()`, `new sphere { … }`.
 
 use super::Reader;
+use super::part::Inside;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
@@ -18,6 +19,9 @@ const METHODS: &[(&str, Word)] = &[
 
 /// What makes an array longer elsewhere.
 const GROWERS: &[&str] = &["append", "push", "push_back", "add"];
+
+/// How many tokens of a call are looked at.
+const LONGEST_CALL: usize = 200;
 
 /// How many tokens before a sign the word that begins its sum is looked for.
 const LONGEST_SUM: usize = 40;
@@ -49,6 +53,12 @@ impl Reader<'_> {
     pub(super) fn times_group(&mut self, meant: &mut Vec<Token>) -> bool {
         let Some(number) = self.number_before(meant) else { return false };
         let Some(close) = self.closed(0, Bracket::Round) else { return false };
+        // `torus { 1(0.2) }` has two values; behind a comma it is one.
+        let comma = TokenKind::Mark(Mark::Comma);
+        let is_part = meant.len() > 1 && meant[meant.len() - 2].kind == comma;
+        if self.inside.last().is_some_and(Inside::opens_shape) && !is_part {
+            return false;
+        }
         // `2(1, 0, 0)` is rather a vector.
         if close == 1 || (1..close).any(|at| self.is(at, Mark::Comma)) {
             return false;
@@ -208,12 +218,18 @@ impl Reader<'_> {
 
     /// `#declare V = rotate(A, <0, 30, 0>);`, `scale(A, 2)`: what moves an object, called with a vector.
     fn moved_vector(&mut self, word: Word, meant: &mut Vec<Token>) -> bool {
-        let wanted = matches!(
-            meant.last().map(|last| last.kind),
-            Some(TokenKind::Mark(
-                Mark::Equal | Mark::Plus | Mark::Minus | Mark::Star | Mark::Open(Bracket::Round)
-            ))
-        );
+        let moves = matches!(word, Word::Rotate | Word::Scale | Word::Translate);
+        let wanted = moves
+            && matches!(
+                meant.last().map(|last| last.kind),
+                Some(TokenKind::Mark(
+                    Mark::Equal
+                        | Mark::Plus
+                        | Mark::Minus
+                        | Mark::Star
+                        | Mark::Open(Bracket::Round)
+                ))
+            );
         let Some(close) = self.closed(1, Bracket::Round).filter(|_| wanted) else { return false };
         let Some(comma) = self.one_comma(close) else { return false };
         let (ours, sign) = match word {
@@ -266,6 +282,9 @@ impl Reader<'_> {
     /// The only comma of a parenthesis that opens at 1 and closes at `close`, but for those of vectors and calls.
     fn one_comma(&self, close: usize) -> Option<usize> {
         let mut depth = 0;
+        if close > LONGEST_CALL {
+            return None;
+        }
         let mut commas = (2..close).filter(|&at| {
             match self.kind(at) {
                 Some(TokenKind::Mark(Mark::Less | Mark::Open(_))) => depth += 1,

@@ -39,6 +39,12 @@ impl Inside {
             && self.word.is_none_or(|word| word.family() == Family::Csg || word == Word::Object)
     }
 
+    /// The brace of a list of points of two numbers each.
+    pub(super) fn holds_flat_points(&self) -> bool {
+        let lists = [Word::Polygon, Word::Prism, Word::Lathe, Word::Sor];
+        self.bracket == Bracket::Brace && self.word.is_some_and(|word| lists.contains(&word))
+    }
+
     /// The brace of a shape.
     pub(super) fn opens_shape(&self) -> bool {
         self.bracket == Bracket::Brace

@@ -10,6 +10,34 @@ use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::{Role, Word};
 
 impl Reader<'_> {
+    /// Whether a loop counts by the name at `ahead`, or a macro has it as its parameter.
+    pub(super) fn declares_anywhere_else(&self, ahead: usize) -> bool {
+        let name = self.slice(ahead);
+        let mut heads = false;
+        self.tokens.iter().any(|token| {
+            heads = match token.kind {
+                TokenKind::Directive(Head::For | Head::Macro) => true,
+                TokenKind::Name | TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)) => {
+                    heads
+                }
+                _ => false,
+            };
+            let is_name = token.kind == TokenKind::Name;
+            heads
+                && is_name
+                && self.text.get(token.start as usize..token.end as usize) == Some(name)
+        })
+    }
+
+    /// Whether the text has `#declare name =`, or `#local name =`.
+    pub(super) fn declares_as_value(&self, name: &str) -> bool {
+        self.tokens.windows(3).any(|three| {
+            matches!(three[0].kind, TokenKind::Directive(Head::Declare | Head::Local))
+                && three[2].kind == TokenKind::Mark(Mark::Equal)
+                && self.text.get(three[1].start as usize..three[1].end as usize) == Some(name)
+        })
+    }
+
     /// Whether the text declares a name: as a value, a parameter, a file or what a loop counts by.
     pub(super) fn declares_anywhere(&self, name: &str) -> bool {
         let names = self.declared.get_or_init(|| {
@@ -150,7 +178,9 @@ impl Reader<'_> {
         let ends_a_loop = head == Some(TokenKind::Directive(Head::For))
             && matches!(self.kind(1), Some(TokenKind::Mark(M::Comma | M::Close(Bracket::Round))));
         ends_a_loop
-            || matches!(head, Some(TokenKind::Directive(_)))
-                && (compares(self.kind(1)) || compares(meant.last().map(|last| last.kind)))
+            || matches!(
+                head,
+                Some(TokenKind::Directive(Head::If | Head::Elseif | Head::While | Head::Case))
+            ) && (compares(self.kind(1)) || compares(meant.last().map(|last| last.kind)))
     }
 }

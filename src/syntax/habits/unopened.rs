@@ -1,6 +1,7 @@
 //! A vector whose `<` is missing: `sphere { 0, 1, 0>, 1 }`.
 
 use super::Reader;
+use super::part::Inside;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
@@ -20,7 +21,16 @@ impl Reader<'_> {
             return false;
         }
         let Some((first, components)) = begin(meant) else { return false };
-        if !COMPONENTS.contains(&components) {
+        if meant.get(first).is_none_or(|token| token.kind == TokenKind::Mark(Mark::Comma)) {
+            return false;
+        }
+        // A list of points begins with their count, and each has two numbers.
+        let in_list = self.inside.last().is_some_and(Inside::holds_flat_points);
+        let is_one = match in_list {
+            true => components == 2 && follows_a_vector(&meant[..first]),
+            false => COMPONENTS.contains(&components),
+        };
+        if !is_one {
             return false;
         }
         let closer = self.span(0, 0);
@@ -61,6 +71,11 @@ impl Reader<'_> {
     }
 }
 
+fn follows_a_vector(meant: &[Token]) -> bool {
+    matches!(meant, [.., close, comma] if close.kind == TokenKind::Mark(Mark::Greater)
+        && comma.kind == TokenKind::Mark(Mark::Comma))
+}
+
 /// Where what is read begins that a vector could hold, with the number of its components; `None` where it has begun
 /// with a `<`.
 fn begin(meant: &[Token]) -> Option<(usize, usize)> {
@@ -69,6 +84,8 @@ fn begin(meant: &[Token]) -> Option<(usize, usize)> {
         match token.kind {
             TokenKind::Number | TokenKind::Name => {}
             TokenKind::Word(word) if word.role() != Role::Statement => {}
+            // `C.red`
+            TokenKind::Word(_) if at > 0 && meant[at - 1].kind == TokenKind::Mark(Mark::Dot) => {}
             TokenKind::Mark(Mark::Close(Bracket::Round)) => depth += 1,
             TokenKind::Mark(Mark::Open(Bracket::Round)) if depth > 0 => depth -= 1,
             TokenKind::Mark(Mark::Comma) if depth > 0 => {}

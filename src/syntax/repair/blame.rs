@@ -58,7 +58,9 @@ impl Repair<'_> {
         let beside = outside.filter(|outside| self.stands_beside(open.token, outside.token));
         let line = outside.filter(|outside| {
             let is_block = open.opener == Opener::Bracket(Bracket::Brace);
-            is_block && self.are_on_a_line(open.token, outside.token - 1)
+            is_block
+                && outside.token > open.token + 1
+                && self.are_on_a_line(open.token, outside.token - 1)
         });
         // What stands on one line ends with that.
         let diagnostic = match line.filter(|_| beside.is_none()) {

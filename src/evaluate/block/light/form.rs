@@ -89,6 +89,9 @@ impl Evaluator<'_> {
     /// The `}` of the block that is read, where a light's colour stands right behind it: `{ <1, 2, 3> } rgb 1`.
     pub(super) fn closer_before_color(&self) -> Option<Span> {
         let block = self.blocks.last()?.span;
+        if !self.sources.text(block).ends_with('}') {
+            return None;
+        }
         let text = self.sources.get(block.file).text.get(block.end as usize..)?;
         let line = text.trim_start_matches([' ', '\t', ',']);
         let word = line.split(|c: char| !c.is_ascii_alphanumeric()).next();

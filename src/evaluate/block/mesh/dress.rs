@@ -122,13 +122,14 @@ impl Evaluator<'_> {
         Ok(listed)
     }
 
-    /// `texture_list { count, texture { … }, … }` of a `mesh2`.
-    pub(super) fn texture_list(&mut self, list: &Token) -> Outcome<Vec<TextureId>> {
+    /// `texture_list { count, texture { … }, … }` of a `mesh2`; and whether they are as many as it says, else that is
+    /// told.
+    pub(super) fn texture_list(&mut self, list: &Token) -> Outcome<(Vec<TextureId>, bool)> {
         self.block(list, Word::TextureList, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
             let listed = evaluator.listed_textures()?;
             if listed.len() == count.value as usize {
-                return Ok(listed);
+                return Ok((listed, true));
             }
             let found = listed.len();
             let message = format!("`texture_list` has {found} entries");
@@ -143,7 +144,7 @@ impl Evaluator<'_> {
             };
             evaluator.report(&list.here, diagnostic);
             // The faces may have mistakes of their own.
-            Ok(listed)
+            Ok((listed, false))
         })
     }
 

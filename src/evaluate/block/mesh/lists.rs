@@ -210,7 +210,9 @@ impl Evaluator<'_> {
             Word::TextureList => {
                 let textures = self.texture_list(list);
                 lists.textures_lost = textures.is_err();
-                lists.textures = textures?;
+                let (textures, is_whole) = textures?;
+                lists.textures = textures;
+                return if is_whole { Ok(()) } else { Err(Reported) };
             }
             _ => return self.mesh_word(list, word, &mut lists.inside),
         }
