@@ -126,7 +126,9 @@ impl Evaluator<'_> {
                 failed |= evaluator.sky_item(&token, &mut sky) == Err(Reported);
             }
             let is_whole = failed || evaluator.poison.is_some() || !sky.pigments.is_empty();
-            if !is_whole && evaluator.diagnostics.len() == told {
+            // POV-Ray refuses it.
+            let refused = !is_whole && evaluator.options.dialect == Dialect::Pov;
+            if refused && evaluator.diagnostics.len() == told {
                 let message = "this `sky_sphere` has no `pigment`";
                 let diagnostic = Diagnostic::new(Code::MissingPart, message)
                     .at(opener.span, "expected `pigment { … }` in it")

@@ -276,7 +276,8 @@ impl Reader<'_> {
         // `V.x` is no parameter, nor is the axis of a vector that is asked: `vdot(V, x)`.
         let is_value = |at: &usize| {
             let called = (2..*at).any(|at| self.is(at, Mark::Open(Bracket::Round)));
-            !self.is(*at - 1, Mark::Dot) && !(parameters.is_empty() && called)
+            let is_axis = matches!(self.slice(*at), "x" | "y" | "z" | "u" | "v" | "t");
+            !self.is(*at - 1, Mark::Dot) && !(is_axis && called)
         };
         let is_declared = |at: &usize| !self.declares_as_value(self.slice(*at));
         let mut own = (2..close).filter(is_own).filter(is_value);

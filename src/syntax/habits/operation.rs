@@ -53,9 +53,14 @@ impl Reader<'_> {
     pub(super) fn times_group(&mut self, meant: &mut Vec<Token>) -> bool {
         let Some(number) = self.number_before(meant) else { return false };
         let Some(close) = self.closed(0, Bracket::Round) else { return false };
-        // `torus { 1(0.2) }` has two values; behind a comma it is one.
-        let comma = TokenKind::Mark(Mark::Comma);
-        let is_part = meant.len() > 1 && meant[meant.len() - 2].kind == comma;
+        // `torus { 1(0.2) }` has two values; behind a comma or a sign it is one.
+        let before = meant.len().checked_sub(2).map(|at| meant[at].kind);
+        let is_part = matches!(
+            before,
+            Some(TokenKind::Mark(
+                Mark::Comma | Mark::Plus | Mark::Minus | Mark::Star | Mark::Slash
+            ))
+        );
         if self.inside.last().is_some_and(Inside::opens_shape) && !is_part {
             return false;
         }
