@@ -151,7 +151,7 @@ impl Evaluator<'_> {
         if matches!(rest.first(), Some(Item { kind: ItemKind::Block(_), .. })) {
             return None;
         }
-        let last = parts.iter().filter(is_value).last()?;
+        let last = parts.iter().rfind(is_value)?;
         Some(first.span.to(last.span))
     }
 

@@ -67,8 +67,7 @@ impl Evaluator<'_> {
             last = point;
         }
         if let Some(begins) = unclosed_before(&line) {
-            let [outer, inner] =
-                [line[0], line[begins]].map(|point| crate::math::vector::written(point));
+            let [outer, inner] = [line[0], line[begins]].map(crate::math::vector::written);
             let message = "an outline of this polygon does not return to where it began";
             let diagnostic = Diagnostic::new(Code::OpenOutline, message)
                 .at(last.span, format!("the outline from {inner} on ends here"))

@@ -169,7 +169,7 @@ impl Evaluator<'_> {
         // Of four, one component has a fraction, of five all but one. `<0, 128, 0, 1>` is rather one of
         // 0 to 255.
         let (few, many) = (parts.len() == 4, parts.len() == 5);
-        if !many && !(few && parts.iter().all(|part| part.len() == 1)) {
+        if !(many || few && parts.iter().all(|part| part.len() == 1)) {
             return None;
         }
         let grouped = |odd: usize| {

@@ -195,11 +195,11 @@ impl Reader<'_> {
 
     /// `#ifdef (A & B)`
     fn names_together(&mut self, close: usize, meant: &mut Vec<Token>) -> bool {
-        let is_one = |at: usize| match at % 2 == 0 {
+        let is_one = |at: usize| match at.is_multiple_of(2) {
             true => self.kind(at) == Some(TokenKind::Name),
             false => self.is(at, Mark::And) || self.is(at, Mark::Or),
         };
-        if close < 5 || close % 2 == 0 || !(2..close).all(is_one) {
+        if close < 5 || close.is_multiple_of(2) || !(2..close).all(is_one) {
             return false;
         }
         let asked: Vec<String> = (2..close)
@@ -277,7 +277,7 @@ impl Reader<'_> {
         let is_value = |at: &usize| {
             let called = (2..*at).any(|at| self.is(at, Mark::Open(Bracket::Round)));
             let is_axis = matches!(self.slice(*at), "x" | "y" | "z" | "u" | "v" | "t");
-            !self.is(*at - 1, Mark::Dot) && !(is_axis && called)
+            !(self.is(*at - 1, Mark::Dot) || is_axis && called)
         };
         let is_declared = |at: &usize| !self.declares_as_value(self.slice(*at));
         let mut own = (2..close).filter(is_own).filter(is_value);

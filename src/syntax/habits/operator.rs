@@ -59,7 +59,7 @@ impl Reader<'_> {
     }
 
     /// `0.2 if A < 0 else 0.7`, as Python chooses between two values.
-    pub(super) fn choice_behind(&mut self, meant: &mut Vec<Token>) -> bool {
+    pub(super) fn choice_behind(&mut self, meant: &mut [Token]) -> bool {
         let is_value = meant.last().is_some_and(ends_a_value) && !self.inside.is_empty();
         let otherwise = (1..LONGEST_CONDITION)
             .find(|&at| self.kind(at) == Some(TokenKind::Word(Word::Else)))
