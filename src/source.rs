@@ -243,6 +243,13 @@ impl Sources {
         self.get(span.file).text.get(span.range()).unwrap_or("")
     }
 
+    /// What stands between two places of one file, the first before the second.
+    pub fn between(&self, first: Span, second: Span) -> Option<&str> {
+        let gap = Span { start: first.end, end: second.start, ..first };
+        let in_order = first.file == second.file && gap.start <= gap.end;
+        in_order.then(|| self.text(gap))
+    }
+
     /// The name, number or sign right before a place, where something is missing behind it; the place, where none
     /// stands there.
     pub fn sign_before(&self, place: Span) -> Span {

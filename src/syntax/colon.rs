@@ -8,7 +8,7 @@ use super::nest::{FrameKind, Nest, State};
 use super::token::{Bracket, Mark, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::Word;
 
 /// What other languages call the kinds of their parameters.
 const TYPES: &[&str] = &[
@@ -18,21 +18,6 @@ const TYPES: &[&str] = &[
 ];
 
 impl<'a> Nest<'a> {
-    /// `camera: { … }`: the word, where the sign at hand parts it from its braces.
-    fn word_before_block(&self) -> Option<&'static str> {
-        let before = self.tokens.get(self.at.checked_sub(1)?)?.kind;
-        let behind = self.tokens.get(self.at + 1)?.kind;
-        match before {
-            TokenKind::Word(word)
-                if word.role() == Role::Statement
-                    && behind == TokenKind::Mark(Mark::Open(Bracket::Brace)) =>
-            {
-                Some(word.name())
-            }
-            _ => None,
-        }
-    }
-
     pub(super) fn lone_colon(&mut self, span: Span) {
         let (state, base) = (self.top().state, self.top().operators);
         let alone = matches!(state, State::Holding { .. }) && self.stacks.operators.len() == base;
@@ -46,11 +31,6 @@ impl<'a> Nest<'a> {
         }
         if self.is_in_unknown_block() {
             return;
-        }
-        if let Some(word) = self.word_before_block() {
-            let message = format!("`{word}` takes its block without `:`");
-            let told = Diagnostic::new(Code::UnexpectedCharacter, message);
-            return self.report(told.at(span, "leave it out").fix(span, ""));
         }
         let told = Diagnostic::new(Code::UnexpectedCharacter, "this `:` belongs to no `?`");
         if self.parts_nothing() {

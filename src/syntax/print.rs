@@ -82,7 +82,11 @@ impl Print<'_> {
             ItemKind::Semicolon => self.out.push(';'),
             ItemKind::Expression(id) => self.expression(id),
             ItemKind::Block(items) => self.push(block("{", items, "}")),
-            ItemKind::Entry(items) => self.push(block("[", items, "]")),
+            ItemKind::Entry(items) => {
+                let inside = self.inside(items);
+                let brackets = [[Task::Text("[")].into(), inside, [Task::Text("]")].into()];
+                self.push(brackets.into_iter().flatten().collect::<Vec<_>>());
+            }
             ItemKind::Numbers { start, count, width } => {
                 let all = start as usize..(start + count * width) as usize;
                 let numbers = self.ast.numbers.get(all).unwrap_or(&[]);
@@ -164,7 +168,7 @@ impl Print<'_> {
         }
     }
 
-    /// What stands between parentheses. A line that ended with a `;` would end the statement.
+    /// What stands between parentheses, or the brackets of an entry. A line that ended with a `;` would end the statement.
     fn inside(&self, items: Items) -> Vec<Task> {
         let all = self.ast.items(items);
         match all.iter().any(|item| item.kind == ItemKind::Semicolon) {

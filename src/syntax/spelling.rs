@@ -6,7 +6,7 @@ use super::habits::{color_at, is_no_number};
 use super::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
-use crate::vocabulary::{Family, Role, Word};
+use crate::vocabulary::{Role, Word};
 
 /// What other languages write.
 const FOREIGN: &[(&str, &str)] = &[
@@ -98,17 +98,7 @@ pub(super) fn correct_heads(
             let head = Head::from_word(near);
             fits(head, next) && (head != Head::For || foreign.is_some() || opens(next))
         };
-        let own = Word::from_name(word)
-            .filter(|own| own.role() == Role::Statement && own.family() != Family::Directive);
-        let brace = Some(TokenKind::Mark(Mark::Open(Bracket::Brace)));
-        if let Some(own) = own.filter(|_| next == brace) {
-            // `#sphere { … }`: the word without its sign.
-            diagnostic = diagnostic
-                .help(format!("`{word}` stands without `#`"))
-                .fix(Span { end: span.end - word.len() as u32, ..span }, "");
-            token.start = span.end - word.len() as u32;
-            token.kind = TokenKind::Word(own);
-        } else if let Some([name, array]) = each {
+        if let Some([name, array]) = each {
             let right = format!("#for (I, 0, dimension_size({array}, 1) - 1)");
             diagnostic = diagnostic.help(format!("write `{right}`, and `{array}[I]` for `{name}`"));
             // Nothing is known of the name: its body is not run.

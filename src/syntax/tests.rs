@@ -292,8 +292,10 @@ fn a_printed_tree_is_read_as_the_same_tree() {
 }
 
 #[test]
-fn a_semicolon_among_arguments_ends_no_statement_in_print() {
-    for text in ["M(;, pigment { rgb 1 })", "#declare A[(;)][1] = 2;", "A[;]"] {
+fn a_semicolon_between_brackets_ends_no_statement_in_print() {
+    for text in
+        ["M(;, pigment { rgb 1 })", "#declare A[(;)][1] = 2;", "A[;]", "color_map { [;.0 rgb 1] }"]
+    {
         let (_, printed, _, errors) = shape(text, Dialect::Scene);
         assert!(errors || !shape(&printed, Dialect::Scene).3, "{printed}");
     }

@@ -74,8 +74,7 @@ impl Evaluator<'_> {
         else {
             return None;
         };
-        let between = Span { start: name.span.end, end: span.start, ..name.span };
-        if span.file != name.span.file || !self.sources.text(between).trim().is_empty() {
+        if !self.sources.between(name.span, span)?.trim().is_empty() {
             return None;
         }
         self.next();

@@ -164,13 +164,11 @@ impl Evaluator<'_> {
     /// `rgbt <1, 1, 1> 0.5`: the fourth number stands behind the vector.
     fn number_behind_vector(&mut self, token: &Token, given: &Given<Value>) -> Option<Reported> {
         let next = self.peek_on()?.clone();
-        let between = Span { start: given.span.end, end: next.span.start, ..given.span };
+        let between = self.sources.between(given.span, next.span)?;
         let number = self.sources.text(next.span);
         let vector = self.sources.text(given.span).strip_suffix('>')?;
-        let is_beside = next.span.file == given.span.file
-            && between.start <= between.end
-            && self.sources.text(between).trim().is_empty();
-        if !is_beside || !vector.starts_with('<') || number.parse::<f64>().is_err() {
+        if !between.trim().is_empty() || !vector.starts_with('<') || number.parse::<f64>().is_err()
+        {
             return None;
         }
         let right = format!("{vector}, {number}>");

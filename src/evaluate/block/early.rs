@@ -65,10 +65,7 @@ impl Evaluator<'_> {
 
     /// Whether nothing but blanks parts two places, the second behind the first.
     fn is_beside(&self, first: Span, second: Span) -> bool {
-        let gap = Span { start: first.end, end: second.start, ..first };
-        first.file == second.file
-            && gap.start <= gap.end
-            && self.sources.text(gap).trim().is_empty()
+        self.sources.between(first, second).is_some_and(|between| between.trim().is_empty())
     }
 
     /// The `}` that nothing but blanks parts from `token`.

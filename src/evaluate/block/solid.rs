@@ -3,7 +3,6 @@
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::math::Vector;
 use crate::scene::{Dialect, Solid};
-use crate::source::Span;
 use crate::vocabulary::Word;
 
 use super::super::stream::{FrameKind, Token, TokenKind};
@@ -277,12 +276,9 @@ impl Evaluator<'_> {
             )
             .at(hole.span, "expected a number less than the radius")
             .also(radius.span, "the radius");
-            let between = Span { start: radius.span.end, end: hole.span.start, ..radius.span };
             let is_swapped = hole.value > radius.value
                 && radius.value > 0.0
-                && radius.span.file == hole.span.file
-                && radius.span.end <= hole.span.start
-                && self.sources.text(between).trim() == ",";
+                && self.sources.between(radius.span, hole.span).map(str::trim) == Some(",");
             let diagnostic = if is_swapped {
                 let [less, more] = [radius.span, hole.span].map(|span| self.sources.text(span));
                 let right = format!("{more}, {less}");

@@ -9,20 +9,13 @@ use crate::vocabulary::Word;
 
 impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_condition(&mut self, here: &Here, condition: ExpressionId) {
-        let is_outermost = |id| id == condition;
+        if self.lint_value_for_condition(here, condition) {
+            return;
+        }
         let mut first = condition;
-        while let ExpressionKind::Binary(
-            operator @ (BinaryOperator::And | BinaryOperator::Or),
-            left,
-            right,
-        ) = here.unit.expression(first).kind
+        while let ExpressionKind::Binary(BinaryOperator::And | BinaryOperator::Or, left, right) =
+            here.unit.expression(first).kind
         {
-            if operator == BinaryOperator::Or
-                && is_outermost(first)
-                && self.lint_value_for_condition(here, first)
-            {
-                return;
-            }
             self.lint_chain(here, right, false);
             first = left;
         }

@@ -76,7 +76,8 @@ impl Reader<'_> {
     /// `#else #if (A = 1) … #end`, with one `#end` for both, as often as that is lacking.
     pub(super) fn else_then_if(&mut self, meant: &mut Vec<Token>) -> bool {
         let [missing, pairs] = self.ends();
-        let is_pair = self.kind(1) == Some(TokenKind::Directive(Head::If)) && !self.is_parted(1);
+        let is_pair =
+            self.kind(1) == Some(TokenKind::Directive(Head::If)) && !self.breaks_before(1);
         if !is_pair || missing != pairs {
             return false;
         }
@@ -91,13 +92,6 @@ impl Reader<'_> {
         meant.push(Token { kind: TokenKind::Directive(Head::Elseif), ..self.tokens[self.at] });
         self.at += 2;
         true
-    }
-
-    /// Whether a line ends before the token at `ahead`.
-    pub(super) fn is_parted(&self, ahead: usize) -> bool {
-        let (before, here) = (self.span(ahead - 1, ahead - 1), self.span(ahead, ahead));
-        let gap = self.text.get(before.end as usize..here.start as usize).unwrap_or("");
-        gap.contains(['\n', '\r'])
     }
 
     /// How many directives lack their `#end`, and how often `#else #if` stands on one line.

@@ -171,7 +171,7 @@ impl Reader<'_> {
         };
         let [first, second] = [1, 3].map(|at| self.slice(at).to_owned());
         // `A = (B = 2)` is rather meant.
-        if self.has_declared(&second) || self.declares_anywhere_else(3) {
+        if self.has_declared(&second) || self.declares_otherwise(&second) {
             return false;
         }
         let (word, value) = (self.slice(0).to_owned(), self.text_between(4, end));

@@ -1,8 +1,5 @@
-//! Habits of other languages: a directive without its `#`; assignments and operators (`assign.rs`), loops that
-//! count (`counting.rs`, `sample.rs`), cases and branches (`case.rs`, `branch.rs`), the heads of directives
-//! (`head.rs`, `condition.rs`), what they declare (`declared.rs`) and what stands beside them (`directive.rs`),
-//! colours of the web (`web.rs`), the parts of blocks (`part.rs`) and maps (`map.rs`) as other languages write
-//! them, templates (`template.rs`).
+//! Habits of other languages, a file each: directives, loops, cases and macros as they write them, their operators,
+//! names, numbers, vectors and strings, the parts of blocks by name, and what a text around a scene leaves in it.
 //!
 //! **In:** the tokens. **Out:** the tokens that were meant, and one message for each habit.
 //! **Invariant:** a text without mistakes passes unchanged: nothing here is a form of the language.
@@ -25,6 +22,7 @@ mod dotted;
 mod file;
 mod formula;
 mod head;
+mod known;
 mod letter;
 mod line;
 mod map;
@@ -42,6 +40,7 @@ mod unopened;
 mod vector;
 mod web;
 
+use self::known::Known;
 use self::letter::Foreign;
 pub(super) use self::number::is_no_number;
 use self::part::Inside;
@@ -68,7 +67,7 @@ pub(super) fn translate(
         made: None,
         named: None,
         closers: OnceCell::new(),
-        declared: OnceCell::new(),
+        known: OnceCell::new(),
         missing_ends: OnceCell::new(),
         foreign: Foreign::new(),
         hyphens: BTreeMap::new(),
@@ -118,7 +117,7 @@ struct Reader<'a> {
     /// Where the bracket that opens at a token closes.
     closers: OnceCell<HashMap<usize, usize>>,
     /// The names that the text declares anywhere.
-    declared: OnceCell<HashSet<&'a str>>,
+    known: OnceCell<Known<'a>>,
     /// How many directives lack their `#end`, and how often `#else #if` stands on one line.
     missing_ends: OnceCell<[isize; 2]>,
     foreign: Foreign,

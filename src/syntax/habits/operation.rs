@@ -367,7 +367,7 @@ impl Reader<'_> {
         if !made
             || !opens
             || self.slice(0) != "new"
-            || self.is_parted(1)
+            || self.breaks_before(1)
             || self.declares_anywhere("new")
         {
             return false;

@@ -2,70 +2,12 @@
 //!
 //! **Invariant:** where such a word has a meaning of its own it is left alone.
 
-use std::collections::HashSet;
-
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::vocabulary::{Role, Word};
 
 impl Reader<'_> {
-    /// Whether a loop counts by the name at `ahead`, or a macro has it as its parameter.
-    pub(super) fn declares_anywhere_else(&self, ahead: usize) -> bool {
-        let name = self.slice(ahead);
-        let mut heads = false;
-        self.tokens.iter().any(|token| {
-            heads = match token.kind {
-                TokenKind::Directive(Head::For | Head::Macro) => true,
-                TokenKind::Name | TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)) => {
-                    heads
-                }
-                _ => false,
-            };
-            let is_name = token.kind == TokenKind::Name;
-            heads
-                && is_name
-                && self.text.get(token.start as usize..token.end as usize) == Some(name)
-        })
-    }
-
-    /// Whether the text has `#declare name =`, or `#local name =`.
-    pub(super) fn declares_as_value(&self, name: &str) -> bool {
-        self.tokens.windows(3).any(|three| {
-            matches!(three[0].kind, TokenKind::Directive(Head::Declare | Head::Local))
-                && three[2].kind == TokenKind::Mark(Mark::Equal)
-                && self.text.get(three[1].start as usize..three[1].end as usize) == Some(name)
-        })
-    }
-
-    /// Whether the text declares a name: as a value, a parameter, a file or what a loop counts by.
-    pub(super) fn declares_anywhere(&self, name: &str) -> bool {
-        let names = self.declared.get_or_init(|| {
-            let mut names = HashSet::new();
-            let mut heads = false;
-            for token in self.tokens {
-                heads = match token.kind {
-                    TokenKind::Directive(
-                        Head::Declare
-                        | Head::Local
-                        | Head::Macro
-                        | Head::For
-                        | Head::Fopen
-                        | Head::Read,
-                    ) => true,
-                    TokenKind::Name | TokenKind::Word(_) => heads,
-                    TokenKind::Mark(Mark::Comma | Mark::Open(Bracket::Round)) => heads,
-                    _ => false,
-                };
-                if heads && token.kind == TokenKind::Name {
-                    names.extend(self.text.get(token.start as usize..token.end as usize));
-                }
-            }
-            names
-        });
-        names.contains(name)
-    }
-
     /// `#declare count = 0;`, `#for (count, …)`: the words of the language that the text takes for names.
     pub(super) fn find_reserved(&mut self) {
         for at in 0..self.tokens.len() {

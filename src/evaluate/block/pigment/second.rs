@@ -200,11 +200,8 @@ impl Evaluator<'_> {
 
     /// Whether nothing but blanks and a comma stand between two pieces of a text.
     fn side_by_side(&self, a: Site, b: Site) -> bool {
-        let between = Span { start: a.span.end, end: b.span.start, ..a.span };
-        a.expansion == b.expansion
-            && a.span.file == b.span.file
-            && a.span.end <= b.span.start
-            && matches!(self.sources.text(between).trim(), "" | ",")
+        let between = self.sources.between(a.span, b.span).map(str::trim);
+        a.expansion == b.expansion && matches!(between, Some("" | ","))
     }
 
     /// With the fix that takes `item` out, and the comma between it and `before`.
