@@ -194,6 +194,19 @@ fn the_kernel_for_everything_gives_the_same_bytes() {
 }
 
 #[test]
+fn a_kernel_has_code_for_bodies_where_a_shape_is_no_sphere_plane_or_box() {
+    let with_bodies = scenes().into_iter().filter(|name| {
+        let Seen { plan, .. } = see(name, &Changed::default());
+        let is_plain =
+            plan.kinds.iter().all(|kind| ["sphere", "plane", "box"].contains(&kind.word));
+        assert_eq!(plan.kernel.bodies, !is_plain, "{name}: {:?}", plan.kinds);
+        plan.kernel.bodies
+    });
+    let (with_bodies, all) = (with_bodies.count(), scenes().len());
+    assert!(with_bodies > 20 && all - with_bodies > 20, "{with_bodies} of {all} scenes");
+}
+
+#[test]
 fn the_pilot_knows_what_the_picture_takes() {
     let threshold = 0.05;
     let fine = Antialias::Adaptive { threshold, grid: 3 };

@@ -56,9 +56,10 @@ fn written(plan: &Value) -> String {
     if let Some(most) = plan["julia_iterations"].as_u64() {
         out += &format!("julia_iterations {most}\n");
     }
-    assert_eq!(list(&plan["kernels_compiled"]).len(), 4);
-    let rays = match text(&plan["kernel"]) {
-        "bare" => "the camera's alone",
+    assert_eq!(list(&plan["kernels_compiled"]).len(), 8);
+    let kernel = text(&plan["kernel"]);
+    let rays = match kernel.trim_end_matches("bodies").trim_end_matches('+') {
+        "bare" | "" => "the camera's alone",
         "shadows" => "the camera's, and to lights",
         "secondary" => "the camera's, and from surface to surface",
         _ => "the camera's, to lights, and from surface to surface",

@@ -310,13 +310,13 @@ impl Evaluator<'_> {
     /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a
     /// limit ends that.
     fn declared_value(&mut self, here: &Here, head: Span, target: &Target) -> Outcome<Value> {
-        let limit = self.options.limits.nesting;
+        let limit = self.options.limits.macro_depth;
         // A macro that gives the value may declare something itself, and call itself for it.
         if self.declaring >= limit.saturating_add(self.macro_depth) {
             let message = format!("values of `#declare` are nested more than {limit} deep");
             let diagnostic = Diagnostic::new(Code::NestingLimit, message)
                 .at(target.span, "reading stops here")
-                .help("`--limit nesting=N` raises the limit");
+                .help("`--limit macro-depth=N` raises the limit");
             return Err(self.halt(here.expansion, diagnostic));
         }
         if let Some(number) = self.plain_value(here) {

@@ -40,12 +40,12 @@ pub struct Limits {
     /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
     /// macros be called.
     pub loop_turns: u64,
-    /// Macro calls inside each other.
+    /// Macro calls inside each other, and `#declare`s that wait for the values of each other.
     pub macro_depth: u32,
     /// Includes inside each other.
     pub include_depth: u32,
-    /// Brackets and directives inside each other, in one file; and `#declare`s that wait for the values
-    /// of each other.
+    /// Brackets and directives inside each other, in one file. None waits on the stack; a gigabyte holds so many
+    /// blocks.
     pub nesting: u32,
     /// Objects of the scene, declared ones included.
     pub objects: u64,
@@ -65,7 +65,7 @@ impl Default for Limits {
             loop_turns: 1_000_000,
             macro_depth: 1_000,
             include_depth: 64,
-            nesting: 1_000,
+            nesting: 200_000,
             objects: 5_000_000,
             memory: 2_048,
             string: 16,

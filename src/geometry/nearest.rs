@@ -5,7 +5,7 @@
 
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
-use super::{EASY, Entry, Geometry, Manner, TIGHT, Work};
+use super::{ANY, EASY, Entry, Geometry, Manner, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// The first surface a ray meets.
@@ -31,33 +31,33 @@ impl Geometry {
     /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
     /// Where opaque surfaces only touch, that which is nearer all around is seen.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_counted(ray, &mut Work::default())
+        self.nearest_counted::<ANY>(ray, &mut Work::default())
     }
 
     /// As [`Geometry::nearest`]; what it takes is added to `work` by a geometry that is
     /// [`Geometry::counting`].
     #[inline(always)]
-    pub fn nearest_counted(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
+    pub fn nearest_counted<const KINDS: bool>(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
         if self.manner != Manner::Double {
             return self.nearest_in_its_manner(ray, work);
         }
-        self.nearest_in_double(ray, Uncounted)
+        self.nearest_in_double::<KINDS>(ray, Uncounted)
     }
 
     #[cold]
     #[inline(never)]
     fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
         match self.manner {
-            Manner::Double => self.nearest_in_double(ray, Uncounted),
-            Manner::DoubleCounted => self.nearest_in_double(ray, work),
+            Manner::Double => self.nearest_in_double::<ANY>(ray, Uncounted),
+            Manner::DoubleCounted => self.nearest_in_double::<ANY>(ray, work),
             Manner::Single => self.nearest_in_single(ray, Uncounted),
             Manner::SingleCounted => self.nearest_in_single(ray, work),
         }
     }
 
     #[inline(always)]
-    fn nearest_in_double(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
-        let mut race = Race::new(self, ray, tally);
+    fn nearest_in_double<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
+        let mut race = Race::<_, KINDS>::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
         let limit = race.limit;
         let hit =
@@ -67,7 +67,7 @@ impl Geometry {
 
     /// The nearest hit; contested where it cannot be told which that is.
     pub(super) fn raced(&self, ray: &Ray) -> Option<Hit> {
-        let mut race = Race::new(self, ray, Uncounted);
+        let mut race = Race::<_, ANY>::new(self, ray, Uncounted);
         self.search(ray, f64::INFINITY, &mut race);
         let contested = race.contested();
         race.winner().map(|hit| Hit { contested: contested || hit.contested, ..hit })
@@ -78,7 +78,7 @@ impl Geometry {
     #[inline(never)]
     fn first_in_double<T: Tally>(&self, ray: &Ray, mut tally: T) -> Option<Hit> {
         let limit = self.end_of_first(ray, &mut tally);
-        let met = |entry: &Entry| self.first_crossing::<TIGHT>(entry, ray, limit);
+        let met = |entry: &Entry| self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
         self.first_declared(ray, limit, tally, met)
     }
 
@@ -116,7 +116,7 @@ impl Geometry {
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
-            let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
+            let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
             if let Some((Crossing { t, error }, _)) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
@@ -128,7 +128,7 @@ impl Geometry {
 }
 
 /// Looks for the nearest crossing, and for another that may be as near.
-struct Race<'a, T> {
+struct Race<'a, T, const KINDS: bool> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     /// The entry whose crossing is nearest so far; none has this place before the first.
@@ -143,7 +143,7 @@ struct Race<'a, T> {
     tally: T,
 }
 
-impl<'a, T: Tally> Race<'a, T> {
+impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     #[inline(always)]
     fn new(geometry: &'a Geometry, ray: &'a Ray, tally: T) -> Self {
         let (place, t, leaving) = (usize::MAX, f64::INFINITY, false);
@@ -163,7 +163,7 @@ impl<'a, T: Tally> Race<'a, T> {
     }
 }
 
-impl<T: Tally> Seeker for Race<'_, T> {
+impl<T: Tally, const KINDS: bool> Seeker for Race<'_, T, KINDS> {
     type Tally = T;
 
     #[inline(always)]
@@ -175,7 +175,7 @@ impl<T: Tally> Seeker for Race<'_, T> {
     fn look(&mut self, place: usize) -> f64 {
         let entry = &self.geometry.entries[place];
         self.tally.root_solve(|| self.geometry.price(entry));
-        let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
+        let crossing = self.geometry.first_crossing::<EASY, KINDS>(entry, self.ray, self.limit);
         if let Some((Crossing { t, error }, leaving)) = crossing {
             if t < self.t {
                 self.rival_t = self.t;

@@ -2,7 +2,7 @@
 
 use super::search::Seeker;
 use super::work::{Tally, Uncounted};
-use super::{EASY, Entry, Geometry, Manner, Solid, TIGHT, Work};
+use super::{ANY, EASY, Entry, Geometry, Manner, Solid, TIGHT, Work};
 use crate::shape::{Crossing, Ray};
 
 /// What shadows a ray: an entry of a [`Geometry`].
@@ -19,18 +19,24 @@ impl Geometry {
     /// Surfaces seen from one side shadow from that side.
     pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
         let mut work = Work::default();
-        self.occluder(ray, distance, Occluder::NONE, &mut work) != Occluder::NONE
+        self.occluder::<ANY>(ray, distance, Occluder::NONE, &mut work) != Occluder::NONE
     }
 
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another. What it takes
     /// is added to `work` by a geometry that is [`Geometry::counting`].
     #[inline(always)]
-    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder, work: &mut Work) -> Occluder {
+    pub fn occluder<const KINDS: bool>(
+        &self,
+        ray: &Ray,
+        distance: f64,
+        guess: Occluder,
+        work: &mut Work,
+    ) -> Occluder {
         if self.manner != Manner::Double {
             return self.occluder_in_its_manner(ray, distance, guess, work);
         }
-        self.occluder_in_double(ray, distance, guess, Uncounted)
+        self.occluder_in_double::<KINDS>(ray, distance, guess, Uncounted)
     }
 
     #[cold]
@@ -43,22 +49,23 @@ impl Geometry {
         work: &mut Work,
     ) -> Occluder {
         match self.manner {
-            Manner::Double => self.occluder_in_double(ray, distance, guess, Uncounted),
-            Manner::DoubleCounted => self.occluder_in_double(ray, distance, guess, work),
+            Manner::Double => self.occluder_in_double::<ANY>(ray, distance, guess, Uncounted),
+            Manner::DoubleCounted => self.occluder_in_double::<ANY>(ray, distance, guess, work),
             Manner::Single => self.occluder_in_single(ray, distance, guess, Uncounted),
             Manner::SingleCounted => self.occluder_in_single(ray, distance, guess, work),
         }
     }
 
     #[inline(never)]
-    fn occluder_in_double(
+    fn occluder_in_double<const KINDS: bool>(
         &self,
         ray: &Ray,
         distance: f64,
         guess: Occluder,
         tally: impl Tally,
     ) -> Occluder {
-        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE, tally };
+        let mut shade =
+            Shade::<_, KINDS> { geometry: self, ray, distance, found: Occluder::NONE, tally };
         if self.entries.get(guess.0).is_some_and(|entry| shade.shadows(entry)) {
             return guess;
         }
@@ -68,7 +75,7 @@ impl Geometry {
 }
 
 /// Looks for anything that shadows the ray.
-struct Shade<'a, T> {
+struct Shade<'a, T, const KINDS: bool> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     distance: f64,
@@ -76,7 +83,7 @@ struct Shade<'a, T> {
     tally: T,
 }
 
-impl<T: Tally> Shade<'_, T> {
+impl<T: Tally, const KINDS: bool> Shade<'_, T, KINDS> {
     #[inline(always)]
     fn shadows(&mut self, entry: &Entry) -> bool {
         if !entry.blocks {
@@ -84,10 +91,12 @@ impl<T: Tally> Shade<'_, T> {
         }
         let Self { geometry, ray, distance, .. } = *self;
         self.tally.root_solve(|| geometry.price(entry));
-        if let Solid::Whole(whole) = entry.solid {
+        if KINDS == ANY
+            && let Solid::Whole(whole) = entry.solid
+        {
             return geometry.whole_shadows(whole, ray, distance);
         }
-        let crossing = geometry.first_crossing::<EASY>(entry, ray, distance);
+        let crossing = geometry.first_crossing::<EASY, KINDS>(entry, ray, distance);
         crossing.is_some_and(|(Crossing { t, error }, _)| {
             t + error < distance || geometry.barely_shadows(entry, ray, distance)
         })
@@ -104,12 +113,12 @@ impl Geometry {
     #[cold]
     #[inline(never)]
     fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
-        let crossing = self.first_crossing::<TIGHT>(entry, ray, distance);
+        let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, distance);
         crossing.is_some_and(|(Crossing { t, error }, _)| t + error < distance)
     }
 }
 
-impl<T: Tally> Seeker for Shade<'_, T> {
+impl<T: Tally, const KINDS: bool> Seeker for Shade<'_, T, KINDS> {
     type Tally = T;
 
     #[inline(always)]

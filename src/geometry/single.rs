@@ -8,7 +8,7 @@
 
 use super::search::Each;
 use super::work::Tally;
-use super::{Entry, Geometry, Hit, Occluder, Sides, Solid, TIGHT};
+use super::{ANY, Entry, Geometry, Hit, Occluder, Sides, Solid, TIGHT};
 use crate::math::{Real, UnitVector, Vector, Vector3};
 use crate::shape::{Chord, Crossing, Ray, box_, plane, sphere};
 
@@ -135,7 +135,7 @@ impl Geometry {
                 Chord { enter: slabs.enter, leave: slabs.leave }
             }
             Solid::Ellipsoid(_) | Solid::Placed(_) | Solid::Whole(_) => {
-                return self.first_crossing::<TIGHT>(entry, rounded.ray, limit);
+                return self.first_crossing::<TIGHT, ANY>(entry, rounded.ray, limit);
             }
         };
         let (crossing, leaving) = first_seen(entry.sides, chord)?;
@@ -203,7 +203,7 @@ mod tests {
             let ray = Ray { origin, direction: random.direction().get() };
             let rounded = Rounded::new(&ray);
             for entry in &geometry.entries {
-                let exact = geometry.first_crossing::<TIGHT>(entry, &ray, f64::INFINITY);
+                let exact = geometry.first_crossing::<TIGHT, ANY>(entry, &ray, f64::INFINITY);
                 let rough = geometry.met(entry, &rounded, f64::INFINITY);
                 if let (Some((exact, side)), Some((rough, same))) = (exact, rough)
                     && side == same
@@ -238,7 +238,7 @@ mod tests {
             let origin = world.spheres[0].centre + random.point(6.0);
             let ray = Ray { origin, direction: random.direction().get() };
             let Some(hit) = geometry.nearest(&ray) else { continue };
-            let surface = super::super::surface(&world, &ray, &hit);
+            let surface = super::super::surface::<ANY>(&world, &ray, &hit);
             let normal = if hit.leaving { -surface.normal } else { surface.normal };
             let onward = random.direction().get();
             let onward = if onward.dot(normal) < 0.0 { -onward } else { onward };

@@ -2,17 +2,20 @@
 //!
 //! **In:** a ray and its hit. **Out:** the point, its normals, and how far off they may be.
 
-use super::{Hit, edge};
+use super::{Hit, PLAIN, edge, not_plain};
 use crate::math::Vector;
 use crate::shape::{Chord, Ray, Shape, SurfacePoint};
 use crate::world::World;
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
 #[inline(always)]
-pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
+pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let Hit { object, t, leaving, .. } = *hit;
     let shape = world.objects[object as usize].shape;
     shape.compiled();
+    if KINDS == PLAIN && !shape.is_plain() {
+        not_plain();
+    }
     match shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
@@ -24,7 +27,14 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
 
 /// The unit normal by which the surface at a hit is lit, on either side; `None` where that is its own.
 #[inline(always)]
-pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Option<Vector> {
+pub fn shading_normal<const KINDS: bool>(
+    world: &World,
+    hit: &Hit,
+    surface: &SurfacePoint,
+) -> Option<Vector> {
+    if KINDS == PLAIN {
+        return None;
+    }
     let shape = world.objects[hit.object as usize].shape;
     shape.compiled();
     match shape {

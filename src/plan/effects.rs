@@ -26,7 +26,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         precision: options.precision,
         root_tolerance: options.root_tolerance,
         julia_iterations: options.julia_iterations,
-        kernel: Kernel { shadows: false, secondary: false },
+        kernel: Kernel { shadows: false, secondary: false, bodies: false },
         effects: Vec::new(),
         left_out: Vec::new(),
         dropped: dropped(world, origins, options.precision),
@@ -47,6 +47,10 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     plan.kernel = Kernel {
         shadows: plan.simulates(Effect::Shadows),
         secondary: plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency),
+        bodies: !world
+            .objects
+            .iter()
+            .all(|object| object.whole.is_none() && object.shape.is_plain()),
     };
     plan
 }

@@ -1,7 +1,6 @@
 //! The hot effects: those the tracer decides by a kernel of its own, not by a branch for each ray.
 //!
-//! **Invariant:** one piece of code, compiled once for each combination; two bits, at most three; at most
-//! sixteen kernels in all.
+//! **Invariant:** one piece of code, compiled once for each combination; three bits, and no more.
 
 /// Which kernel traces a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -10,37 +9,50 @@ pub struct Kernel {
     pub shadows: bool,
     /// Rays from surface to surface.
     pub secondary: bool,
+    /// Solids other than spheres, planes and boxes.
+    pub bodies: bool,
 }
 
 impl Kernel {
-    pub const ALL: [Self; 4] = [
-        Self { shadows: false, secondary: false },
-        Self { shadows: true, secondary: false },
-        Self { shadows: false, secondary: true },
-        Self::EVERYTHING,
-    ];
+    pub const ALL: [Self; 8] = {
+        let mut all = [Self::EVERYTHING; 8];
+        let mut i = 0;
+        while i < all.len() {
+            all[i] = Self { shadows: i & 1 != 0, secondary: i & 2 != 0, bodies: i & 4 != 0 };
+            i += 1;
+        }
+        all
+    };
 
     /// The kernel that can trace any World.
-    pub const EVERYTHING: Self = Self { shadows: true, secondary: true };
+    pub const EVERYTHING: Self = Self { shadows: true, secondary: true, bodies: true };
 
     pub const fn name(self) -> &'static str {
-        match (self.shadows, self.secondary) {
-            (false, false) => "bare",
-            (true, false) => "shadows",
-            (false, true) => "secondary",
-            (true, true) => "shadows+secondary",
+        match (self.shadows, self.secondary, self.bodies) {
+            (false, false, false) => "bare",
+            (true, false, false) => "shadows",
+            (false, true, false) => "secondary",
+            (true, true, false) => "shadows+secondary",
+            (false, false, true) => "bodies",
+            (true, false, true) => "shadows+bodies",
+            (false, true, true) => "secondary+bodies",
+            (true, true, true) => "shadows+secondary+bodies",
         }
     }
 
     /// Whether this program has it. All are there but in a build for measurements, with
     /// `--cfg lucarne_only_kernel="shadows"` and the like, which has that one alone.
     pub const fn is_compiled(self) -> bool {
-        match (self.shadows, self.secondary) {
+        match (self.shadows, self.secondary, self.bodies) {
             _ if !only_one() => true,
-            (false, false) => cfg!(lucarne_only_kernel = "bare"),
-            (true, false) => cfg!(lucarne_only_kernel = "shadows"),
-            (false, true) => cfg!(lucarne_only_kernel = "secondary"),
-            (true, true) => cfg!(lucarne_only_kernel = "shadows+secondary"),
+            (false, false, false) => cfg!(lucarne_only_kernel = "bare"),
+            (true, false, false) => cfg!(lucarne_only_kernel = "shadows"),
+            (false, true, false) => cfg!(lucarne_only_kernel = "secondary"),
+            (true, true, false) => cfg!(lucarne_only_kernel = "shadows+secondary"),
+            (false, false, true) => cfg!(lucarne_only_kernel = "bodies"),
+            (true, false, true) => cfg!(lucarne_only_kernel = "shadows+bodies"),
+            (false, true, true) => cfg!(lucarne_only_kernel = "secondary+bodies"),
+            (true, true, true) => cfg!(lucarne_only_kernel = "shadows+secondary+bodies"),
         }
     }
 }
@@ -50,7 +62,11 @@ const fn only_one() -> bool {
         lucarne_only_kernel = "bare",
         lucarne_only_kernel = "shadows",
         lucarne_only_kernel = "secondary",
-        lucarne_only_kernel = "shadows+secondary"
+        lucarne_only_kernel = "shadows+secondary",
+        lucarne_only_kernel = "bodies",
+        lucarne_only_kernel = "shadows+bodies",
+        lucarne_only_kernel = "secondary+bodies",
+        lucarne_only_kernel = "shadows+secondary+bodies"
     ))
 }
 

@@ -95,15 +95,12 @@ impl Printer<'_> {
         if let Some(most) = plan.julia_iterations {
             writeln!(out, "julia_iterations {most}")?;
         }
-        let kernel = match plan.kernel {
-            Kernel { shadows: false, secondary: false } => "the camera's alone",
-            Kernel { shadows: true, secondary: false } => "the camera's, and to lights",
-            Kernel { shadows: false, secondary: true } => {
-                "the camera's, and from surface to surface"
-            }
-            Kernel { shadows: true, secondary: true } => {
-                "the camera's, to lights, and from surface to surface"
-            }
+        let Kernel { shadows, secondary, bodies: _ } = plan.kernel;
+        let kernel = match (shadows, secondary) {
+            (false, false) => "the camera's alone",
+            (true, false) => "the camera's, and to lights",
+            (false, true) => "the camera's, and from surface to surface",
+            (true, true) => "the camera's, to lights, and from surface to surface",
         };
         writeln!(out, "rays traced: {kernel}")?;
         let (on, off) = (plan.effects.len(), plan.left_out.len());

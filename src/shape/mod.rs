@@ -78,6 +78,15 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// A sphere, a plane or a box.
+    #[inline(always)]
+    pub fn is_plain(self) -> bool {
+        match self {
+            Self::Sphere(_) | Self::Plane(_) | Self::Box(_) => true,
+            Self::Ellipsoid(_) | Self::Placed(_) => false,
+        }
+    }
+
     /// See [`compiled`].
     #[inline(always)]
     pub(crate) fn compiled(self) {

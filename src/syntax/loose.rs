@@ -63,10 +63,10 @@ fn pairs_on_both_paths(tokens: &[Token]) -> bool {
             CLOSE => CLOSES,
             _ => continue,
         };
-        if branches.on_first() {
+        if branches.ways().first {
             first.then(effect);
         }
-        if branches.on_otherwise() {
+        if branches.ways().otherwise {
             otherwise.then(effect);
         }
     }
@@ -165,6 +165,15 @@ struct Branch {
     otherwise: bool,
     /// A `#break` stood in it.
     broken: bool,
+    /// Whether those around it are all on these ways.
+    around: Ways,
+}
+
+/// Whether all that is open is on its first branch, and whether all is on its `#else`.
+#[derive(Clone, Copy)]
+struct Ways {
+    first: bool,
+    otherwise: bool,
 }
 
 /// The directives that are open, and the ways through them: always the first branch, or always `#else`.
@@ -177,7 +186,8 @@ impl Branches {
             (Some(Turn::Open(Opener::Directive)), TokenKind::Directive(head)) => {
                 // Loops turn once or not at all; an inner macro is not run here.
                 let first = head != Head::Macro;
-                self.0.push(Branch { head, first, otherwise: false, broken: false });
+                let around = self.ways();
+                self.0.push(Branch { head, first, otherwise: false, broken: false, around });
             }
             (Some(Turn::Divide), TokenKind::Directive(head)) => {
                 if let Some(branch) = self.0.last_mut() {
@@ -185,7 +195,7 @@ impl Branches {
                     let of_switch = matches!(branch.head, Head::Switch | Head::Case | Head::Range);
                     let first = of_switch && branch.first && !branch.broken;
                     let otherwise = head == Head::Else;
-                    *branch = Branch { head, first, otherwise, broken: branch.broken };
+                    *branch = Branch { head, first, otherwise, ..*branch };
                 }
             }
             (Some(Turn::Close(Opener::Directive)), _) => drop(self.0.pop()),
@@ -199,12 +209,11 @@ impl Branches {
         }
     }
 
-    fn on_first(&self) -> bool {
-        self.0.iter().all(|branch| branch.first)
-    }
-
-    fn on_otherwise(&self) -> bool {
-        self.0.iter().all(|branch| branch.otherwise)
+    fn ways(&self) -> Ways {
+        let Some(&Branch { first, otherwise, around, .. }) = self.0.last() else {
+            return Ways { first: true, otherwise: true };
+        };
+        Ways { first: first && around.first, otherwise: otherwise && around.otherwise }
     }
 }
 
@@ -225,8 +234,9 @@ fn paths(tokens: &[Token]) -> [[i32; 3]; 3] {
             _ => continue,
         };
         all[bracket] += change;
-        first[bracket] += if branches.on_first() { change } else { 0 };
-        otherwise[bracket] += if branches.on_otherwise() { change } else { 0 };
+        let ways = branches.ways();
+        first[bracket] += if ways.first { change } else { 0 };
+        otherwise[bracket] += if ways.otherwise { change } else { 0 };
     }
     [first, otherwise, all]
 }
@@ -295,7 +305,7 @@ fn loosen_across(tokens: &mut [Token], text: &str, with_loose: bool) -> bool {
             continue;
         }
         run.branches.turn(token);
-        if !run.branches.on_first() {
+        if !run.branches.ways().first {
             continue;
         }
         match token.kind {

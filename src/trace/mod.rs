@@ -10,6 +10,7 @@ mod attenuation;
 mod camera;
 mod counters;
 mod highlight;
+mod kernel;
 mod media;
 mod metal;
 mod path;
@@ -28,11 +29,12 @@ mod way;
 use crate::color::{Gamma, Rgb};
 use crate::film::Film;
 use crate::geometry::{Geometry, Hit, Occluder};
-use crate::plan::{Antialias, Frame, Kernel, Plan, Precision, Region};
+use crate::plan::{Antialias, Frame, Plan, Precision, Region};
 use crate::world::World;
 
 use antialias::Shown;
 use camera::Lens;
+use kernel::kernel;
 use media::Media;
 use path::{Fork, Link, Tracer};
 use shadow::Filters;
@@ -125,16 +127,8 @@ pub fn trace_in(
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options, watch);
-    match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
-        (false, false, false) => frame::<false, false, false>(&tracer, plan, &crew),
-        (false, true, false) => frame::<false, true, false>(&tracer, plan, &crew),
-        (true, false, false) => frame::<true, false, false>(&tracer, plan, &crew),
-        (true, true, false) => frame::<true, true, false>(&tracer, plan, &crew),
-        (false, false, true) => frame::<false, false, true>(&tracer, plan, &crew),
-        (false, true, true) => frame::<false, true, true>(&tracer, plan, &crew),
-        (true, false, true) => frame::<true, false, true>(&tracer, plan, &crew),
-        (true, true, true) => frame::<true, true, true>(&tracer, plan, &crew),
-    }
+    let frame = kernel!(plan.kernel, geometry.counts(), frame);
+    frame(&tracer, plan, &crew)
 }
 
 /// The World's geometry in the Plan's arithmetic.
@@ -153,17 +147,17 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 
 /// Traces the region with one kernel. A function of its own, so that its instructions can be counted.
 #[inline(never)]
-fn frame<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
+fn frame<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     plan: &Plan,
     crew: &Crew,
 ) -> Traced {
-    let kernel = Kernel { shadows: SHADOWS, secondary: SECONDARY };
+    let kernel = plan.kernel;
     assert!(kernel.is_compiled(), "built for measuring another kernel than {}", kernel.name());
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height);
     // Inlined into each pass: as a closure of its own it would be called for each pixel.
-    let sampled = sampled::<SHADOWS, SECONDARY, COUNTS>;
+    let sampled = sampled::<SHADOWS, SECONDARY, KINDS, COUNTS>;
     let region = plan.frame.region;
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
@@ -194,7 +188,7 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
 
 /// The mean of a pixel's samples, and how many.
 #[inline(always)]
-fn sampled<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
+fn sampled<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     lens: &Lens,
     walk: &mut Walk,
@@ -203,7 +197,7 @@ fn sampled<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
 ) -> (Rgb, u32) {
     let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
         walk.counters.camera += 1;
-        tracer.radiance::<SHADOWS, SECONDARY, COUNTS>(walk, lens.ray(pixel, (i, j), grid))
+        tracer.radiance::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, lens.ray(pixel, (i, j), grid))
     });
     (radiance, grid * grid)
 }

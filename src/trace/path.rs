@@ -14,7 +14,7 @@ use super::sharpness::Sharpness;
 use super::way::{Inside, Way};
 use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
 use crate::color::{Color, Rgb};
-use crate::geometry::{self, Geometry, Hit};
+use crate::geometry::{self, ANY, Geometry, Hit};
 use crate::math::Vector;
 use crate::plan::{Effect, Plan};
 use crate::shape::{Ray, SurfacePoint};
@@ -113,7 +113,12 @@ impl<'a> Tracer<'a> {
     /// that lets through less brightness than that, whatever the weight, nothing is followed either,
     /// as in POV-Ray. A seed finish neither lowers the weight nor is cut by it.
     #[inline(never)]
-    pub fn radiance<const SHADOWS: bool, const SECONDARY: bool, const COUNTS: bool>(
+    pub fn radiance<
+        const SHADOWS: bool,
+        const SECONDARY: bool,
+        const KINDS: bool,
+        const COUNTS: bool,
+    >(
         &self,
         walk: &mut Walk,
         ray: Ray,
@@ -126,7 +131,7 @@ impl<'a> Tracer<'a> {
         }
         loop {
             let mut seen = loop {
-                let found = met_by.nearest_counted(&way.ray, &mut walk.counters.work);
+                let found = met_by.nearest_counted::<KINDS>(&way.ray, &mut walk.counters.work);
                 let found = match way.inside {
                     Some(inside) if SECONDARY => self.left(walk, &way, inside, found),
                     Some(_) | None => found,
@@ -138,9 +143,9 @@ impl<'a> Tracer<'a> {
                 let Some(hit) = found else {
                     break sky::seen(self.world, &self.sharpness, way.ray.direction);
                 };
-                let Stand { surface, paint, place } = self.stand(&way.ray, &hit);
+                let Stand { surface, paint, place } = self.stand::<KINDS>(&way.ray, &hit);
                 let finish = place.finish;
-                let mut local = shade::local::<SHADOWS, COUNTS>(self, walk, &place);
+                let mut local = shade::local::<SHADOWS, KINDS, COUNTS>(self, walk, &place);
                 if self.world.objects[hit.object as usize].double_illuminate {
                     local += self.lit_behind::<SHADOWS, COUNTS>(walk, way.ray, hit);
                 }
@@ -212,14 +217,14 @@ impl<'a> Tracer<'a> {
 
     /// What there is where a ray meets a surface, on the side it comes from.
     #[inline(always)]
-    fn stand(&self, ray: &Ray, hit: &Hit) -> Stand<'a> {
-        let surface = geometry::surface(self.world, ray, hit);
+    fn stand<const KINDS: bool>(&self, ray: &Ray, hit: &Hit) -> Stand<'a> {
+        let surface = geometry::surface::<KINDS>(self.world, ray, hit);
         let object = &self.world.objects[hit.object as usize];
         let Material { pigment, finish } = &self.world.materials[object.material as usize];
         let normal = if hit.leaving { -surface.normal } else { surface.normal };
         let paint = pigment::on_surface(self, pigment, ray, hit, &surface);
         let origin = surface.spawn(normal);
-        let (normal, flat) = match geometry::shading_normal(self.world, hit, &surface) {
+        let (normal, flat) = match geometry::shading_normal::<KINDS>(self.world, hit, &surface) {
             None => (normal, None),
             Some(smooth) => {
                 let behind = surface.spawn(-normal);
@@ -253,7 +258,7 @@ impl<'a> Tracer<'a> {
         if COUNTS {
             walk.counters.evaluations.from_behind += 1;
         }
-        let Stand { surface, place, .. } = self.stand(&ray, &hit);
+        let Stand { surface, place, .. } = self.stand::<ANY>(&ray, &hit);
         let normal = place.flat.map_or(place.normal, |Flat { normal, .. }| normal);
         shade::from_behind::<SHADOWS, COUNTS>(self, walk, &place, surface.spawn(-normal))
     }
@@ -408,7 +413,7 @@ impl<'a> Tracer<'a> {
         let color = match &self.world.materials[object.material as usize].pigment {
             Pigment::Color(color) => *color,
             patterned @ (Pigment::Patterned { .. } | Pigment::Faces(_)) => {
-                let surface = geometry::surface(self.world, ray, hit);
+                let surface = geometry::surface::<ANY>(self.world, ray, hit);
                 pigment::on_surface(self, patterned, ray, hit, &surface)
             }
         };

@@ -5,6 +5,7 @@
 
 use super::antialias::{self, Shown};
 use super::camera::Lens;
+use super::kernel::kernel;
 use super::path::Tracer;
 use super::tiles::Crew;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
@@ -111,16 +112,7 @@ struct Pixel<'a> {
 impl<'a> Pixel<'a> {
     fn new(tracer: &'a Tracer<'a>, plan: &'a Plan, geometry: &Geometry) -> Self {
         let Frame { width, height, .. } = plan.frame;
-        let kernel = match (plan.kernel.shadows, plan.kernel.secondary, geometry.counts()) {
-            (false, false, false) => Tracer::radiance::<false, false, false>,
-            (false, true, false) => Tracer::radiance::<false, true, false>,
-            (true, false, false) => Tracer::radiance::<true, false, false>,
-            (true, true, false) => Tracer::radiance::<true, true, false>,
-            (false, false, true) => Tracer::radiance::<false, false, true>,
-            (false, true, true) => Tracer::radiance::<false, true, true>,
-            (true, false, true) => Tracer::radiance::<true, false, true>,
-            (true, true, true) => Tracer::radiance::<true, true, true>,
-        };
+        let kernel = kernel!(plan.kernel, geometry.counts(), Tracer::radiance);
         Self { plan, kernel, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
     }
 

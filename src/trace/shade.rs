@@ -7,6 +7,7 @@ use super::highlight::{self, Gloss};
 use super::path::Tracer;
 use super::shadow::{self, Aim};
 use crate::color::Rgb;
+use crate::geometry::ANY;
 use crate::math::Vector;
 use crate::math::power::power;
 use crate::world::{Finish, Light};
@@ -61,7 +62,7 @@ impl Place<'_> {
 /// Whether the surface faces a light is asked of its point; rays are aimed from where they start,
 /// or what they pass near the light would not be where the light is.
 #[inline(always)]
-pub(super) fn local<const SHADOWS: bool, const COUNTS: bool>(
+pub(super) fn local<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     place: &Place,
@@ -84,7 +85,8 @@ pub(super) fn local<const SHADOWS: bool, const COUNTS: bool>(
         };
         let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
-        let arriving = arriving::<SHADOWS, COUNTS>(tracer, walk, (number, light), origin, &aim);
+        let arriving =
+            arriving::<SHADOWS, KINDS, COUNTS>(tracer, walk, (number, light), origin, &aim);
         let Some(color) = arriving else { continue };
         if COUNTS {
             count(walk, finish, light);
@@ -112,7 +114,8 @@ pub(super) fn from_behind<const SHADOWS: bool, const COUNTS: bool>(
         }
         let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
         let cosine = place.normal.dot(aim.to_light).min(0.0);
-        let arriving = arriving::<SHADOWS, COUNTS>(tracer, walk, (number, light), behind, &aim);
+        let arriving =
+            arriving::<SHADOWS, ANY, COUNTS>(tracer, walk, (number, light), behind, &aim);
         let Some(color) = arriving else { continue };
         if COUNTS {
             count(walk, place.finish, light);
@@ -124,7 +127,7 @@ pub(super) fn from_behind<const SHADOWS: bool, const COUNTS: bool>(
 
 /// What of a light, the `number`th, comes to `origin`; `None` where nothing does.
 #[inline(always)]
-fn arriving<const SHADOWS: bool, const COUNTS: bool>(
+fn arriving<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     (number, light): (usize, &Light),
@@ -139,7 +142,7 @@ fn arriving<const SHADOWS: bool, const COUNTS: bool>(
         color = attenuated(color, attenuation, &light.kind, origin, *aim)?;
     }
     if SHADOWS && light.casts_shadows {
-        if shadow::shadowed(tracer, walk, number, origin, aim) {
+        if shadow::shadowed::<KINDS>(tracer, walk, number, origin, aim) {
             return None;
         }
         if tracer.filters_shadows {

@@ -61,7 +61,7 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
 
 /// Whether something opaque stands between `origin` (just off a surface) and the light, the `light`th.
 #[inline(always)]
-pub(super) fn shadowed(
+pub(super) fn shadowed<const KINDS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     light: usize,
@@ -71,7 +71,8 @@ pub(super) fn shadowed(
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
     let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
-    let occluder = tracer.geometry.occluder(&ray, aim.reach, guess, &mut walk.counters.work);
+    let occluder =
+        tracer.geometry.occluder::<KINDS>(&ray, aim.reach, guess, &mut walk.counters.work);
     if occluder != guess {
         walk.remember(light, occluder);
     }

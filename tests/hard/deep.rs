@@ -33,9 +33,7 @@ const AROUND: [(&str, &str); 5] = [
 fn pictured(text: String) -> (Vec<[f64; 3]>, Duration) {
     let work = move || {
         let start = processor_time();
-        let mut options = Options::new(Dialect::Scene);
-        options.evaluate.limits.nesting = u32::MAX;
-        let mut road = Road::new(&NoFiles, options);
+        let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
         let (world, origins) = road.compile("deep.scene", text.into_bytes());
         assert!(!road.diagnostics.has_errors(), "{:#?}", road.diagnostics.iter().next());
         let frame = Frame::whole(12, 9);

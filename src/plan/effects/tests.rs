@@ -101,7 +101,7 @@ fn every_effect_is_either_called_for_or_left_out_with_a_reason() {
         (Effect::Reflection, &[site(13)]),
     ];
     assert_eq!(called, expected);
-    assert_eq!(plan.kernel, Kernel::EVERYTHING);
+    assert_eq!(plan.kernel, Kernel { bodies: false, ..Kernel::EVERYTHING });
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn the_kernel_has_what_the_effects_need() {
     let (mut world, origins) = lit_mirror();
     world.lights[0].casts_shadows = false;
     let kernel = plan(&world, &origins, &OPTIONS).kernel;
-    assert_eq!(kernel, Kernel { shadows: false, secondary: true });
+    assert_eq!(kernel, Kernel { shadows: false, secondary: true, bodies: false });
     world.materials[0].finish.reflection = None;
     assert_eq!(plan(&world, &origins, &OPTIONS).kernel.name(), "bare");
 }

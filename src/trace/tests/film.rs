@@ -53,7 +53,7 @@ fn a_mirrored_world_makes_a_mirrored_film() {
 
 #[test]
 fn the_pruned_kernel_and_the_full_one_give_the_same_bits() {
-    let full_plan = |plan: &Plan| Plan { kernel: Kernel::EVERYTHING, ..plan.clone() };
+    let full_plan = |plan: &Plan| Plan { kernel: crate::plan::Kernel::EVERYTHING, ..plan.clone() };
     use Effect::{Diffuse, Highlights, Reflection, Shadows};
     let without_reflection =
         |w: &mut World| w.materials.iter_mut().for_each(|m| m.finish.reflection = None);
