@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::polyhedron::{self, HalfSpace};
 use crate::shape::body::Local;
 use crate::shape::csg::Node;
 use crate::shape::{Bounds, Plane, Rounding, Shape};
@@ -20,6 +21,16 @@ impl Leaf {
         let Shape::Plane(i) = world.objects[self.object as usize].shape else { return None };
         let plane = world.planes[i as usize];
         Some(if self.inverse { plane.complement() } else { plane })
+    }
+
+    /// The half spaces that it is what is in all of; none where it is something else.
+    fn half_spaces(self, world: &World) -> impl Iterator<Item = HalfSpace> {
+        let faces = match world.objects[self.object as usize].shape {
+            Shape::Box(i) if !self.inverse => Some(HalfSpace::of_box(&world.boxes[i as usize])),
+            _ => None,
+        };
+        let plane = self.half_space(world).map(|plane| HalfSpace::of_plane(&plane));
+        plane.into_iter().chain(faces.into_iter().flatten())
     }
 
     fn extent(self, world: &World, rounding: Rounding) -> Extent {
@@ -89,9 +100,14 @@ impl Extent {
             }
             if let (Node::Intersection(_) | Node::Clip { inverse: false }, Some(all)) =
                 (node, stack.last_mut())
-                && all.bounds().is_none()
             {
-                *all = all.and(Self::clipped(world, &parts, rounding));
+                if all.bounds().is_none() {
+                    *all = all.and(Self::clipped(world, &parts, rounding));
+                }
+                let faces: Vec<HalfSpace> =
+                    parts.iter().flat_map(|leaf| leaf.half_spaces(world)).collect();
+                let within = polyhedron::bounds(&faces, &all.0, rounding);
+                *all = within.map_or(*all, |bounds| all.and(Self(bounds)));
             }
         }
         stack.pop().unwrap_or(Self::NOWHERE)

@@ -12,6 +12,7 @@ mod edge;
 mod extent;
 mod nearest;
 mod occluder;
+mod polyhedron;
 mod search;
 mod single;
 mod surface;

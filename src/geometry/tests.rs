@@ -1,5 +1,6 @@
 mod algebraic;
 mod every_body;
+mod polyhedra;
 mod wholes;
 
 use super::*;
