@@ -8,6 +8,7 @@ mod balls;
 mod beside;
 mod build;
 pub mod coinciding;
+mod convex;
 mod edge;
 mod extent;
 mod nearest;
@@ -15,6 +16,7 @@ mod occluder;
 mod polyhedron;
 mod search;
 mod single;
+mod span;
 mod surface;
 mod through;
 mod tree;
@@ -36,7 +38,7 @@ use balls::{Ball, Balls};
 use beside::Grain;
 pub use extent::Extent;
 use tree::Tree;
-use whole::Whole;
+use whole::{Part, Whole};
 
 /// Fewer bounded objects need no tree, only [`Balls`] (measured: `cargo bench --bench intersect`).
 const TREE_FROM: usize = 8;
@@ -246,9 +248,10 @@ impl Geometry {
             return;
         };
         let whole = &world.wholes[whole as usize];
-        let leaves = whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
-        let bounds = whole.leaves().map(|leaf| bounds_of_part(world, leaf as u32));
-        let whole = Whole::new(whole, leaves, bounds.collect());
+        let leaves: Vec<Entry> =
+            whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
+        let parts: Vec<Part> = leaves.iter().map(|leaf| Part::of(world, self, leaf)).collect();
+        let whole = Whole::new(whole, leaves, &parts, bounds(world, number));
         let entry = Entry {
             solid: Solid::Whole(self.wholes.len() as u32),
             object: number,

@@ -143,6 +143,14 @@ impl Space {
         Ray { origin: ray.origin - direction * back, direction }
     }
 
+    /// A ray of the same line that starts at `t`; `None` where that is so far off that rounding might move it by
+    /// more than the boxes have room for.
+    pub fn moved_to(&self, ray: &Ray, t: f64) -> Option<Ray> {
+        let far = t.abs() + ray.origin.abs().max_element();
+        let is_near = far * self.scale < 1024.0;
+        is_near.then(|| Ray { origin: ray.at(t), direction: ray.direction })
+    }
+
     /// Not under `t` in the tree's space.
     #[inline]
     fn limit(&self, t: f64) -> f32 {

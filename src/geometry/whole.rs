@@ -4,13 +4,14 @@
 
 use std::ops::Range;
 
+use super::span::{Around, Span, around};
 use super::tree::Tree;
 use super::work::Uncounted;
-use super::{Entry, Geometry, Hit, Solid, TREE_FROM, build};
+use super::{Entry, Geometry, Hit, Solid, TREE_FROM, bounds_of_part, build};
 use crate::shape::body::{Crossings, Local, Met};
 use crate::shape::csg::{self, Event, Events};
 use crate::shape::{Bounds, Chord, Crossing, Ray};
-use crate::world;
+use crate::world::{self, World};
 
 /// The cosine of the angle between two faces from which on they are the sides of something thin.
 const ALONG: f64 = 0.99;
@@ -21,19 +22,77 @@ pub(super) struct Whole {
     pub nodes: csg::Tree,
     /// In the order of the nodes.
     pub leaves: Vec<Entry>,
+    /// Those in which all of it lies, what is easily crossed first.
+    pub around: Vec<Around>,
+    /// Of each leaf, whether it is one of these.
+    pub is_around: Vec<bool>,
+    /// Nothing else is a part of it.
+    pub is_convex: bool,
+    /// What holds it.
+    pub bounds: Option<Bounds>,
+    /// What it takes to find where a line crosses it, in equations of a sphere.
+    pub price: u64,
     /// Those that every line may meet.
     pub always: Vec<u32>,
     /// The others, in the order in which the tree's leaves name them. Without a tree there are none.
     pub tree: Option<(Tree, Vec<u32>)>,
 }
 
+/// What is asked of a leaf once.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    /// `None` where it has no end.
+    bounds: Option<Bounds>,
+    /// What it takes to find where a line crosses it.
+    price: u64,
+    /// It has no inside.
+    is_sheet: bool,
+}
+
+impl Part {
+    pub fn of(world: &World, geometry: &Geometry, leaf: &Entry) -> Self {
+        Self {
+            bounds: bounds_of_part(world, leaf.object),
+            price: geometry.price(leaf),
+            is_sheet: geometry.is_sheet(&leaf.solid),
+        }
+    }
+}
+
+/// From what it takes of each leaf: twice as much (as of `Local::price`), of leaves in a tree for those that lie
+/// along a line.
+fn price(parts: &[Part], always: &[u32], tree: Option<&[u32]>) -> u64 {
+    let sum = |leaves: &[u32]| leaves.iter().map(|&leaf| parts[leaf as usize].price).sum::<u64>();
+    let along = tree.map(|order| {
+        let count = order.len().max(1);
+        sum(order) * 2 * u64::from(count.ilog2() + 1) / count as u64
+    });
+    6 + 2 * (sum(always) + along.unwrap_or(0))
+}
+
 impl Whole {
-    pub fn new(whole: &world::Whole, leaves: Vec<Entry>, bounds: Vec<Option<Bounds>>) -> Self {
+    pub fn new(
+        whole: &world::Whole,
+        leaves: Vec<Entry>,
+        parts: &[Part],
+        bounds: Option<Bounds>,
+    ) -> Self {
+        let (mut around, is_all) = around(&whole.nodes);
+        let count = around.len();
+        // What is outside of something tells a span where that is a plane.
+        around.retain(|part| {
+            let is_plane = matches!(leaves[part.leaf as usize].solid, Solid::Plane(_));
+            !parts[part.leaf as usize].is_sheet && (is_plane || !part.inverse)
+        });
+        let is_convex = is_all && around.len() == count;
+        around.sort_by_key(|part| (parts[part.leaf as usize].price, part.leaf));
+        let mut is_around = vec![false; leaves.len()];
+        around.iter().for_each(|part| is_around[part.leaf as usize] = true);
         let (mut always, mut bounded) = (Vec::new(), Vec::new());
-        for (leaf, bounds) in (0..).zip(bounds) {
-            match bounds {
-                Some(bounds) => bounded.push((leaf, bounds)),
-                None => always.push(leaf),
+        for (leaf, part) in (0..).zip(parts) {
+            match part.bounds {
+                Some(bounds) if !is_around[leaf as usize] => bounded.push((leaf, bounds)),
+                _ => always.push(leaf),
             }
         }
         let tree = if bounded.len() < TREE_FROM {
@@ -42,32 +101,32 @@ impl Whole {
         } else {
             let boxes: Vec<Bounds> = bounded.iter().map(|(_, bounds)| *bounds).collect();
             let (tree, order) = build::tree(&boxes);
-            Some((tree, order.into_iter().map(|place| bounded[place as usize].0).collect()))
+            let order = order.into_iter().map(|place| bounded[place as usize].0);
+            Some((tree, order.collect::<Vec<u32>>()))
         };
-        Self { nodes: csg::Tree::new(&whole.nodes), leaves, always, tree }
-    }
-
-    /// What it takes to find where a line crosses it, from what that takes of each leaf: twice as much
-    /// (as of `Local::price`), of leaves in a tree for those that lie along a line.
-    pub fn price(&self, leaf: impl Fn(&u32) -> u64) -> u64 {
-        let always: u64 = self.always.iter().map(&leaf).sum();
-        let along = self.tree.iter().map(|(_, order)| {
-            let all: u64 = order.iter().map(&leaf).sum();
-            let count = order.len().max(1);
-            all * 2 * u64::from(count.ilog2() + 1) / count as u64
-        });
-        6 + 2 * (always + along.sum::<u64>())
+        let price = price(parts, &always, tree.as_ref().map(|(_, order)| order.as_slice()));
+        let nodes = csg::Tree::new(&whole.nodes);
+        Self { nodes, leaves, around, is_around, is_convex, bounds, price, always, tree }
     }
 
     /// Shows `look` every leaf that the line of a ray may meet, on both sides of its start.
-    pub fn search(&self, ray: &Ray, mut look: impl FnMut(u32)) {
+    pub fn search(&self, ray: &Ray, look: impl FnMut(u32)) {
+        self.search_within(ray, (f64::NEG_INFINITY, f64::INFINITY), look);
+    }
+
+    /// Those at least that it may meet from one place to another.
+    fn search_within(&self, ray: &Ray, (low, high): (f64, f64), mut look: impl FnMut(u32)) {
         self.always.iter().for_each(|&leaf| look(leaf));
         if let Some((tree, order)) = &self.tree {
             let show = |places: Range<usize>, limit| {
                 order[places].iter().for_each(|&leaf| look(leaf));
                 limit
             };
-            tree.visit::<Uncounted>(&tree.space.before(ray), f64::INFINITY, show);
+            let (ray, limit) = match tree.space.moved_to(ray, low) {
+                Some(ray) => (ray, high - low),
+                None => (tree.space.before(ray), f64::INFINITY),
+            };
+            tree.visit::<Uncounted>(&ray, limit, show);
         }
     }
 }
@@ -76,20 +135,36 @@ impl Geometry {
     /// All crossings with a whole, in order.
     pub(super) fn events(&self, whole: &Whole, ray: &Ray) -> Events {
         let mut events = Events::new();
-        whole.search(ray, |leaf| {
-            let solid = &whole.leaves[leaf as usize].solid;
-            let sheet = self.is_sheet(solid);
-            let (mut inside, mut last) = (false, None);
-            let mut all = self.crossings(solid, ray);
-            self.drop_grazed(solid, ray, &mut all);
-            for met in all {
-                // What is told twice was not crossed.
-                if sheet || met.leaving == inside {
-                    // 0 and −0 are one place: what ends there has begun before.
-                    let met = Met { t: met.t + 0.0, ..met };
-                    events.push(Event { met, leaf, sheet, last, shared: false });
-                    (inside, last) = (!met.leaving, Some(met.t));
-                }
+        let mut span = match &whole.bounds {
+            Some(bounds) => Span::of_bounds(bounds, ray),
+            None => Span::ALL,
+        };
+        if span.is_empty() {
+            return events;
+        }
+        if whole.is_convex
+            && let Some(events) = self.events_of_convex(whole, ray)
+        {
+            return events;
+        }
+        for part in &whole.around {
+            let leaf = &whole.leaves[part.leaf as usize];
+            self.with_crossings(&leaf.solid, ray, |all| {
+                span = span.and(Span::of_crossings(all, part.inverse));
+                add_events(part.leaf, false, all, Span::ALL.reach(), &mut events);
+            });
+            if span.is_empty() {
+                return Events::new();
+            }
+        }
+        let reach = span.reach();
+        whole.search_within(ray, reach, |leaf| {
+            if !whole.is_around[leaf as usize] {
+                let solid = &whole.leaves[leaf as usize].solid;
+                let sheet = self.is_sheet(solid);
+                self.with_crossings(solid, ray, |all| {
+                    add_events(leaf, sheet, all, reach, &mut events);
+                });
             }
         });
         if !events.is_empty() {
@@ -100,15 +175,48 @@ impl Geometry {
         events
     }
 
+    /// Shows `look` where a line crosses a leaf of a whole: a solid is entered and left in turn.
+    #[inline(always)]
+    fn with_crossings(&self, solid: &Solid, ray: &Ray, look: impl FnOnce(&[Met])) {
+        if let Solid::Placed(_) = solid {
+            look(&self.crossings_of_body(solid, ray));
+            return;
+        }
+        let all = self.chord(solid, ray).map(ends_of_chord);
+        match &all {
+            None => look(&[]),
+            Some([enter, leave]) if !leave.t.is_finite() => look(&[*enter]),
+            Some([enter, leave])
+                if is_grazed(enter, leave) && self.meets_edge(solid, ray, enter, leave) =>
+            {
+                look(&[]);
+            }
+            Some(all) => look(all),
+        }
+    }
+
+    #[inline(never)]
+    fn crossings_of_body(&self, solid: &Solid, ray: &Ray) -> Crossings {
+        let mut all = self.crossings(solid, ray);
+        self.drop_grazed(solid, ray, &mut all);
+        let mut inside = false;
+        if !self.is_sheet(solid) {
+            // What is told twice was not crossed.
+            all.retain(|met| {
+                let is_crossed = met.leaving == inside;
+                inside ^= is_crossed;
+                is_crossed
+            });
+        }
+        all
+    }
+
     /// Drops what a line enters and leaves at an edge, in one place as far as rounding tells: between solids that
     /// share the edge it would be something, and it is nothing.
     fn drop_grazed(&self, solid: &Solid, ray: &Ray, all: &mut Crossings) {
         let mut at = 0;
         while let [enter, leave, ..] = all[at..] {
-            let is_one = !enter.leaving && leave.leaving && {
-                leave.t - leave.error <= enter.t + enter.error && enter.t.is_finite()
-            };
-            if is_one && self.meets_edge(solid, ray, enter.t, leave.t) {
+            if is_grazed(&enter, &leave) && self.meets_edge(solid, ray, &enter, &leave) {
                 all.drain(at..at + 2);
             } else {
                 at += 1;
@@ -120,51 +228,53 @@ impl Geometry {
     /// thin.
     #[cold]
     #[inline(never)]
-    fn meets_edge(&self, solid: &Solid, ray: &Ray, enter: f64, leave: f64) -> bool {
+    fn meets_edge(&self, solid: &Solid, ray: &Ray, enter: &Met, leave: &Met) -> bool {
         let surface = |t: f64, leaving| match solid {
             Solid::Box(i) => Some(self.boxes[*i as usize].0.surface(ray, t, leaving)),
             Solid::Placed(i) => Some(self.placed[*i as usize].surface(ray, t, leaving)),
             Solid::Sphere(_) | Solid::Plane(_) | Solid::Ellipsoid(_) | Solid::Whole(_) => None,
         };
-        let (Some(one), Some(other)) = (surface(enter, false), surface(leave, true)) else {
+        let (Some(one), Some(other)) = (surface(enter.t, false), surface(leave.t, true)) else {
             return false;
         };
         one.normal.dot(other.normal).abs() < ALONG
     }
 
-    fn is_sheet(&self, solid: &Solid) -> bool {
+    pub(super) fn is_sheet(&self, solid: &Solid) -> bool {
         matches!(solid, Solid::Placed(i) if self.placed[*i as usize].body.is_sheet())
     }
 
     /// Where the ray's line crosses the surface of a solid; at −∞ where it comes from inside.
     pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
-        let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
-        let from_inside = Met { part: Met::UNSEEN, ..met(Crossing::BEFORE_ALL, false) };
+        if let Solid::Placed(i) = solid {
+            solid.compiled();
+            let placed = &self.placed[*i as usize];
+            let mut all = placed.crossings_of_part(ray);
+            let inside = match all.first() {
+                Some(first) => first.leaving && !placed.body.is_sheet(),
+                None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
+            };
+            if inside {
+                all.insert(0, FROM_INSIDE);
+            }
+            return all;
+        }
+        let ends = self.chord(solid, ray).map(ends_of_chord);
+        ends.into_iter().flatten().filter(|met| met.t != f64::INFINITY).collect()
+    }
+
+    /// Where the ray's line enters and leaves what is no body.
+    #[inline(always)]
+    pub(super) fn chord(&self, solid: &Solid, ray: &Ray) -> Option<Chord> {
         solid.compiled();
-        let chord = match solid {
+        match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),
             Solid::Box(i) => self.boxes[*i as usize].0.chord(ray),
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
-            Solid::Placed(i) => {
-                let placed = &self.placed[*i as usize];
-                let mut all = placed.crossings_of_part(ray);
-                let inside = match all.first() {
-                    Some(first) => first.leaving && !placed.body.is_sheet(),
-                    None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
-                };
-                if inside {
-                    all.insert(0, from_inside);
-                }
-                return all;
-            }
-            // A whole's leaves are no wholes.
-            Solid::Whole(_) => None,
-        };
-        let Some(Chord { enter, leave }) = chord else { return Crossings::new() };
-        let enter = if enter.t.is_finite() { met(enter, false) } else { from_inside };
-        let leave = leave.t.is_finite().then_some(met(leave, true));
-        [Some(enter), leave].into_iter().flatten().collect()
+            // A body may be crossed more often, and a whole's leaves are no wholes.
+            Solid::Placed(_) | Solid::Whole(_) => None,
+        }
     }
 
     /// The crossings with those leaves of a whole that `counts`, in order, as hits.
@@ -194,9 +304,14 @@ impl Geometry {
         limit: f64,
         counts: fn(&Entry) -> bool,
     ) -> Option<(Crossing, bool)> {
-        let ahead = |hit: &Hit| Crossing { t: hit.t, error: hit.error }.is_ahead();
-        let hit = self.seen_of_whole(whole, ray, counts).find(ahead)?;
-        (hit.t <= limit).then_some((Crossing { t: hit.t, error: hit.error }, hit.leaving))
+        let whole = &self.wholes[whole as usize];
+        let events = self.events(whole, ray);
+        let mut seen = events.iter().filter(|event| {
+            let leaf = &whole.leaves[event.leaf as usize];
+            leaf.sides.see(&event.met) && counts(leaf)
+        });
+        let Event { met, .. } = seen.next()?;
+        (met.t <= limit).then_some((met.crossing(), met.leaving))
     }
 
     /// The object that is met where an entry is: of a whole, one of its leaves.
@@ -227,5 +342,44 @@ impl Geometry {
         let (object, contested) =
             part.map_or((entry.object, false), |hit| (hit.object, hit.contested));
         Hit { object, contested, ..entry.hit(crossing, leaving) }
+    }
+}
+
+/// Where a line enters what it comes from inside of.
+const FROM_INSIDE: Met =
+    Met { t: f64::NEG_INFINITY, error: 0.0, leaving: false, part: Met::UNSEEN };
+
+/// Where a line enters and leaves; at ∞ where it does not.
+fn ends_of_chord(Chord { enter, leave }: Chord) -> [Met; 2] {
+    let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
+    let enter = if enter.t.is_finite() { met(enter, false) } else { FROM_INSIDE };
+    [enter, met(leave, true)]
+}
+
+/// Whether a line enters and leaves in one place, as far as rounding tells.
+fn is_grazed(enter: &Met, leave: &Met) -> bool {
+    let is_one = leave.t - leave.error <= enter.t + enter.error;
+    !enter.leaving && leave.leaving && is_one && enter.t.is_finite()
+}
+
+/// Adds those crossings of a leaf that are, or begin or end what is, from one place to another.
+fn add_events(leaf: u32, sheet: bool, all: &[Met], (low, high): (f64, f64), events: &mut Events) {
+    let mut last = None;
+    for stretch in all.chunks(if sheet { 1 } else { 2 }) {
+        let begin = stretch.first().map_or(f64::INFINITY, |met| met.t);
+        let end = match stretch {
+            [_, .., end] => end.t,
+            [only] if sheet => only.t,
+            _ => f64::INFINITY,
+        };
+        if begin > high || end < low {
+            continue;
+        }
+        for &met in stretch {
+            // 0 and −0 are one place: what ends there has begun before.
+            let met = Met { t: met.t + 0.0, ..met };
+            events.push(Event { met, leaf, sheet, last, shared: false });
+            last = Some(met.t);
+        }
     }
 }

@@ -78,11 +78,7 @@ impl Geometry {
             Solid::Sphere(_) | Solid::Plane(_) | Solid::Box(_) => 1,
             Solid::Ellipsoid(_) => 3,
             Solid::Placed(i) => self.placed[i as usize].body.price(),
-            Solid::Whole(i) => {
-                let price =
-                    |leaf: &u32| self.price(&self.wholes[i as usize].leaves[*leaf as usize]);
-                self.wholes[i as usize].price(price)
-            }
+            Solid::Whole(i) => self.wholes[i as usize].price,
         }
     }
 }

@@ -82,6 +82,11 @@ impl State {
     fn stays(self) -> bool {
         self.before && self.after
     }
+
+    /// Whether it may be anything to what it is a part of.
+    fn counts(self) -> bool {
+        self.changes() || self.shown.is_some()
+    }
 }
 
 /// The nodes, each of which knows what it is a part of: where a line crosses few of many leaves, only
@@ -169,43 +174,69 @@ impl Tree {
         place: Range<usize>,
         changes: &mut SmallVec<[Change; 8]>,
     ) -> Option<usize> {
-        let mut whole = None;
-        for number in place {
-            let event = &events[number];
-            let (part, inverse) = self.leaves[event.leaf as usize];
-            let inside = |raw: bool| (raw && !event.sheet) != inverse;
-            let state = State {
-                before: inside(event.met.leaving),
-                after: inside(!event.met.leaving),
-                shown: Some((!event.met.is_seen(), event.leaf, number)),
-            };
-            match self.operations.is_empty() {
-                true => whole = state.shown,
-                false => changes.push(Change { part, state }),
-            }
+        if self.operations.is_empty() {
+            return place.last();
         }
+        if place.len() == 1 {
+            return self.pass_one(counts, &events[place.start], place.start);
+        }
+        changes.extend(place.map(|number| self.change(&events[number], number)));
         // The last operation first: the next is at the end.
-        if changes.len() > 1 {
-            changes.sort_unstable_by_key(|change| std::cmp::Reverse(change.part.operation));
-        }
+        changes.sort_unstable_by_key(|change| std::cmp::Reverse(change.part.operation));
         // The operations in order, so that of each all parts are known.
+        let mut whole = None;
         while let Some(operation) = changes.last().map(|change| change.part.operation) {
             let first = changes.partition_point(|change| change.part.operation > operation);
-            let Operation { node, part } = self.operations[operation as usize];
-            let count = &mut counts[operation as usize];
-            let sums = Sums::new(*count, &changes[first..]);
-            let state = node.state(&sums, &changes[first..]);
-            *count = sums.after;
+            let (state, part) = self.change_operation(counts, operation, &changes[first..]);
             changes.truncate(first);
             match part {
                 None => whole = state.shown,
-                Some(part) if state.changes() || state.shown.is_some() => {
-                    push(changes, Change { part, state });
-                }
+                Some(part) if state.counts() => push(changes, Change { part, state }),
                 Some(_) => {}
             }
         }
         whole.map(|(_, _, number)| number)
+    }
+
+    /// Of one event: in each operation above it one part changes.
+    fn pass_one(&self, counts: &mut [u32], event: &Event, number: usize) -> Option<usize> {
+        let mut change = self.change(event, number);
+        loop {
+            let operation = change.part.operation;
+            let (state, part) = self.change_operation(counts, operation, &[change]);
+            change = match part {
+                None => return state.shown.map(|(_, _, number)| number),
+                Some(part) if state.counts() => Change { part, state },
+                Some(_) => return None,
+            };
+        }
+    }
+
+    /// What a leaf is at an event of that number.
+    fn change(&self, event: &Event, number: usize) -> Change {
+        let (part, inverse) = self.leaves[event.leaf as usize];
+        let inside = |raw: bool| (raw && !event.sheet) != inverse;
+        let state = State {
+            before: inside(event.met.leaving),
+            after: inside(!event.met.leaving),
+            shown: Some((!event.met.is_seen(), event.leaf, number)),
+        };
+        Change { part, state }
+    }
+
+    /// What an operation is where some of its parts change, and what it is a part of.
+    #[inline(always)]
+    fn change_operation(
+        &self,
+        counts: &mut [u32],
+        operation: u32,
+        changes: &[Change],
+    ) -> (State, Option<Part>) {
+        let Operation { node, part } = self.operations[operation as usize];
+        let count = &mut counts[operation as usize];
+        let sums = Sums::new(*count, changes);
+        *count = sums.after;
+        (node.state(&sums, changes), part)
     }
 }
 
