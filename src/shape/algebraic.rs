@@ -22,7 +22,7 @@ use ends::{Ends, Remembered};
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
-use crate::math::roots::polynomial::{MOST, Polynomial};
+use crate::math::roots::polynomial::{Asked, MOST, Polynomial};
 use crate::math::terms::{count_of_terms, exponents};
 
 const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -126,8 +126,15 @@ fn about<'a>(ray: &LocalRay<'a>, s: f64) -> LocalRay<'a> {
     LocalRay { nearest, blur, ..*ray }
 }
 
-impl Local for Algebraic {
-    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+impl Algebraic {
+    /// In order, the crossings that may lie between two places, as long as `is_enough` says so of none.
+    fn meet(
+        &self,
+        ray: &LocalRay,
+        (from, to): (f64, f64),
+        found: &mut Crossings,
+        is_enough: impl Fn(&Met) -> bool,
+    ) {
         let (mut line, mut start) = (*ray, 0.0);
         let mut polynomial = self.along_ray(ray);
         if let Some(vertex) = polynomial.doubtful_vertex() {
@@ -135,13 +142,33 @@ impl Local for Algebraic {
             line = about(ray, vertex);
             (polynomial, start) = (self.along_ray(&line), vertex);
         }
-        let size = line.nearest.length().max(1.0);
-        let roots = polynomial.roots(size, ray.tolerance);
-        found.extend(roots.into_iter().map(|root| {
+        let (size, end) = match self.ends() {
+            Some(ends) => {
+                let end = ends.half_chord(line.nearest.length() - line.blur);
+                (2.0 * end, end)
+            }
+            None => (line.nearest.length().max(1.0), f64::INFINITY),
+        };
+        let between = (from - start, to - start);
+        let asked = Asked { size, end, tolerance: ray.tolerance, between };
+        polynomial.roots(&asked, &mut |root| {
             let t = start + root.s;
             let error = root.error + if start == 0.0 { 0.0 } else { U * t.abs() };
-            Met { t, error, leaving: root.rising, part: 0 }
-        }));
+            let met = Met { t, error, leaving: root.rising, part: 0 };
+            found.push(met);
+            !is_enough(&met)
+        });
+    }
+}
+
+impl Local for Algebraic {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.meet(ray, ENDLESS, found, |_| false);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
+        let ahead = ray.ahead_of(from);
+        self.meet(ray, (from, to), found, |met| met.t - met.error > ahead);
     }
 
     fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {

@@ -139,6 +139,12 @@ impl LocalRay<'_> {
         self.nearest + self.direction * s
     }
 
+    /// From where on a crossing is certainly ahead of a ray of which `first_crossings` is told that it starts at
+    /// `from`: [`Seen::place`] tells that as far before the start as that may be off.
+    pub fn ahead_of(&self, from: f64) -> f64 {
+        from + 4.0 * (self.blur + self.turn * self.nearest.length() + 8.0 * U * from.abs())
+    }
+
     /// How far the meant line may be from this one at s.
     pub fn blur_at(&self, s: f64) -> f64 {
         self.blur + self.turn * s.abs()

@@ -14,11 +14,14 @@
 //! Computer Graphics 5 (2022); N. Higham, *Accuracy and Stability of Numerical Algorithms* (2002), ch. 5.
 
 mod bernstein;
+mod formula;
+mod turning;
 
 use smallvec::SmallVec;
 
 use crate::math::double::{power_of_two, power_of_two_near};
 use bernstein::{Form, Signs};
+pub use turning::turning_points;
 
 /// The greatest degree.
 pub const MOST: usize = 15;
@@ -42,8 +45,21 @@ pub struct Root {
 /// At most one for each degree.
 pub type Roots = SmallVec<[Root; 6]>;
 
+/// What is asked of a polynomial.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// About how far from 0 most roots are to be expected: it costs time where it is far from right, and nothing
+    /// else.
+    pub size: f64,
+    /// Whatever polynomial was meant, it has no root farther from 0 than this; ∞ where that is not known.
+    pub end: f64,
+    /// A root nearer than the size need be found no better than this.
+    pub tolerance: f64,
+    /// Those that are certainly elsewhere may be left out. It changes no bit of others.
+    pub between: (f64, f64),
+}
+
 type Brackets = SmallVec<[Bracket; 6]>;
-type Changes = SmallVec<[Change; 6]>;
 /// Places at which it is looked.
 type Marks = SmallVec<[f64; 16]>;
 
@@ -83,58 +99,36 @@ impl Polynomial {
         Self { values, slack, degree }
     }
 
-    /// Where it changes its sign on the whole line, in order. `size` is about how far from 0 most of them
-    /// are to be expected: it costs time where it is far from right, and nothing else. A root nearer than
-    /// that need be found no better than `tolerance`.
-    pub fn roots(&self, size: f64, tolerance: f64) -> Roots {
-        if let Some(roots) = self.roots_of_parabola() {
-            return roots;
+    /// Shows where it changes its sign, in order, as long as `show` wants more.
+    pub fn roots(&self, asked: &Asked, show: &mut impl FnMut(Root) -> bool) {
+        let Asked { size, end, tolerance, between: (from, to) } = *asked;
+        if let Some(guesses) = self.by_formula() {
+            for (guess, change) in guesses.into_iter().filter(|(_, change)| change.high >= from) {
+                if change.low > to || !show(self.near(guess, change, tolerance).root(1.0)) {
+                    return;
+                }
+            }
+            return;
         }
-        let mut roots = Roots::new();
-        let Some((near, scale)) = self.parted(size) else { return roots };
-        let far = near.reversed();
+        let Some((near, scale)) = self.parted(size) else { return };
+        let far = (scale < end).then(|| near.reversed());
         let odd = near.degree % 2 == 1;
-        // From −∞ to −σ: w = σ/s goes from 0 down to −1.
-        let before = far.between((-1.0, 0.0), 0.0).into_iter().rev();
-        roots.extend(before.filter_map(|bracket| bracket.outer(scale, odd)));
-        let within = near.between((-1.0, 1.0), tolerance / scale);
-        roots.extend(within.into_iter().map(|bracket| bracket.root(scale)));
-        let behind = far.between((0.0, 1.0), 0.0).into_iter().rev();
-        roots.extend(behind.filter_map(|bracket| bracket.outer(scale, false)));
-        roots
-    }
-
-    /// Those of degree 2 by the formula, each then held to its sign on both sides; `None` where it is of
-    /// another degree, or its ends or its middle tell nothing.
-    fn roots_of_parabola(&self) -> Option<Roots> {
-        let [c, b, a, ..] = self.values;
-        if self.degree != 2 || a == 0.0 {
-            return None;
+        if let Some(far) = far.as_ref().filter(|_| from < -scale) {
+            // From −∞ to −σ: w = σ/s goes from 0 down to −1.
+            let before = far.all_between((-1.0, 0.0)).into_iter().rev();
+            if !before.filter_map(|bracket| bracket.outer(scale, odd)).all(&mut *show) {
+                return;
+            }
         }
-        let opens_up = a > 0.0;
-        let outside = if opens_up { 1 } else { -1 };
-        let middle = -0.5 * b / a;
-        let discriminant = b * b - 4.0 * a * c;
-        let root = discriminant.max(0.0).sqrt();
-        // Both half as far beyond each root as they are apart.
-        let width = root / a.abs();
-        let (low, high) = (middle - width, middle + width);
-        if self.sign(low) != outside || self.sign(high) != outside {
-            return None;
+        let asked = (from / scale, to / scale);
+        let within = &mut |bracket: Bracket| show(bracket.root(scale));
+        if !near.between((-1.0, 1.0), tolerance / scale, asked, within) {
+            return;
         }
-        if self.sign(middle) != -outside {
-            return Some(Roots::new());
+        if let Some(far) = far.filter(|_| to > scale) {
+            let behind = far.all_between((0.0, 1.0)).into_iter().rev();
+            behind.filter_map(|bracket| bracket.outer(scale, false)).all(show);
         }
-        // The farther root first: nothing cancels.
-        let q = -0.5 * (b + root.copysign(b));
-        let (one, other) = (q / a, c / q);
-        let (first, last) = if one < other { (one, other) } else { (other, one) };
-        let sides = [
-            (first, Change { low, high: middle, rising: !opens_up }),
-            (last, Change { low: middle, high, rising: opens_up }),
-        ];
-        let found = sides.map(|(s, change)| self.held(s, change, 0.0).root(1.0));
-        found.iter().all(|root| root.error.is_finite()).then(|| found.into_iter().collect())
     }
 
     /// The polynomial of s/σ, and a power of two σ near `size` where it is certainly not 0, nor at −σ. `None`
@@ -182,23 +176,49 @@ impl Polynomial {
         }
     }
 
-    /// The certain changes of sign from `low` to `high`, in order: −1, 0 or 1.
-    fn between(&self, (low, high): (f64, f64), tolerance: f64) -> Brackets {
-        let mut marks = Marks::from_slice(&[low]);
-        for (ends, way) in [((-1.0, 0.0), -1.0), ((0.0, 1.0), 1.0)] {
-            if low <= ends.0 && ends.1 <= high {
+    /// All certain changes of sign from `low` to `high`, in order: −1, 0 or 1.
+    fn all_between(&self, ends: (f64, f64)) -> Brackets {
+        let mut all = Brackets::new();
+        self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), &mut |bracket| {
+            all.push(bracket);
+            true
+        });
+        all
+    }
+
+    /// Shows those that are not certainly elsewhere than asked, as long as `show` wants more; whether there may
+    /// be others that are asked for behind.
+    fn between(
+        &self,
+        (low, high): (f64, f64),
+        tolerance: f64,
+        (from, to): (f64, f64),
+        show: &mut impl FnMut(Bracket) -> bool,
+    ) -> bool {
+        let mut before = None;
+        self.advance(&mut before, low);
+        let pieces = [((-1.0, 0.0), -1.0), ((0.0, 1.0), 1.0)];
+        for (ends, way) in pieces.into_iter().filter(|(ends, _)| low <= ends.0 && ends.1 <= high) {
+            if ends.0 > to {
+                return false;
+            }
+            let mut marks = Marks::new();
+            if ends.1 < from && self.sign(ends.1) != 0 {
+                marks.push(ends.1);
+            } else {
                 let all = ..=self.degree;
                 let form = Form::of(&self.values[all], &self.slack[all], way);
                 self.mark(&form, ends, HALVED, &mut marks);
             }
+            for at in marks {
+                let change = self.advance(&mut before, at).filter(|change| change.high >= from);
+                let Some(change) = change else { continue };
+                if change.low > to || !show(self.near(f64::NAN, change, tolerance)) {
+                    return false;
+                }
+            }
         }
-        let mut before = None;
-        let changes = marks.into_iter().filter_map(|at| self.advance(&mut before, at));
-        changes
-            .collect::<Changes>()
-            .into_iter()
-            .map(|change| self.root(change, tolerance))
-            .collect()
+        true
     }
 
     /// Adds places of a piece, the last its end, between which there is one root at most.
@@ -235,17 +255,15 @@ impl Polynomial {
         (old != sign).then_some(Change { low, high: at, rising: sign > 0 })
     }
 
-    /// The root at a change of sign, with as little around it as has certain signs at its ends, or no more
-    /// than `tolerance` to each side.
-    fn root(&self, change: Change, tolerance: f64) -> Bracket {
-        let s = root_between(&self.values[..=self.degree], change, tolerance);
-        self.held(s, change, tolerance)
-    }
-
-    /// As [`Self::root`], where about `s` is the root.
-    fn held(&self, s: f64, change: Change, tolerance: f64) -> Bracket {
-        let Change { low, high, rising } = change;
+    /// The root at a change of sign, perhaps near `guess`, with as little around it as has certain signs at its
+    /// ends, or no more than `tolerance` to each side.
+    fn near(&self, guess: f64, change: Change, tolerance: f64) -> Bracket {
         let values = &self.values[..=self.degree];
+        // That of a parabola is no guess.
+        let is_exact = self.degree == 2 && !guess.is_nan();
+        let s = if is_exact { guess } else { root_near(values, guess, change, tolerance) };
+        let tolerance = if is_exact { 0.0 } else { tolerance };
+        let Change { low, high, rising } = change;
         let (_, slope) = value_and_slope(values, s);
         let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
         let after = if rising { 1 } else { -1 };
@@ -307,79 +325,14 @@ impl Bracket {
     }
 }
 
-/// The least order of a derivative that certainly keeps its sign between two places: its coefficients in
-/// Bernstein's form, which are the differences of the polynomial's, have one sign.
-///
-/// **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5.
-fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize {
-    let degree = values.len() - 1;
-    let mut forms: SmallVec<[f64; 8]> = SmallVec::from_slice(values);
-    for first in 0..degree {
-        for k in (first..degree).rev() {
-            forms[k] += low * forms[k + 1];
-        }
-    }
-    let (mut power, mut choices) = (1.0, 1.0);
-    for (k, form) in forms.iter_mut().enumerate() {
-        *form *= power / choices;
-        power *= high - low;
-        choices *= (degree - k) as f64 / (k + 1) as f64;
-    }
-    for first in 1..=degree {
-        for k in (first..=degree).rev() {
-            forms[k] += forms[k - 1];
-        }
-    }
-    let mut rounding = 64.0 * U * forms.iter().fold(0.0, |most: f64, form| most.max(form.abs()));
-    for order in 1..degree {
-        forms = forms.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        rounding *= 2.0;
-        let rises = forms.iter().all(|form| *form > rounding);
-        if rises || forms.iter().all(|form| *form < -rounding) {
-            return order;
-        }
-    }
-    degree
-}
-
-/// Where the derivative is 0 between two places, in order, to rounding.
-pub fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
-    let degree = values.len() - 1;
-    let mut points: SmallVec<[f64; 8]> = SmallVec::new();
-    // Derivatives of falling order, from the first below one that has no roots; each over the factorial of its
-    // order, which has the same ones.
-    for order in (1..order_without_roots(values, low, high)).rev() {
-        let mut derivative = [0.0; MOST + 1];
-        let mut share = 1.0;
-        for j in order..=degree {
-            derivative[j - order] = share * values[j];
-            share *= (j + 1) as f64 / (j + 1 - order) as f64;
-        }
-        let derivative = &derivative[..=degree - order];
-        let mut found: SmallVec<[f64; 8]> = SmallVec::new();
-        let (mut from, mut below) = (low, value(derivative, low));
-        for &to in points.iter().chain([&high]) {
-            let above = value(derivative, to);
-            if above == 0.0 && to < high {
-                found.push(to);
-            } else if (below < 0.0 && above > 0.0) || (below > 0.0 && above < 0.0) {
-                let change = Change { low: from, high: to, rising: above > 0.0 };
-                found.push(root_between(derivative, change, 0.0));
-            }
-            (from, below) = (to, above);
-        }
-        points = found;
-    }
-    points
-}
-
-/// Where a polynomial changes its sign between two places at which it has opposite ones, or about within
-/// `tolerance` of it: by Newton's steps while they stay between the places known best, else by halves.
-fn root_between(values: &[f64], change: Change, tolerance: f64) -> f64 {
+/// Where a polynomial changes its sign between two places at which it has opposite ones, perhaps near `guess`, or
+/// about within `tolerance` of it: by Newton's steps while each is half as long as the one before and stays
+/// between the places known best, else by halves.
+fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 {
     let Change { mut low, mut high, rising } = change;
-    let mut s = 0.5 * (low + high);
-    // Newton's steps square the error at a simple root; at others halves have to do.
-    for turn in 0..128 {
+    let mut s = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
+    let mut step = high - low;
+    for _ in 0..128 {
         let (value, slope) = value_and_slope(values, s);
         if value == 0.0 {
             return s;
@@ -391,14 +344,15 @@ fn root_between(values: &[f64], change: Change, tolerance: f64) -> f64 {
         }
         let newton = s - value / slope;
         let middle = 0.5 * (low + high);
-        let halve = turn % 4 == 3 || !(newton > low && newton < high);
-        let next = if halve { middle } else { newton };
+        let is_fast = 2.0 * (newton - s).abs() <= step && newton > low && newton < high;
+        let next = if is_fast { newton } else { middle };
         if (newton - s).abs() <= (U * s.abs()).max(0.5 * tolerance)
             || next == low && middle == low
             || next == high
         {
             return s;
         }
+        step = (next - s).abs();
         s = next;
     }
     s
@@ -408,7 +362,7 @@ fn root_between(values: &[f64], change: Change, tolerance: f64) -> f64 {
 pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let (below, above) = (value(values, low), value(values, high));
     let change = Change { low, high, rising: above > 0.0 };
-    (below * above < 0.0).then(|| root_between(values, change, 0.0))
+    (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0))
 }
 
 fn value(values: &[f64], s: f64) -> f64 {

@@ -108,6 +108,13 @@ impl Ends {
         (middle - half, middle + half)
     }
 
+    /// How far from the place that is nearest to the origin, at a distance of at least `nearest`, a line may be in
+    /// the ball around the origin that holds it.
+    pub fn half_chord(&self, nearest: f64) -> f64 {
+        let reach = self.reach();
+        ((reach - nearest) * (reach + nearest)).max(0.0).sqrt() * (1.0 + ROUNDINGS * U)
+    }
+
     /// The radius of a ball around the origin that holds it.
     pub fn reach(&self) -> f64 {
         let farthest = (self.centre.abs() + self.half).length();

@@ -1,0 +1,110 @@
+//! Formula: where a parabola or a cubic changes its sign, by a closed formula for its roots.
+//!
+//! **Out:** all changes of its sign, in order, each between two places where that is certain, and about where.
+//! **Invariant:** nothing is said unless signs at the places where it turns, and beyond all of its roots, prove
+//! that there are no others.
+
+use smallvec::SmallVec;
+
+use super::{Change, Polynomial, value};
+use crate::math::elementary::cbrt;
+
+/// About where, and between which places.
+pub type Guesses = SmallVec<[(f64, Change); 3]>;
+
+impl Polynomial {
+    /// `None` where it is of another degree, or its ends or the places where it turns tell nothing.
+    pub(super) fn by_formula(&self) -> Option<Guesses> {
+        match self.degree {
+            2 => self.of_parabola(),
+            3 => self.of_cubic(),
+            _ => None,
+        }
+    }
+
+    fn of_parabola(&self) -> Option<Guesses> {
+        let [c, b, a, ..] = self.values;
+        let opens_up = a > 0.0;
+        let outside = if opens_up { 1 } else { -1 };
+        let middle = -0.5 * b / a;
+        let discriminant = b * b - 4.0 * a * c;
+        let root = discriminant.max(0.0).sqrt();
+        // Both half as far beyond each root as they are apart.
+        let width = root / a.abs();
+        let (low, high) = (middle - width, middle + width);
+        if self.sign(low) != outside || self.sign(high) != outside {
+            return None;
+        }
+        if self.sign(middle) != -outside {
+            return Some(Guesses::new());
+        }
+        // The farther root first: nothing cancels.
+        let q = -0.5 * (b + root.copysign(b));
+        let (one, other) = (q / a, c / q);
+        let (first, last) = if one < other { (one, other) } else { (other, one) };
+        let sides = [
+            (first, Change { low, high: middle, rising: !opens_up }),
+            (last, Change { low: middle, high, rising: opens_up }),
+        ];
+        (first.is_finite() && last.is_finite()).then(|| sides.into_iter().collect())
+    }
+
+    /// About its middle, and over how far from there it turns, it is y³ ∓ 3y + 2r.
+    ///
+    /// **Source:** W. Press and others, *Numerical Recipes in C* (1992), § 5.6 (Cardano's formula); the three
+    /// roots by their distance from where two of them would meet.
+    fn of_cubic(&self) -> Option<Guesses> {
+        let [_, c, b, a, ..] = self.values;
+        let middle = -b / (3.0 * a);
+        let turn = middle * middle - c / (3.0 * a);
+        let width = turn.abs().sqrt();
+        let r = 0.5 * value(&self.values[..=3], middle) / (a * width * turn.abs());
+        let outside = if a > 0.0 { 1 } else { -1 };
+        let place = |y: f64| middle + width * y;
+        let sign = |y: f64| self.sign(place(y)) * outside;
+        let change = |low: f64, guess: f64, high: f64| {
+            let rising = sign(low) < 0;
+            let change = Change { low: place(low), high: place(high), rising: rising == (a > 0.0) };
+            (sign(low) * sign(high) < 0).then_some((place(guess), change))
+        };
+        let one = |root: Option<(f64, Change)>| root.map(|root| Guesses::from_iter([root]));
+        let far = |square: f64| cbrt(r.abs() + square.sqrt());
+        if turn < 0.0 {
+            let far = far(r * r + 1.0);
+            let y = (1.0 / far - far).copysign(-r);
+            let reach = 1.0 + 2.0 * y.abs();
+            return one(change(-reach, y, reach));
+        }
+        match (sign(-1.0), sign(1.0)) {
+            (1, -1) => {
+                let [first, second, third] = three_roots(r);
+                let roots = [
+                    change(-2.25, first, -1.0)?,
+                    change(-1.0, second, 1.0)?,
+                    change(1.0, third, 2.25)?,
+                ];
+                Some(Guesses::from_iter(roots))
+            }
+            (before, behind) if before * behind > 0 => {
+                let far = far(r * r - 1.0);
+                let y = far + 1.0 / far;
+                if before > 0 {
+                    one(change(-2.0 * y, -y, -1.0))
+                } else {
+                    one(change(1.0, y, 2.0 * y))
+                }
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Of y³ − 3y + 2r for |r| ≤ 1, in order, about to a hundredth.
+fn three_roots(r: f64) -> [f64; 3] {
+    // At 1 two of them meet in 1.
+    let apart = (1.0 - r.abs()).max(0.0).sqrt();
+    let alone = -1.732 - 0.268 * r.abs();
+    let (near, far) =
+        (1.0 - apart * (0.8165 + 0.1835 * apart), 1.0 + apart * (0.8165 - 0.0844 * apart));
+    if r < 0.0 { [-far, -near, -alone] } else { [alone, near, far] }
+}

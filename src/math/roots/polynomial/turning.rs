@@ -1,0 +1,74 @@
+//! Turning points: where a polynomial's derivative is 0, found derivative by derivative from the last up.
+//!
+//! **Source:** C. Yuksel, "High-performance polynomial root finding for graphics", Proceedings of the ACM on
+//! Computer Graphics 5 (2022).
+
+use smallvec::SmallVec;
+
+use super::{Change, MOST, U, root_near, value};
+
+/// The least order of a derivative that certainly keeps its sign between two places: its coefficients in
+/// Bernstein's form, which are the differences of the polynomial's, have one sign.
+///
+/// **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5.
+pub(super) fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize {
+    let degree = values.len() - 1;
+    let mut forms: SmallVec<[f64; 8]> = SmallVec::from_slice(values);
+    for first in 0..degree {
+        for k in (first..degree).rev() {
+            forms[k] += low * forms[k + 1];
+        }
+    }
+    let (mut power, mut choices) = (1.0, 1.0);
+    for (k, form) in forms.iter_mut().enumerate() {
+        *form *= power / choices;
+        power *= high - low;
+        choices *= (degree - k) as f64 / (k + 1) as f64;
+    }
+    for first in 1..=degree {
+        for k in (first..=degree).rev() {
+            forms[k] += forms[k - 1];
+        }
+    }
+    let mut rounding = 64.0 * U * forms.iter().fold(0.0, |most: f64, form| most.max(form.abs()));
+    for order in 1..degree {
+        forms = forms.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        rounding *= 2.0;
+        let rises = forms.iter().all(|form| *form > rounding);
+        if rises || forms.iter().all(|form| *form < -rounding) {
+            return order;
+        }
+    }
+    degree
+}
+
+/// Where the derivative is 0 between two places, in order, to rounding.
+pub fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
+    let degree = values.len() - 1;
+    let mut points: SmallVec<[f64; 8]> = SmallVec::new();
+    // Derivatives of falling order, from the first below one that has no roots; each over the factorial of its
+    // order, which has the same ones.
+    for order in (1..order_without_roots(values, low, high)).rev() {
+        let mut derivative = [0.0; MOST + 1];
+        let mut share = 1.0;
+        for j in order..=degree {
+            derivative[j - order] = share * values[j];
+            share *= (j + 1) as f64 / (j + 1 - order) as f64;
+        }
+        let derivative = &derivative[..=degree - order];
+        let mut found: SmallVec<[f64; 8]> = SmallVec::new();
+        let (mut from, mut below) = (low, value(derivative, low));
+        for &to in points.iter().chain([&high]) {
+            let above = value(derivative, to);
+            if above == 0.0 && to < high {
+                found.push(to);
+            } else if (below < 0.0 && above > 0.0) || (below > 0.0 && above < 0.0) {
+                let change = Change { low: from, high: to, rising: above > 0.0 };
+                found.push(root_near(derivative, f64::NAN, change, 0.0));
+            }
+            (from, below) = (to, above);
+        }
+        points = found;
+    }
+    points
+}
