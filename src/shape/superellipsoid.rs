@@ -3,7 +3,8 @@
 //!
 //! No power is taken of a number above 1 but to an exponent below 1, so however small the exponents, there
 //! is nothing that overflows or vanishes. Where both are 2 or less, the gauge is a norm, and convex; else
-//! the body is hollowed out toward its axes, and a line may cross it often.
+//! the body is hollowed out toward its axes, and a line may cross it often, but only where it is in the *hull*,
+//! the body of the same exponents or 2. Where both are 2 or more, the gauge is concave in each eighth of space.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -11,11 +12,11 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::power::Power;
 use crate::math::roots::bracket::{Root, Sample};
-use crate::math::roots::convex::{Tangent, chord};
+use crate::math::roots::convex::{Dip, Tangent, dip};
 use crate::math::roots::monotone::Walk;
 
 /// The line is followed in a box so much greater than the body's.
-const AROUND: f64 = 1.25;
+const AROUND: f64 = 1.0625;
 
 /// A greater gauge is as good as this.
 const MOST: f64 = 1e100;
@@ -33,13 +34,21 @@ struct Slopes {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Superellipsoid {
+    norms: Norms,
+    slopes: Slopes,
+    /// Of the least convex body of such a kind around it.
+    hull: Norms,
+}
+
+/// A gauge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Norms {
     east: f64,
     north: f64,
     /// Of x and y, with p = 2/e.
     round: Norm,
     /// Of that and z, with q = 2/n.
     tall: Norm,
-    slopes: Slopes,
 }
 
 /// (aᵖ + bᵖ)^1/p for a, b ≥ 0.
@@ -77,21 +86,18 @@ struct Gauge {
     parts: Vector,
 }
 
-impl Superellipsoid {
-    /// Both exponents are more than 0.
-    pub fn new(east: f64, north: f64) -> Self {
-        let (round, tall) = (Norm::new(0.5 * east), Norm::new(0.5 * north));
-        let (p, q) = (round.exponent, tall.exponent);
-        let slopes = Slopes {
-            round: Power::new(p - 1.0),
-            tall: Power::new(q - 1.0),
-            tall_over_round: Power::new(q - p),
-        };
-        Self { east, north, round, tall, slopes }
+impl Norms {
+    fn new(east: f64, north: f64) -> Self {
+        Self { east, north, round: Norm::new(0.5 * east), tall: Norm::new(0.5 * north) }
     }
 
     fn is_convex(&self) -> bool {
         self.east.max(self.north) <= 2.0
+    }
+
+    /// In each eighth of space.
+    fn is_concave(&self) -> bool {
+        self.east.min(self.north) >= 2.0
     }
 
     fn gauge(&self, Vector { x, y, z }: Vector) -> Gauge {
@@ -148,6 +154,20 @@ impl Superellipsoid {
         let slope_error = (U * (32.0 + 16.0 * edges) + 2.0 * ray.turn).min(4.0);
         Tangent { at: Sample { value: value - 1.0, slope, error }, slope_error }
     }
+}
+
+impl Superellipsoid {
+    /// Both exponents are more than 0.
+    pub fn new(east: f64, north: f64) -> Self {
+        let norms = Norms::new(east, north);
+        let (p, q) = (norms.round.exponent, norms.tall.exponent);
+        let slopes = Slopes {
+            round: Power::new(p - 1.0),
+            tall: Power::new(q - 1.0),
+            tall_over_round: Power::new(q - p),
+        };
+        Self { norms, slopes, hull: Norms::new(east.min(2.0), north.min(2.0)) }
+    }
 
     /// The least and the greatest of each coordinate's size between two places; none changes its sign there.
     fn sizes(ray: &LocalRay, Interval { low, high }: Interval) -> [Vector; 2] {
@@ -159,8 +179,8 @@ impl Superellipsoid {
 
     /// What the gauge may be, less 1: it grows with each coordinate's size.
     fn range(&self, sizes: [Vector; 2]) -> Interval {
-        let [least, most] = sizes.map(|place| self.gauge(place).value);
-        let rounding = self.rounding();
+        let [least, most] = sizes.map(|place| self.norms.gauge(place).value);
+        let rounding = self.norms.rounding();
         Interval { low: least * (1.0 - rounding) - 1.0, high: most * (1.0 + rounding) - 1.0 }
     }
 
@@ -178,8 +198,8 @@ impl Superellipsoid {
             let speed = Interval { low: way - ray.turn, high: way + ray.turn };
             power(Interval { low: least[axis], high: most[axis] }, exponent) * speed
         };
-        let rounding = self.rounding();
-        let round = |v: Vector| self.round.of(v.x, v.y).0;
+        let rounding = self.norms.rounding();
+        let round = |v: Vector| self.norms.round.of(v.x, v.y).0;
         let round =
             Interval { low: round(least) * (1.0 - rounding), high: round(most) * (1.0 + rounding) };
         let Slopes { round: across, tall, tall_over_round } = self.slopes;
@@ -204,40 +224,72 @@ impl Superellipsoid {
         (enter < leave).then_some((enter, leave))
     }
 
+    /// Where the line enters what is convex, or leaves it.
+    fn end(&self, ray: &LocalRay, dip: &Dip, leaving: bool) -> Met {
+        let tangent = |s| self.norms.tangent(ray, s);
+        let Root { t, error } = match leaving {
+            false => dip.enter(tangent, ray.tolerance),
+            true => dip.leave(tangent, ray.tolerance),
+        };
+        Met { t, error, leaving, part: 0 }
+    }
+
+    /// Where the line is in the hull, at most; it is certainly outside at both ends.
+    fn in_hull(&self, ray: &LocalRay) -> Option<Dip> {
+        dip(|s| self.hull.tangent(ray, s), self.around(ray)?)
+    }
+
     /// Its parts in the eight corners of space are met one by one.
-    fn hollow(&self, ray: &LocalRay, (low, high): (f64, f64), found: &mut Crossings) {
+    fn hollow(&self, ray: &LocalRay, found: &mut Crossings) {
+        let Some((low, high)) = self.in_hull(ray).map(|dip| dip.around()) else { return };
         let zero = |axis: usize| -ray.nearest[axis] / ray.direction[axis];
         let mut ends = [low, zero(0), zero(1), zero(2), high];
         ends.sort_unstable_by(f64::total_cmp);
-        let mut walk = Walk::new(|s: f64| self.tangent(ray, s).at, ray.tolerance);
+        let sample = |s: f64| self.norms.tangent(ray, s).at;
+        let mut walk = Walk::new(sample, ray.tolerance);
         let mut note = |Root { t, error }: Root, leaving: bool| {
             found.push(Met { t, error, leaving, part: 0 });
         };
+        walk.note(low, true, &mut note);
         for pair in ends.windows(2) {
             let (from, to) = (pair[0].max(low), pair[1].min(high));
-            if from < to {
-                let ways = ray.at(0.5 * (from + to)).signum();
+            if !(from < to) {
+                continue;
+            }
+            let ways = ray.at(0.5 * (from + to)).signum();
+            let speeds = ray.direction * ways;
+            // Away from all three planes, or toward them, the gauge grows or falls.
+            let goes_one_way = speeds.min_element() > ray.turn || speeds.max_element() < -ray.turn;
+            // What is concave is nowhere less than at both of its ends.
+            let has_one_root = || {
+                let is_concave = self.norms.is_concave();
+                is_concave && (walk.sign_at(from) == Some(true) || sample(to).is_outside())
+            };
+            if !goes_one_way && !has_one_root() {
                 let value = |piece| self.range(Self::sizes(ray, piece));
                 let slope = |piece| self.slopes(ray, ways, Self::sizes(ray, piece));
                 walk.through((from, to), value, slope, &mut note);
+            } else if to < high {
+                walk.advance(to, &mut note);
             }
         }
-        self.plates(ray, found);
+        walk.note(high, true, &mut note);
+        self.plates(ray, (low, high), found);
     }
 
     /// Where the exponents are great, the body is a plate in the plane of two axes, so thin that of no number beside
     /// 0 the third coordinate is in it; a line that passes the plane there passes it all the same.
-    fn plates(&self, ray: &LocalRay, found: &mut Crossings) {
+    fn plates(&self, ray: &LocalRay, (low, high): (f64, f64), found: &mut Crossings) {
         let walked = found.len();
         for axis in 0..3 {
             let s = -ray.nearest[axis] / ray.direction[axis];
             let blur = ray.blur_at(s) + 4.0 * U * (1.0 + s.abs());
-            if !s.is_finite() {
+            if !(low < s && s < high) {
                 continue;
             }
             let mut place = ray.at(s).abs() + blur;
             place[axis] = 0.0;
-            let is_in = self.gauge(place).value * (1.0 + self.rounding()) < 1.0;
+            let is_in = self.norms.gauge(place).value * (1.0 + self.norms.rounding()) < 1.0;
             let error = blur / ray.direction[axis].abs();
             let (walked, _) = found.split_at(walked);
             let is_met = walked.iter().any(|met| (met.t - s).abs() <= met.error + error);
@@ -259,18 +311,36 @@ impl Superellipsoid {
 
 impl Local for Superellipsoid {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let Some(around) = self.around(ray) else { return };
-        if !self.is_convex() {
-            return self.hollow(ray, around, found);
+        if !self.norms.is_convex() {
+            return self.hollow(ray, found);
         }
-        let chord = chord(|s| self.tangent(ray, s), around, ray.tolerance);
-        let Some([enter, leave]) = chord else { return };
-        let met = |Root { t, error }, leaving| Met { t, error, leaving, part: 0 };
-        found.extend([met(enter, false), met(leave, true)]);
+        let Some(dip) = self.in_hull(ray) else { return };
+        found.extend([false, true].map(|leaving| self.end(ray, &dip, leaving)));
     }
 
-    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
-        self.is_convex().then_some(0)
+    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
+        if !self.norms.is_convex() {
+            return self.hollow(ray, found);
+        }
+        let Some(dip) = self.in_hull(ray) else { return };
+        let (before, behind) = dip.around();
+        if before > to || behind < from {
+            return;
+        }
+        if dip.inside() >= from {
+            let enter = self.end(ray, &dip, false);
+            found.push(enter);
+            if enter.t - enter.error > ray.ahead_of(from) {
+                return;
+            }
+        }
+        found.push(self.end(ray, &dip, true));
+    }
+
+    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+        // Plates are met in the planes of the axes alone.
+        let near = 8.0 * ray.blur_at(s) + 64.0 * U * (1.0 + s.abs());
+        (self.norms.is_convex() || ray.at(s).abs().min_element() > near).then_some(0)
     }
 
     fn height(&self, part: u32, point: Vector) -> Height {
@@ -283,8 +353,8 @@ impl Local for Superellipsoid {
                 error: U * point.length(),
             };
         }
-        let (value, gradient, _) = self.at(point);
-        Height { value: value - 1.0, gradient, error: self.rounding() * value }
+        let (value, gradient, _) = self.norms.at(point);
+        Height { value: value - 1.0, gradient, error: self.norms.rounding() * value }
     }
 
     /// The dual norm; of a body that is hollowed out, that of the least convex one around it.
@@ -293,7 +363,7 @@ impl Local for Superellipsoid {
     fn extent(&self, along: Vector) -> (f64, f64) {
         let dual = |exponent: f64| (1.0 - 0.5 * exponent).max(0.0);
         let Vector { x, y, z } = along.abs();
-        let (east, north) = (dual(self.east), dual(self.north));
+        let (east, north) = (dual(self.norms.east), dual(self.norms.north));
         let half = largest(largest(x, y, east), z, north);
         (-half, half)
     }
@@ -308,11 +378,11 @@ impl Local for Superellipsoid {
             let share = 0.5 - 0.5 * exponent;
             if share > 0.0 { largest(a, 1.0, share) } else { a.max(1.0) }
         };
-        farthest(farthest(1.0, self.east), self.north) * (1.0 + 16.0 * U)
+        farthest(farthest(1.0, self.norms.east), self.norms.north) * (1.0 + 16.0 * U)
     }
 
     fn numbers(&self) -> String {
-        format!(" {} {}", self.east, self.north)
+        format!(" {} {}", self.norms.east, self.norms.north)
     }
 
     fn is_iterated(&self) -> bool {
@@ -320,7 +390,7 @@ impl Local for Superellipsoid {
     }
 
     fn contains(&self, point: Vector) -> bool {
-        self.gauge(point.abs()).value < 1.0
+        self.norms.gauge(point.abs()).value < 1.0
     }
 }
 
@@ -343,6 +413,6 @@ impl Superellipsoid {
             let share = Double::of(exponent) * Double::of(0.5);
             most * (one + (least / most).pow(one / share)).pow(share)
         };
-        norm(norm(x.abs(), y.abs(), self.east), z.abs(), self.north) - one
+        norm(norm(x.abs(), y.abs(), self.norms.east), z.abs(), self.norms.north) - one
     }
 }

@@ -19,13 +19,28 @@ pub struct Tangent {
 
 type Place = (f64, Tangent);
 
+/// A place where the function is certainly negative, and the nearest known around it where it is certainly
+/// positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dip {
+    before: Place,
+    inside: f64,
+    behind: Place,
+}
+
 /// Where the function becomes negative and where it ceases to be; `tolerance` is how far each may be off
 /// beyond what the samples' errors ask for.
 pub fn chord(
     tangent: impl Fn(f64) -> Tangent,
-    (low, high): (f64, f64),
+    ends: (f64, f64),
     tolerance: f64,
 ) -> Option<[Root; 2]> {
+    let dip = dip(&tangent, ends)?;
+    Some([dip.enter(&tangent, tolerance), dip.leave(&tangent, tolerance)])
+}
+
+/// Where the function is negative, if it is anywhere between two places.
+pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64)) -> Option<Dip> {
     let (mut before, mut behind) = ((low, tangent(low)), (high, tangent(high)));
     if !(before.1.at.is_outside() && behind.1.at.is_outside()) {
         return None;
@@ -37,11 +52,7 @@ pub fn chord(
         let next = between(before, behind, &mut width)?;
         let here = tangent(next);
         if here.at.is_inside() {
-            let sample = |s| tangent(s).at;
-            // From outside, Newton's step does not reach beyond the root.
-            let toward = |(s, Tangent { at, .. }): Place| s - at.value / at.slope;
-            let end = |outer: Place| root(sample, (outer.0, next), toward(outer), tolerance);
-            return Some([end(outer_before), end(outer_behind)]);
+            return Some(Dip { before: outer_before, inside: next, behind: outer_behind });
         }
         // A slope of 0, or none, is as low as it goes.
         let (end, outer_end) = match here.at.slope {
@@ -53,6 +64,39 @@ pub fn chord(
         if here.at.is_outside() {
             *outer_end = *end;
         }
+    }
+}
+
+impl Dip {
+    /// It certainly holds what is negative.
+    pub fn around(&self) -> (f64, f64) {
+        (self.before.0, self.behind.0)
+    }
+
+    /// It is negative there.
+    pub fn inside(&self) -> f64 {
+        self.inside
+    }
+
+    /// Where the function becomes negative.
+    pub fn enter(&self, tangent: impl Fn(f64) -> Tangent, tolerance: f64) -> Root {
+        self.end(self.before, tangent, tolerance)
+    }
+
+    /// Where it ceases to be.
+    pub fn leave(&self, tangent: impl Fn(f64) -> Tangent, tolerance: f64) -> Root {
+        self.end(self.behind, tangent, tolerance)
+    }
+
+    fn end(
+        &self,
+        (outside, Tangent { at, .. }): Place,
+        tangent: impl Fn(f64) -> Tangent,
+        tolerance: f64,
+    ) -> Root {
+        // From outside, Newton's step does not reach beyond the root.
+        let start = outside - at.value / at.slope;
+        root(|s| tangent(s).at, (outside, self.inside), start, tolerance)
     }
 }
 

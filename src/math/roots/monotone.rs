@@ -36,16 +36,24 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
     /// Goes on to `s`; shows the root that lies before, and whether the function is positive behind it.
     pub fn advance(&mut self, s: f64, found: &mut impl FnMut(Root, bool)) {
         let here = (self.sample)(s);
-        let is_outside = here.is_outside();
-        if !(is_outside || here.is_inside()) {
-            return;
+        if here.is_outside() || here.is_inside() {
+            self.note(s, here.is_outside(), found);
         }
+    }
+
+    /// Goes on to `s`, where the function is known to be certain of its sign.
+    pub fn note(&mut self, s: f64, is_outside: bool, found: &mut impl FnMut(Root, bool)) {
         if let Some((before, was_outside)) = self.last.replace((s, is_outside))
             && was_outside != is_outside
         {
             let ends = if is_outside { (s, before) } else { (before, s) };
             found(root(&self.sample, ends, f64::NAN, self.tolerance), is_outside);
         }
+    }
+
+    /// Whether the function is certain of its sign at `s`, where it has been last, and positive.
+    pub fn sign_at(&self, s: f64) -> Option<bool> {
+        self.last.filter(|(last, _)| *last == s).map(|(_, is_outside)| is_outside)
     }
 
     /// Goes on from `low` to `high`, where it has been, by pieces in which the function has one sign or
@@ -75,7 +83,9 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
             }
             pieces = finer;
         }
-        self.advance(ends.0, found);
+        if self.sign_at(ends.0).is_none() {
+            self.advance(ends.0, found);
+        }
         for (_, high, _) in pieces {
             self.advance(high, found);
         }
