@@ -12,13 +12,14 @@
 //! test); T. Nishita, T. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches", SIGGRAPH
 //! 1990.
 
+mod foot;
 mod net;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;
-use net::{Net, Place, bounds};
+use net::{Across, Net, Place, bounds};
 use smallvec::SmallVec;
 
 /// No line that crosses a patch as far from grazing it as rounding tells needs so many pieces.
@@ -58,7 +59,7 @@ struct Piece {
 
 /// What a piece turns out to be.
 enum Seen {
-    /// It is beside the line.
+    /// It is beside the line, or beside that part of it which is asked for.
     Beside,
     /// The map from u and v to the distances from the line is nearly linear: times this, nearly the
     /// identity, within the second number.
@@ -114,39 +115,6 @@ impl BicubicPatch {
         let at = [u == 0.0, u + u_size == 1.0, v == 0.0, v + v_size == 1.0];
         (0..4).find(|&edge| self.tips[edge] && at[edge])
     }
-
-    /// The nearest place on the surface to a point that is near the given one; and its normal, of any length.
-    fn foot(&self, point: Vector, part: u32) -> (Vector, Vector) {
-        let (mut u, mut v) = (f64::from(part >> 15) / STEPS, f64::from(part & 0x7fff) / STEPS);
-        for _ in 0..6 {
-            let Place { point: here, along_u, along_v } = self.net.at(u, v);
-            let rest = point - here;
-            let (uu, uv, vv) = (along_u.dot(along_u), along_u.dot(along_v), along_v.dot(along_v));
-            let (ru, rv) = (rest.dot(along_u), rest.dot(along_v));
-            let determinant = uu * vv - uv * uv;
-            let step = ((ru * vv - rv * uv) / determinant, (rv * uu - ru * uv) / determinant);
-            if !(step.0.is_finite() && step.1.is_finite()) {
-                break;
-            }
-            (u, v) = ((u + step.0).clamp(0.0, 1.0), (v + step.1).clamp(0.0, 1.0));
-        }
-        (self.net.at(u, v).point, self.normal(u, v))
-    }
-
-    /// At a tip, and wherever else the ways along u and v are one, that of a place near it.
-    fn normal(&self, u: f64, v: f64) -> Vector {
-        let mut inward = 0.0;
-        for _ in 0..4 {
-            let near = |t: f64| t + (0.5 - t) * inward;
-            let Place { along_u, along_v, .. } = self.net.at(near(u), near(v));
-            let normal = along_v.cross(along_u);
-            if normal.length() > 1e-8 * self.reach * (along_u.length() + along_v.length()) {
-                return normal;
-            }
-            inward = if inward == 0.0 { 1e-6 } else { inward * 100.0 };
-        }
-        Vector::Z
-    }
 }
 
 impl Piece {
@@ -160,10 +128,13 @@ impl Piece {
         off(self.net.steps_along_u()) || off(self.net.steps_along_v())
     }
 
-    /// What can be told of it, where what is less than `off` is nothing.
-    fn look(&self, off: f64) -> Seen {
+    /// What can be told of it between two places along the line, where what is less than `off` is nothing.
+    fn look(&self, (from, to): (f64, f64), off: f64) -> Seen {
         let (low, high) = self.net.bounds();
         if low.x > off || low.y > off || high.x < -off || high.y < -off {
+            return Seen::Beside;
+        }
+        if low.z > to + off || high.z < from - off {
             return Seen::Beside;
         }
         let greatest = low.abs().max(high.abs());
@@ -210,17 +181,31 @@ impl Piece {
     ///
     /// **Error**: with M the inverse of the derivative and κ how far it is from linear, u and v are off by
     /// no more than |M|·off/(1 − κ), taken twice; the place along the line by that times the greatest derivative.
-    fn root(&self, whole: &Net, inverse: [[f64; 2]; 2], bend: f64, off: f64) -> Option<Root> {
+    fn root(
+        &self,
+        whole: &Net,
+        across: &Across,
+        inverse: [[f64; 2]; 2],
+        bend: f64,
+        off: f64,
+    ) -> Option<Root> {
         let Self { start, size, .. } = *self;
         let global = |x: [f64; 2]| [start[0] + x[0] * size[0], start[1] + x[1] * size[1]];
         let mut x = [0.5, 0.5];
         for _ in 0..32 {
             let [u, v] = global(x);
-            let Place { point, along_u, along_v } = whole.at(u, v);
-            let Some([[a, b], [c, d]]) = self::inverse(along_u * size[0], along_v * size[1]) else {
+            let [point, along_u, along_v] = across.at(u, v);
+            // Far less than what can be told.
+            if point[0].abs().max(point[1].abs()) <= off / 16.0 {
+                break;
+            }
+            let way = |along: [f64; 2], size: f64| Vector::new(along[0], along[1], 0.0) * size;
+            let Some([[a, b], [c, d]]) =
+                self::inverse(way(along_u, size[0]), way(along_v, size[1]))
+            else {
                 break;
             };
-            let step = [a * point.x + b * point.y, c * point.x + d * point.y];
+            let step = [a * point[0] + b * point[1], c * point[0] + d * point[1]];
             let next = [0, 1].map(|i| (x[i] - step[i]).clamp(-0.25, 1.25));
             let moved = (next[0] - x[0]).abs().max((next[1] - x[1]).abs());
             x = next;
@@ -273,8 +258,9 @@ fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
     inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
 }
 
-impl Local for BicubicPatch {
-    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+impl BicubicPatch {
+    /// The crossings that may lie between two places, in order.
+    fn meet(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
         // What the view rounds points by, what halving does and what a value does, generously.
         let size = self.reach + ray.nearest.length();
         let off = ray.blur_at(size) + 128.0 * U * size;
@@ -292,6 +278,7 @@ impl Local for BicubicPatch {
             Vector::new(from.dot(aside), from.dot(across), from.dot(direction))
         };
         let whole = self.net.map(seen);
+        let across = whole.across();
         let mut pieces: SmallVec<[Piece; 16]> = SmallVec::new();
         let mut count = 0;
         let placed = |number: usize| {
@@ -307,10 +294,10 @@ impl Local for BicubicPatch {
             if count > MOST_PIECES {
                 break;
             }
-            match piece.look(off) {
+            match piece.look(between, off) {
                 Seen::Beside => {}
                 Seen::Linear(inverse, bend) => {
-                    let root = piece.root(&whole, inverse, bend, off);
+                    let root = piece.root(&whole, &across, inverse, bend, off);
                     let new = root.filter(|root| !roots.iter().any(|other| other.is(root)));
                     roots.extend(new);
                 }
@@ -333,6 +320,25 @@ impl Local for BicubicPatch {
         }
         found.extend(roots.into_iter().map(|root| root.met));
         found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
+    }
+}
+
+impl Local for BicubicPatch {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.meet(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
+        self.meet(ray, between, found);
+    }
+
+    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+        let near = (self.reach + ray.nearest.length()) * f64::from(f32::EPSILON);
+        let mut found = Crossings::new();
+        self.meet(ray, (s - near, s + near), &mut found);
+        found.retain(|met| (met.t - s).abs() <= near);
+        let [met] = found[..] else { return None };
+        Some(met.part)
     }
 
     /// Over the tangent plane of the nearest place.

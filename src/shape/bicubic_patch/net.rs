@@ -19,6 +19,33 @@ pub(super) struct Place {
     pub along_v: Vector,
 }
 
+/// A net as seen along a line, across it alone: x and y.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Across([[f64; 2]; 16]);
+
+impl Across {
+    /// As [`Net::at`], bit for bit: the point, and the ways along u and v.
+    pub fn at(&self, u: f64, v: f64) -> [[f64; 2]; 3] {
+        let ((across, slope_u), (down, slope_v)) = (weights(u), weights(v));
+        let mut all = [[0.0; 2]; 3];
+        for (row, points) in self.0.chunks_exact(4).enumerate() {
+            for axis in 0..2 {
+                let weighed = |weights: [f64; 4]| {
+                    points[0][axis] * weights[0]
+                        + points[1][axis] * weights[1]
+                        + points[2][axis] * weights[2]
+                        + points[3][axis] * weights[3]
+                };
+                let point = weighed(across);
+                all[0][axis] += point * down[row];
+                all[1][axis] += weighed(slope_u) * down[row];
+                all[2][axis] += point * slope_v[row];
+            }
+        }
+        all
+    }
+}
+
 /// The values of the four polynomials that weigh points, and their slopes.
 fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let r = 1.0 - t;
@@ -52,6 +79,10 @@ impl Net {
             place.along_v += point * slope_v[row];
         }
         place
+    }
+
+    pub fn across(&self) -> Across {
+        Across(self.0.map(|point| [point.x, point.y]))
     }
 
     pub fn map(&self, f: impl Fn(Vector) -> Vector) -> Self {

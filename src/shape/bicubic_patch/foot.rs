@@ -1,0 +1,43 @@
+//! Foot: the place of a patch that is nearest to a point beside it, and which way the patch faces there.
+
+use super::net::Place;
+use super::{BicubicPatch, STEPS, U};
+use crate::math::Vector;
+
+impl BicubicPatch {
+    /// The nearest place on the surface to a point that is near the given one; and its normal, of any length.
+    pub(super) fn foot(&self, point: Vector, part: u32) -> (Vector, Vector) {
+        let (mut u, mut v) = (f64::from(part >> 15) / STEPS, f64::from(part & 0x7fff) / STEPS);
+        for _ in 0..6 {
+            let Place { point: here, along_u, along_v } = self.net.at(u, v);
+            let rest = point - here;
+            let (uu, uv, vv) = (along_u.dot(along_u), along_u.dot(along_v), along_v.dot(along_v));
+            let (ru, rv) = (rest.dot(along_u), rest.dot(along_v));
+            let determinant = uu * vv - uv * uv;
+            let step = ((ru * vv - rv * uv) / determinant, (rv * uu - ru * uv) / determinant);
+            if !(step.0.is_finite() && step.1.is_finite()) {
+                break;
+            }
+            (u, v) = ((u + step.0).clamp(0.0, 1.0), (v + step.1).clamp(0.0, 1.0));
+            if step.0.abs().max(step.1.abs()) <= U {
+                break;
+            }
+        }
+        (self.net.at(u, v).point, self.normal(u, v))
+    }
+
+    /// At a tip, and wherever else the ways along u and v are one, that of a place near it.
+    pub(super) fn normal(&self, u: f64, v: f64) -> Vector {
+        let mut inward = 0.0;
+        for _ in 0..4 {
+            let near = |t: f64| t + (0.5 - t) * inward;
+            let Place { along_u, along_v, .. } = self.net.at(near(u), near(v));
+            let normal = along_v.cross(along_u);
+            if normal.length() > 1e-8 * self.reach * (along_u.length() + along_v.length()) {
+                return normal;
+            }
+            inward = if inward == 0.0 { 1e-6 } else { inward * 100.0 };
+        }
+        Vector::Z
+    }
+}
