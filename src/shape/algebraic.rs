@@ -171,7 +171,7 @@ impl Local for Algebraic {
         self.meet(ray, (from, to), found, |met| met.t - met.error > ahead);
     }
 
-    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+    fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {
         Some(0)
     }
 

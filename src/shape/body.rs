@@ -41,8 +41,8 @@ pub trait Local {
         self.crossings(ray, found);
     }
 
-    /// The part of the surface that the line crosses at `s`, where that can be told at once.
-    fn part_at(&self, _ray: &LocalRay, _s: f64) -> Option<u32> {
+    /// The part of the surface by which the line enters at `s`, or leaves, where that can be told at once.
+    fn part_at(&self, _ray: &LocalRay, _s: f64, _leaving: bool) -> Option<u32> {
         None
     }
 
@@ -269,10 +269,10 @@ macro_rules! bodies {
                 }
             }
 
-            fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+            fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
                 self.compiled();
                 match self {
-                    $(Self::$kind(body) => body.part_at(ray, s),)*
+                    $(Self::$kind(body) => body.part_at(ray, s, leaving),)*
                 }
             }
 

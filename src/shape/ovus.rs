@@ -140,7 +140,7 @@ impl Local for Ovus {
         found.extend([met(enter, false), met(leave, true)]);
     }
 
-    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+    fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {
         Some(0)
     }
 

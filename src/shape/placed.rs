@@ -70,7 +70,7 @@ impl Placed {
     fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
         let seen = Seen::new(self, ray, 0.0);
         let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
-        self.body.part_at(&seen.line, seen.place(t, 0.0)).unwrap_or_else(found)
+        self.body.part_at(&seen.line, seen.place(t, 0.0), leaving).unwrap_or_else(found)
     }
 
     /// The crossing at `t`, or the nearest to it.

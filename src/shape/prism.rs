@@ -5,23 +5,19 @@
 //! is a polynomial of the outline's own degree, so the ray meets the walls where the outline changes sides.
 
 mod ends;
+mod ruled;
 mod wall;
-
-use std::cell::Cell;
 
 use smallvec::SmallVec;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
-use super::curve::{Change, Outline, Path, Piece, Point, Side, walk};
+use super::curve::{Outline, Path, Point, walk};
 use super::cylinder::{BASE, CAP, between};
 use crate::math::Vector;
-use crate::math::roots::bracket::Sample;
 use ends::{after, before, entered, high, low, reversed};
+use ruled::{Ruled, WALLS, Wall, part_of};
 use wall::beside;
-
-/// The part of the first piece's outside; one more is that side seen from within, and so on.
-const WALLS: u32 = 3;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prism {
@@ -35,151 +31,12 @@ pub struct Prism {
     pub open: bool,
 }
 
-/// A crossing with a wall.
-#[derive(Clone, Copy)]
-struct Wall {
-    s: f64,
-    error: f64,
-    piece: usize,
-    /// It is met where z is positive, if it narrows.
-    above: bool,
-    /// The line goes the way of the wall's normal.
-    along: bool,
-}
-
-impl Wall {
-    /// None that is met: one that ends a span at ±∞ or at the tip.
-    fn beyond(s: f64) -> Self {
-        Self { s, error: 0.0, piece: 0, above: true, along: true }
-    }
-
-    fn met(&self, leaving: bool) -> Met {
-        let part = WALLS + 2 * self.piece as u32 + u32::from(self.along != leaving);
-        Met { t: self.s, error: self.error, leaving, part }
-    }
-}
-
-/// A line through space as the walls see it.
-struct Ruled<'a> {
-    ray: &'a LocalRay<'a>,
-    conic: bool,
-    /// The line has been found to lie in a wall, as far as rounding tells.
-    in_wall: Cell<bool>,
-}
-
-impl Ruled<'_> {
-    /// The way of the wall's line through a place of the outline.
-    fn way(&self, [x, y]: Point) -> Vector {
-        if self.conic { Vector::new(x, y, 1.0) } else { Vector::Z }
-    }
-
-    /// The way from the ray's nearest point to the wall's line.
-    fn gap(&self, [x, y]: Point) -> Vector {
-        let n = self.ray.nearest;
-        if self.conic { -n } else { Vector::new(x - n.x, y - n.y, 0.0) }
-    }
-
-    /// With g the way of the wall's line and r the gap to it, the volume r·(d × g) has the sign of the side on
-    /// which the ray passes. **Error:** no line within the ray's blur meets the wall's line where the two are
-    /// farther apart than that: |r·(d × g)| > B·|d × g|, with B the blur where they are nearest, of which
-    /// |r × g|/|d × g| is the distance; a little more, as they are no parallels, as long as the ray is turned
-    /// by less than half of the angle between the two.
-    fn value(&self, point: Point) -> (f64, f64) {
-        let LocalRay { direction, blur, turn, .. } = *self.ray;
-        let (way, gap) = (self.way(point), self.gap(point));
-        let across = direction.cross(way);
-        let (sine, size) = (across.length(), gap.length() + 1.0);
-        let rounding = if self.conic { gap.length() * 2.0 } else { sine * size };
-        let error = 1.2 * (blur * sine + turn * gap.cross(way).length()) + 16.0 * U * rounding;
-        let is_told = turn * way.length() <= 0.5 * sine;
-        (gap.dot(across), if is_told { error } else { f64::INFINITY })
-    }
-
-    /// Where on the ray it is nearest to a wall's line.
-    fn place(&self, point: Point) -> f64 {
-        let way = self.way(point);
-        let across = self.ray.direction.cross(way);
-        self.gap(point).cross(way).dot(across) / across.length_squared()
-    }
-
-    /// −∞ or ∞ if the wall's line is certainly not met before the body ends, at √2; for all that is known of
-    /// a ray so nearly along it, it might be met anywhere else beyond.
-    fn beyond(&self, point: Point) -> Option<f64> {
-        let (way, gap) = (self.way(point), self.gap(point));
-        let near = 2.0 * self.ray.direction.cross(way).length();
-        let off = (2.0 * self.ray.blur_at(2.0) + 32.0 * U) * way.length();
-        (gap.cross(way).length() > near + off).then(|| self.place(point) * f64::INFINITY)
-    }
-
-    /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
-    /// wall's line for no more than itself.
-    fn wall(&self, change: &Change) -> Wall {
-        let point = change.point();
-        let s = self.place(point);
-        let above = !self.conic || self.ray.at(s).dot(self.way(point)) > 0.0;
-        let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
-        let way = self.way(point);
-        let sine = self.ray.direction.cross(way).length() / way.length();
-        let end = self.beyond(point);
-        let (s, error) = match end {
-            Some(end) if change.places().all(|point| self.beyond(point) == Some(end)) => (end, 0.0),
-            _ => {
-                let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
-                (s, 1.25 * reach + 1.5 * off / sine)
-            }
-        };
-        // On the other side of its tip a wall faces the other way.
-        let along = change.rising == above;
-        Wall { s, error, piece: change.path.piece(change.v), above, along }
-    }
-}
-
-impl Side for Ruled<'_> {
-    fn sample(&self, piece: &Piece, u: f64) -> Sample {
-        let (point, speed) = piece.at(u);
-        let (value, error) = self.value(point);
-        let [a, b] = self.slope();
-        Sample { value, slope: a * speed[0] + b * speed[1], error }
-    }
-
-    fn of_all(&self, piece: &Piece) -> Option<bool> {
-        let (mut outside, mut inside, mut on) = (true, true, piece.is_straight());
-        for point in piece.points() {
-            let (value, error) = self.value(*point);
-            outside &= value > error;
-            inside &= value < -error;
-            on &= value.abs() <= error;
-            if !(outside || inside || on) {
-                return None;
-            }
-        }
-        if on {
-            self.in_wall.set(true);
-        }
-        (outside || inside).then_some(outside)
-    }
-
-    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
-        piece.turns(self.slope())
-    }
-}
-
-impl Ruled<'_> {
-    /// How the value changes along the two axes.
-    fn slope(&self) -> Point {
-        let LocalRay { nearest, direction, .. } = *self.ray;
-        if self.conic {
-            let normal = direction.cross(nearest);
-            [normal.x, normal.y]
-        } else {
-            [direction.y, -direction.x]
-        }
-    }
-}
-
 /// How far to the side a line goes of which it is asked first whether it meets a wall at all: as it costs
 /// time only, any would do.
 const STEEP: f64 = 1.0 / 1024.0;
+
+/// A line that is less steep to a wall may go its way or against it, as far as a look at the place tells.
+const GRAZING: f64 = 1e-6;
 
 impl Prism {
     /// Parts of the line between walls, in order; and whether it lies in a wall, as far as rounding tells.
@@ -195,7 +52,7 @@ impl Prism {
         if self.conic && ray.nearest.length() <= 16.0 * apex_off {
             return (self.through_apex(ray, apex_off), false);
         }
-        let ruled = Ruled { ray, conic: self.conic, in_wall: Cell::new(false) };
+        let ruled = Ruled::new(ray, self.conic);
         let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
         // Straight walls are met where a step takes one; others are iterated.
         let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
@@ -282,15 +139,21 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
 impl Prism {
     /// Whether a place on the line lies within the walls, if rounding tells.
     fn is_within(&self, ray: &LocalRay, s: f64) -> Option<bool> {
-        let point = ray.at(s);
         let off = ray.blur_at(s) + 16.0 * U * (1.0 + s.abs());
+        let (place, error) = self.seen_from_tip(ray.at(s), off)?;
+        self.outline.is_inside(place, error)
+    }
+
+    /// Where a point is in the outline, and how far it may be off there, if it is by `off`; `None` too near to
+    /// the tip.
+    fn seen_from_tip(&self, point: Vector, off: f64) -> Option<(Point, f64)> {
         if !self.conic {
-            return self.outline.is_inside([point.x, point.y], off);
+            return Some(([point.x, point.y], off));
         }
         let place = [point.x / point.z, point.y / point.z];
         let size = 1.0 + place[0].abs() + place[1].abs();
         let error = off * size / (point.z.abs() - off);
-        (error > 0.0).then(|| self.outline.is_inside(place, error)).flatten()
+        (error > 0.0).then_some((place, error))
     }
 
     /// What of the line between two walls is between the ends. What rounding cannot tell from a miss is missed.
@@ -316,9 +179,31 @@ impl Prism {
     }
 }
 
+impl Prism {
+    /// Whether the line, between two places, may be as near to the outline as a box about it.
+    fn may_be_near(&self, ray: &LocalRay, from: f64, to: f64) -> bool {
+        let (n, d) = (ray.nearest, ray.direction);
+        let off = ray.blur_at(2.0) + 16.0 * U;
+        let [low, high] = self.outline.hull();
+        let beside = |place: f64, way: f64, low: f64, high: f64| {
+            let (a, b) = (place + from * way, place + to * way);
+            a.max(b) < low - off || a.min(b) > high + off
+        };
+        self.conic || !(beside(n.x, d.x, low[0], high[0]) || beside(n.y, d.y, low[1], high[1]))
+    }
+}
+
 impl Local for Prism {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.first_crossings(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
         let Some((first, last)) = between(ray, self.heights) else { return };
+        let (begin, end) = (from.max(low(&first)), to.min(high(&last)));
+        if begin > end || !self.may_be_near(ray, begin, end) {
+            return;
+        }
         let seen = |met: Met| match met.part {
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
@@ -340,6 +225,9 @@ impl Local for Prism {
             Met { error: met.error + 2.0 * off / slope, ..met }
         };
         for walls in spans {
+            if off == 0.0 && (low(&walls.0) > end || high(&walls.1) < begin) {
+                continue;
+            }
             let Some([enter, leave]) = self.cut(&line, [first, last], walls) else { continue };
             let [enter, leave] = [enter, leave].map(moved);
             // What is not told from a part before is one with it.
@@ -350,6 +238,28 @@ impl Local for Prism {
             }
             found.push(seen(leave));
             before = Some(leave.t);
+        }
+    }
+
+    /// At an end certainly within the walls, or certainly apart from both and on one wall alone.
+    fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
+        let point = ray.at(s);
+        let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs())) + 2.0 * ray.tolerance;
+        let (place, error) = self.seen_from_tip(point, off)?;
+        let up = ray.direction.z > 0.0;
+        match self.heights.map(|end| (point.z - end).abs() <= off) {
+            [false, false] => {
+                let piece = self.outline.piece_at(place, error)?;
+                let (at, normal) = self.outline.pieces[piece].nearest(place);
+                let slope = self.normal(at, normal).dot(ray.direction);
+                (slope.abs() > GRAZING).then(|| part_of(piece, (slope > 0.0) == leaving))
+            }
+            [true, true] => None,
+            [is_base, _] => {
+                let is_fit = !self.open && leaving == (up != is_base);
+                let part = if is_base { BASE } else { CAP };
+                (is_fit && self.outline.is_inside(place, error)?).then_some(part)
+            }
         }
     }
 

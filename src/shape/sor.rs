@@ -207,7 +207,7 @@ impl Local for Sor {
     }
 
     /// Certainly apart from both ends it is the round.
-    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+    fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
         let z = ray.at(s).z;
         let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs()));
         let is_apart = self.heights().iter().all(|end| (z - end).abs() > off);

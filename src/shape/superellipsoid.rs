@@ -337,7 +337,7 @@ impl Local for Superellipsoid {
         found.push(self.end(ray, &dip, true));
     }
 
-    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+    fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
         // Plates are met in the planes of the axes alone.
         let near = 8.0 * ray.blur_at(s) + 64.0 * U * (1.0 + s.abs());
         (self.norms.is_convex() || ray.at(s).abs().min_element() > near).then_some(0)

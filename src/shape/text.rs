@@ -102,6 +102,21 @@ impl Local for Text {
         unite(&mut spans, found);
     }
 
+    /// Where only one letter may be.
+    fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
+        if self.is_flat {
+            return None;
+        }
+        let point = ray.at(s);
+        let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs())) + 2.0 * ray.tolerance;
+        let near = Bounds { low: point - off, high: point + off };
+        let mut found: SmallVec<[usize; 4]> = SmallVec::new();
+        self.tree.touching(&near, |run| found.extend(run));
+        let [number] = found[..] else { return None };
+        let Letter { prism, first_part } = &self.letters[number];
+        Some(first_part + prism.part_at(ray, s, leaving)?)
+    }
+
     fn height(&self, part: u32, point: Vector) -> Height {
         if self.is_flat {
             return Height { value: point.z, gradient: Vector::Z, error: 0.0 };

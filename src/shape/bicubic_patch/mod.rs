@@ -332,7 +332,7 @@ impl Local for BicubicPatch {
         self.meet(ray, between, found);
     }
 
-    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+    fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
         let near = (self.reach + ray.nearest.length()) * f64::from(f32::EPSILON);
         let mut found = Crossings::new();
         self.meet(ray, (s - near, s + near), &mut found);

@@ -151,7 +151,7 @@ impl Local for Blob {
         line.crossings(between, true, found);
     }
 
-    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+    fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {
         Some(0)
     }
 

@@ -3,8 +3,12 @@
 //! **In:** pieces by their Bézier points. **Out:** runs of pieces that are monotone along both axes, closed
 //! or between two ends. **Invariant:** neighbours share their joint to the last bit.
 
+mod boxes;
+mod outline;
 mod walk;
 
+pub(super) use boxes::Hull;
+pub use outline::{Outline, Run};
 pub(super) use walk::{Change, Path, Side, walk};
 
 use smallvec::SmallVec;
@@ -24,8 +28,11 @@ pub struct Piece {
     pub seen: bool,
 }
 
+/// So little, as a part of a piece's size or of its way, that what is left of it squared is nothing.
+const NEAR: f64 = 1e-9;
+
 fn mix(a: Point, b: Point, u: f64) -> Point {
-    [0, 1].map(|axis| (1.0 - u) * a[axis] + u * b[axis])
+    [(1.0 - u) * a[0] + u * b[0], (1.0 - u) * a[1] + u * b[1]]
 }
 
 impl Piece {
@@ -68,15 +75,20 @@ impl Piece {
     }
 
     /// The place at u, and how fast it moves there; at 0 and 1 the very ends.
+    #[inline]
     pub fn at(&self, u: f64) -> (Point, Point) {
-        let mut points = self.points;
-        for left in (2..=self.degree).rev() {
-            for i in 0..left {
-                points[i] = mix(points[i], points[i + 1], u);
+        let [a, b, c, d] = self.points;
+        let (first, last) = match self.degree {
+            1 => (a, b),
+            2 => (mix(a, b, u), mix(b, c, u)),
+            _ => {
+                let middle = mix(b, c, u);
+                (mix(mix(a, b, u), middle, u), mix(middle, mix(c, d, u), u))
             }
-        }
-        let speed = [0, 1].map(|axis| self.degree as f64 * (points[1][axis] - points[0][axis]));
-        (mix(points[0], points[1], u), speed)
+        };
+        let degree = self.degree as f64;
+        let speed = [degree * (last[0] - first[0]), degree * (last[1] - first[1])];
+        (mix(first, last, u), speed)
     }
 
     /// The coefficients of 1, u, u² and u³ along an axis.
@@ -86,6 +98,16 @@ impl Piece {
             1 => [a, b - a, 0.0, 0.0],
             2 => [a, 2.0 * (b - a), (c - b) - (b - a), 0.0],
             _ => [a, 3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b)],
+        }
+    }
+
+    /// An axis of it as a cubic, by Bézier coefficients.
+    pub fn cubic(&self, axis: usize) -> [f64; 4] {
+        let [a, b, c, d] = self.points.map(|point| point[axis]);
+        match self.degree {
+            1 => [a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b],
+            2 => [a, (a + 2.0 * b) / 3.0, (2.0 * b + c) / 3.0, c],
+            _ => [a, b, c, d],
         }
     }
 
@@ -162,7 +184,7 @@ impl Piece {
     }
 
     /// The lowest and the highest coordinates of its Bézier points, which hold it between them.
-    pub fn hull(&self) -> [Point; 2] {
+    pub fn hull(&self) -> Hull {
         let least = |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
         let most =
             |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
@@ -179,27 +201,59 @@ impl Piece {
     /// Where it comes nearest to a place that is next to it, and the unit normal there, to the left of the way
     /// that u goes.
     pub fn nearest(&self, place: Point) -> (Point, Point) {
-        let off = |u: f64| {
-            let (at, speed) = self.at(u);
-            let gap = [place[0] - at[0], place[1] - at[1]];
-            (gap[0] * gap[0] + gap[1] * gap[1], gap[0] * speed[0] + gap[1] * speed[1], speed)
-        };
+        let (first, last) = (self.first(), self.last());
+        let way = [last[0] - first[0], last[1] - first[1]];
+        let off = [place[0] - first[0], place[1] - first[1]];
+        let size = way[0] * way[0] + way[1] * way[1];
+        let along = (off[0] * way[0] + off[1] * way[1]) / size;
+        let start = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
+        if self.is_straight() {
+            return (self.at(start).0, self.normal(way));
+        }
+        // Mostly this finds it.
+        let (u, is_last) = self.approached(place, start);
+        let (at, speed) = self.at(u);
+        let gap = [place[0] - at[0], place[1] - at[1]];
+        if is_last && gap[0] * gap[0] + gap[1] * gap[1] <= NEAR * NEAR * size {
+            return (at, self.normal(speed));
+        }
+        let (at, speed) = self.at(self.nearest_of_any(place));
+        (at, self.normal(speed))
+    }
+
+    /// Steps toward where it comes nearest to a place that is next to it; and whether the last was hardly one.
+    fn approached(&self, place: Point, start: f64) -> (f64, bool) {
+        let mut u = start;
+        for _ in 0..8 {
+            let (at, [x, y]) = self.at(u);
+            let along = (place[0] - at[0]) * x + (place[1] - at[1]) * y;
+            let next = (u + along / (x * x + y * y)).clamp(0.0, 1.0);
+            if next.is_nan() {
+                break;
+            }
+            let step = (next - u).abs();
+            u = next;
+            if step <= NEAR {
+                return (u, true);
+            }
+        }
+        (u, false)
+    }
+
+    /// The same from as far along as the place, by either axis, and from its ends.
+    fn nearest_of_any(&self, place: Point) -> f64 {
         let ends = [self.first(), self.last()];
-        // As far along as the place, by either axis; then across.
         let from = |axis: usize| {
             let [a, b] = ends.map(|end| end[axis]);
-            let mut u = self.meets(axis, place[axis].clamp(a.min(b), a.max(b)));
-            for _ in 0..4 {
-                let (_, along, [x, y]) = off(u);
-                let next = u + along / (x * x + y * y);
-                u = if next.is_finite() { next.clamp(0.0, 1.0) } else { u };
-            }
-            u
+            let start = self.meets(axis, place[axis].clamp(a.min(b), a.max(b)));
+            self.approached(place, start).0
+        };
+        let distance = |u: &f64| {
+            let [x, y] = self.at(*u).0;
+            (place[0] - x) * (place[0] - x) + (place[1] - y) * (place[1] - y)
         };
         let starts = [0.0, from(0), from(1), 1.0];
-        let u = starts.into_iter().min_by(|a, b| off(*a).0.total_cmp(&off(*b).0)).unwrap_or(0.0);
-        let (at, speed) = self.at(u);
-        (at, self.normal(speed))
+        starts.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0)
     }
 
     /// The unit normal where it moves so, to the left.
@@ -217,8 +271,7 @@ impl Piece {
     /// Whether it keeps a distance from a place: seldom not told where it does, by little.
     fn is_clear(&self, place: Point, distance: f64) -> bool {
         let [low, high] = self.hull();
-        let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
-        if gap(0) * gap(0) + gap(1) * gap(1) > distance * distance {
+        if is_apart(&[low, high], place, distance) {
             return true;
         }
         let size = (high[0] - low[0]).max(high[1] - low[1]);
@@ -264,68 +317,8 @@ impl Piece {
     }
 }
 
-/// Pieces in a row, by the numbers of the first and of the one after the last.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Run {
-    pub from: usize,
-    pub to: usize,
-    /// Its end is its start.
-    pub closed: bool,
-}
-
-/// Runs of monotone pieces.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Outline {
-    pub pieces: Vec<Piece>,
-    pub runs: Vec<Run>,
-}
-
-impl Outline {
-    /// Adds pieces that meet end to end.
-    pub fn add(&mut self, pieces: impl IntoIterator<Item = Piece>) {
-        let from = self.pieces.len();
-        self.pieces.extend(pieces.into_iter().flat_map(Piece::monotone));
-        let run = &self.pieces[from..];
-        if let (Some(first), Some(last)) = (run.first(), run.last()) {
-            let closed = first.first() == last.last();
-            self.runs.push(Run { from, to: self.pieces.len(), closed });
-        }
-    }
-
-    /// The greatest of `a`·x + `b`·y of what is seen; −∞ where nothing is.
-    pub fn greatest(&self, along: Point) -> f64 {
-        let seen = self.pieces.iter().filter(|piece| piece.seen);
-        seen.map(|piece| piece.greatest(along)).fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// How far from the origin it goes at most.
-    pub fn reach(&self) -> f64 {
-        let sizes = self.pieces.iter().flat_map(|piece| piece.points()).map(|[x, y]| x * x + y * y);
-        sizes.fold(0.0, f64::max).sqrt() * (1.0 + 4.0 * U)
-    }
-
-    /// Whether the way from a place along the x axis meets it an odd number of times.
-    pub fn contains(&self, [x, y]: Point) -> bool {
-        let crosses = |piece: &&Piece| {
-            let above = |[_, end]: Point| end > y;
-            if above(piece.first()) == above(piece.last()) {
-                return false;
-            }
-            let [low, high] = piece.hull();
-            low[0] > x || (high[0] > x && piece.at(piece.meets(1, y)).0[0] > x)
-        };
-        self.pieces.iter().filter(crosses).count() % 2 == 1
-    }
-
-    /// Whether a place is inside, if rounding tells that may have moved it by `error`.
-    pub fn is_inside(&self, place: Point, error: f64) -> Option<bool> {
-        let is_told = self.pieces.iter().all(|piece| piece.is_clear(place, error));
-        is_told.then(|| self.contains(place))
-    }
-
-    /// A distance that it keeps from a place, if not always the greatest.
-    pub fn clearance(&self, place: Point) -> f64 {
-        let all = self.pieces.iter().map(|piece| piece.clearance(place, 40));
-        all.fold(f64::INFINITY, f64::min)
-    }
+/// Whether a box is farther than a distance from a place.
+fn is_apart([low, high]: &Hull, place: Point, distance: f64) -> bool {
+    let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
+    gap(0) * gap(0) + gap(1) * gap(1) > distance * distance
 }

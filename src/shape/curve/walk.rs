@@ -8,16 +8,32 @@
 
 use smallvec::SmallVec;
 
+use super::boxes::{Boxes, Hull};
 use super::{Outline, Piece, Point, Run};
 use crate::math::roots::bracket::{Root, Sample, root};
+use crate::shape::U;
 
 /// What parts the plane in two.
 pub trait Side {
     /// Positive on one side, negative on the other; its slope by u.
     fn sample(&self, piece: &Piece, u: f64) -> Sample;
 
-    /// The side that all of a piece is certainly on.
-    fn of_all(&self, piece: &Piece) -> Option<bool>;
+    /// The side that all of a box is certainly on.
+    fn of_box(&self, hull: &Hull) -> Option<bool>;
+
+    /// The side that all of a piece is certainly on, whose box does not tell and whose ends do not tell all.
+    fn of_piece(&self, _piece: &Piece) -> Option<bool> {
+        None
+    }
+
+    /// Whether the value goes straight from one end of a straight piece to the other.
+    const IS_LINEAR: bool = false;
+
+    /// Rounding does not tell the side of either end of a straight piece.
+    fn holds(&self, _piece: &Piece) {}
+
+    /// Whether the value certainly has no more than one root in a piece.
+    fn has_one_root(&self, piece: &Piece) -> bool;
 
     /// Where within a piece the value may turn.
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]>;
@@ -27,6 +43,9 @@ pub trait Side {
 #[derive(Debug, Clone, Copy)]
 pub struct Path<'a> {
     pieces: &'a [Piece],
+    boxes: &'a Boxes,
+    /// The number of the first box.
+    root: usize,
     /// The number of the first of the run.
     first: usize,
     /// Its run has no end: counting goes on at its begin.
@@ -47,6 +66,8 @@ impl<'a> Path<'a> {
         let to = pieces.len() as f64;
         Self {
             pieces,
+            boxes: &outline.boxes,
+            root: run.root,
             first: run.from,
             cyclic: run.closed,
             closed: run.closed,
@@ -63,18 +84,32 @@ impl<'a> Path<'a> {
 
     /// A piece, and where on it.
     fn locate(&self, v: f64) -> (usize, f64) {
-        let count = self.pieces.len() as i64;
-        let whole = v.floor();
-        let number = whole as i64;
-        if !self.cyclic && number >= count {
-            return (count as usize - 1, 1.0);
+        let count = self.pieces.len();
+        let number = v as usize;
+        if number < count {
+            return (number, v - number as f64);
         }
-        (number.rem_euclid(count) as usize, v - whole)
+        if self.cyclic { (number % count, v - number as f64) } else { (count - 1, 1.0) }
     }
 
     pub fn at(&self, v: f64) -> (Point, Point) {
         let (piece, u) = self.locate(v);
         self.pieces[piece].at(u)
+    }
+
+    /// Shows `look` boxes of it in order, each with where it begins and ends: the halves of those that it wants
+    /// halved. A path that goes on at its run's begin comes to that again.
+    #[inline(always)]
+    fn rows(&self, mut look: impl FnMut(&Hull, f64, f64) -> bool) {
+        let count = self.pieces.len() as f64;
+        let mut turn = 0.0;
+        while turn < self.to {
+            self.boxes.descend(self.root, |hull, row| {
+                let [from, to] = [row.start, row.end].map(|i| turn + (i - self.first) as f64);
+                to > self.from && from < self.to && look(hull, from, to)
+            });
+            turn += count;
+        }
     }
 
     /// The number of the piece at a place.
@@ -120,12 +155,26 @@ impl Change<'_> {
 struct Certain {
     v: f64,
     outside: bool,
+    /// What it is there, if that was asked.
+    value: f64,
+}
+
+impl Certain {
+    fn new(v: f64, outside: bool) -> Self {
+        Self { v, outside, value: f64::NAN }
+    }
+}
+
+/// The root of what is linear from end to end, as [`root`] has it: twice as far off as its error tells, it is certain.
+fn on_line(v: f64, Sample { slope, error, .. }: Sample) -> Root {
+    let least = (2.0 * error / slope.abs()).max(4.0 * U * v);
+    Root { t: v, error: least + 2.0 * U * v }
 }
 
 /// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
-pub fn walk<'a>(
+pub fn walk<'a, S: Side>(
     path: Path<'a>,
-    side: &impl Side,
+    side: &S,
     tolerance: f64,
     mut found: impl FnMut(Change<'a>),
 ) {
@@ -140,7 +189,16 @@ pub fn walk<'a>(
         let [low, high] = path.pieces[path.locate(0.5 * (outside + inside)).0].hull();
         let size = (high[0] - low[0]).max(high[1] - low[1]);
         let tolerance = if tolerance > 0.0 { (tolerance / size).min(0.25) } else { 0.0 };
-        let Root { t: v, error } = root(sample, (outside, inside), f64::NAN, tolerance);
+        // As if it were straight between them.
+        let share = before.value / (before.value - after.value);
+        let start = before.v + share * (after.v - before.v);
+        let piece = &path.pieces[path.locate(before.v).0];
+        let is_linear =
+            S::IS_LINEAR && piece.is_straight() && after.v - before.v <= 1.0 && start.is_finite();
+        let Root { t: v, error } = match is_linear {
+            true => on_line(start, sample(start)),
+            false => root(sample, (outside, inside), start, tolerance),
+        };
         let (low, high) = ((v - error).max(before.v), (v + error).min(after.v));
         Change { path, v, low, high, rising: after.outside }
     };
@@ -153,26 +211,42 @@ pub fn walk<'a>(
             found(change(before, here));
         }
     };
+    let is_told = |sample: &Sample| sample.is_outside() || sample.is_inside();
     let certain = |v: f64, sample: Sample| {
-        let told = sample.is_outside() || sample.is_inside();
-        told.then_some(Certain { v, outside: sample.value > 0.0 })
+        let Sample { value, .. } = sample;
+        is_told(&sample).then_some(Certain { v, outside: value > 0.0, value })
     };
     if let Some(outside) = path.ends[0] {
-        advance(Certain { v: path.from, outside });
+        advance(Certain::new(path.from, outside));
     }
-    for number in path.from.floor() as usize..path.to.ceil() as usize {
-        let (start, piece) = (number as f64, &path.pieces[number % path.pieces.len()]);
-        let (low, high) = (start.max(path.from), (start + 1.0).min(path.to));
-        if let Some(outside) = side.of_all(piece) {
-            advance(Certain { v: low, outside });
-            advance(Certain { v: high, outside });
-            continue;
+    path.rows(|hull, from, to| {
+        let (low, high) = (from.max(path.from), to.min(path.to));
+        if let Some(outside) = side.of_box(hull) {
+            advance(Certain::new(low, outside));
+            advance(Certain::new(high, outside));
+            return false;
         }
-        certain(low, sample(low)).into_iter().for_each(&mut advance);
-        let turns = side.turns(piece);
-        if !(turns.is_empty() && piece.is_straight()) {
+        if to - from > 1.0 {
+            return true;
+        }
+        let piece = &path.pieces[from as usize % path.pieces.len()];
+        let is_linear = S::IS_LINEAR && piece.is_straight();
+        if !is_linear && let Some(outside) = side.of_piece(piece) {
+            advance(Certain::new(low, outside));
+            advance(Certain::new(high, outside));
+            return false;
+        }
+        // The end of the piece, as this piece has it.
+        let ends = [sample(low), side.sample(piece, high - from)];
+        certain(low, ends[0]).into_iter().for_each(&mut advance);
+        if is_linear && !ends.iter().any(is_told) {
+            side.holds(piece);
+        }
+        // What has one root at most, the ends tell if they are told.
+        let is_known = is_linear || (ends.iter().all(is_told) && side.has_one_root(piece));
+        if !is_known {
             let mut before = low;
-            for v in turns.into_iter().map(|u| start + u).chain([high]) {
+            for v in side.turns(piece).into_iter().map(|u| from + u).chain([high]) {
                 // Also between them, for where they tell nothing.
                 for v in [0.5 * (before + v), v] {
                     if v > low && v < high {
@@ -182,12 +256,11 @@ pub fn walk<'a>(
                 before = v;
             }
         }
-        // The end of the piece, as this piece has it.
-        let end = side.sample(piece, high - start);
-        certain(high, end).into_iter().for_each(&mut advance);
-    }
+        certain(high, ends[1]).into_iter().for_each(&mut advance);
+        false
+    });
     if let Some(outside) = path.ends[1] {
-        advance(Certain { v: path.to, outside });
+        advance(Certain::new(path.to, outside));
     }
     if let (true, Some(first), Some(last)) = (path.closed, first, last)
         && first.outside != last.outside

@@ -284,7 +284,7 @@ impl Local for Isosurface {
         true
     }
 
-    fn part_at(&self, ray: &LocalRay, s: f64) -> Option<u32> {
+    fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
         let (enter, leave) = self.container.chord(ray)?;
         let is_apart = |end: Met| (s - end.t).abs() > 2.0 * end.error + 64.0 * U * (1.0 + s.abs());
         (is_apart(enter) && is_apart(leave)).then_some(SURFACE)

@@ -216,7 +216,7 @@ impl Local for JuliaFractal {
         self.search(ray, from, false, found);
     }
 
-    fn part_at(&self, _: &LocalRay, _: f64) -> Option<u32> {
+    fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {
         Some(0)
     }
 

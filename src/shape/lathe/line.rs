@@ -1,0 +1,270 @@
+//! A line as the outline of a lathe sees it: a branch of a hyperbola if it is steep, else two arms.
+//!
+//! Of all points of the outline's plane d²·(ρ² − x²), with ρ the line's at the height of the point, is 0 on the
+//! hyperbola alone. Along a piece that is a polynomial, whose Bézier coefficients tell most of it.
+
+use smallvec::SmallVec;
+
+use crate::math::roots::bracket::Sample;
+use crate::math::roots::polynomial::turning_points;
+use crate::shape::U;
+use crate::shape::body::LocalRay;
+use crate::shape::curve::{Change, Hull, Outline, Path, Piece, Point, Run, Side};
+
+/// A line is steep if it goes up at least so fast.
+pub(super) const STEEP: f64 = 0.125;
+
+/// A line as the outline sees it.
+pub(super) struct Line {
+    /// Across the axis.
+    nearest: Point,
+    direction: Point,
+    /// z where s is 0, and its speed.
+    pub start: f64,
+    pub speed: f64,
+    /// The speed across the axis.
+    across: f64,
+    /// How far rounding may move the line anywhere near the body, the outline's own rounding with it.
+    pub off: f64,
+}
+
+impl Line {
+    pub fn new(ray: &LocalRay) -> Self {
+        let (n, d) = (ray.nearest, ray.direction);
+        Self {
+            nearest: [n.x, n.y],
+            direction: [d.x, d.y],
+            start: n.z,
+            speed: d.z,
+            across: (d.x * d.x + d.y * d.y).sqrt(),
+            off: ray.blur_at(2.0) + 32.0 * U,
+        }
+    }
+
+    /// dz times where the line is at the height z, across the axis.
+    fn reached(&self, z: f64) -> Point {
+        let ([n, m], [d, e]) = (self.nearest, self.direction);
+        let up = z - self.start;
+        [d * up + n * self.speed, e * up + m * self.speed]
+    }
+
+    /// The Bézier coefficients of d²·(ρ² − x²) along a piece, and how great its parts are at most.
+    fn coefficients(&self, piece: &Piece) -> ([f64; 7], f64) {
+        let (x, y) = (piece.cubic(0), piece.cubic(1));
+        let reached = y.map(|y| self.reached(y));
+        let across = [square(reached.map(|[a, _]| a)), square(reached.map(|[_, b]| b))];
+        let out = square(x.map(|x| x * self.speed));
+        let size = reached.iter().zip(x).map(|([a, b], x)| a.abs() + b.abs() + x.abs());
+        let coefficients = std::array::from_fn(|k| across[0][k] + across[1][k] - out[k]);
+        (coefficients, size.fold(0.0, f64::max))
+    }
+
+    /// Whether d²·(ρ² − x²) certainly has no more than one root on a piece: no more than its coefficients change
+    /// their sign.
+    fn has_one_root(&self, piece: &Piece) -> bool {
+        let (coefficients, size) = self.coefficients(piece);
+        let is_told = |c: &f64| c.abs() > 64.0 * U * size * size;
+        let changes = coefficients.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0));
+        changes.count() <= 1 && coefficients.iter().all(is_told)
+    }
+
+    /// Where d²·(ρ² − x²) turns on a piece, with ρ the line's at the piece's height.
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        let (x, mut y) = (piece.powers(0), piece.powers(1));
+        y[0] -= self.start;
+        let ([n, m], [d, e]) = (self.nearest, self.direction);
+        let linear = 2.0 * self.speed * (n * d + m * e);
+        let mut values = [0.0; 7];
+        for i in 0..4 {
+            values[i] += linear * y[i];
+            for j in 0..4 {
+                values[i + j] +=
+                    self.across * self.across * y[i] * y[j] - self.speed * self.speed * x[i] * x[j];
+            }
+        }
+        turning_points(&values[..=2 * (piece.points().len() - 1)], 0.0, 1.0)
+    }
+}
+
+/// The Bézier coefficients of the square of a cubic.
+fn square([a, b, c, d]: [f64; 4]) -> [f64; 7] {
+    [
+        a * a,
+        a * b,
+        (2.0 * a * c + 3.0 * b * b) / 5.0,
+        (a * d + 9.0 * b * c) / 10.0,
+        (2.0 * b * d + 3.0 * c * c) / 5.0,
+        c * d,
+        d * d,
+    ]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn length(a: Point) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// A steep line: outside is what lies nearer to the axis.
+pub(super) struct Steep<'a>(pub &'a Line);
+
+impl Side for Steep<'_> {
+    /// With a = dz·(the line's place at the piece's height), f = |a| − |dz|·x.
+    ///
+    /// **Error:** what is farther than B from the branch is certain. The outside of the branch lies beyond its
+    /// tangent: there, f over the length of its gradient is less than the distance. Inside, all around for B
+    /// must be.
+    fn sample(&self, piece: &Piece, u: f64) -> Sample {
+        let Line { direction, speed, across, off, .. } = *self.0;
+        let ([x, y], [x_speed, y_speed]) = piece.at(u);
+        let reached = self.0.reached(y);
+        let (a, dz) = (length(reached), speed.abs());
+        let along = dot(reached, direction);
+        let slope = if a > 0.0 { along / a } else { across };
+        let value = a - dz * x;
+        let error = if value > 0.0 {
+            off * (dz * dz + slope * slope).sqrt()
+        } else {
+            let more = across * off * (across * off) + 2.0 * off * along.abs();
+            more / ((a * a + more).sqrt() + a).max(f64::MIN_POSITIVE) + dz * off
+        };
+        Sample { value, slope: slope * y_speed - dz * x_speed, error: error + 4.0 * U * a }
+    }
+
+    fn of_box(&self, [low, high]: &Hull) -> Option<bool> {
+        let Line { speed, off, .. } = *self.0;
+        let (first, last) = (self.0.reached(low[1]), self.0.reached(high[1]));
+        let way = [last[0] - first[0], last[1] - first[1]];
+        let (before, behind) = (length(first), length(last));
+        let is_between = dot(first, way) < 0.0 && dot(last, way) > 0.0;
+        let least = match is_between {
+            true => (first[0] * way[1] - first[1] * way[0]).abs() / length(way),
+            false => before.min(behind),
+        };
+        match () {
+            () if least - speed.abs() * high[0] > 2.0 * off => Some(true),
+            () if speed.abs() * low[0] - before.max(behind) > 2.0 * off => Some(false),
+            () => None,
+        }
+    }
+
+    /// The coefficients hold |a|² − dz²·x² between them: f times |a| + |dz|·x, which is no more than the size.
+    fn of_piece(&self, piece: &Piece) -> Option<bool> {
+        let (coefficients, size) = self.0.coefficients(piece);
+        let least = (2.0 * self.0.off + 64.0 * U * size) * size;
+        let is_outside = coefficients.iter().all(|c| *c > least);
+        (is_outside || coefficients.iter().all(|c| *c < -least)).then_some(is_outside)
+    }
+
+    fn has_one_root(&self, piece: &Piece) -> bool {
+        self.0.has_one_root(piece)
+    }
+
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        self.0.turns(piece)
+    }
+}
+
+/// One arm of a flat line, for ρ ≥ m: outside is what lies above it.
+pub(super) struct Arm<'a> {
+    line: &'a Line,
+    /// How near the line comes to the axis, where, and how high it is there.
+    miss: f64,
+    middle: f64,
+    height: f64,
+    /// 1 after the middle, −1 before.
+    pub way: f64,
+}
+
+impl<'a> Arm<'a> {
+    pub fn both(line: &'a Line) -> [Self; 2] {
+        let ([n, m], [d, e]) = (line.nearest, line.direction);
+        let miss = (n * e - m * d).abs() / line.across;
+        let middle = -dot(line.nearest, line.direction) / (line.across * line.across);
+        let height = line.start + middle * line.speed;
+        [-1.0, 1.0].map(|way| Self { line, miss, middle, height, way })
+    }
+
+    /// How far from the middle the line is x from the axis.
+    fn reach(&self, x: f64) -> f64 {
+        ((x - self.miss) * (x + self.miss)).max(0.0).sqrt() / self.line.across
+    }
+
+    /// How much it rises from the middle to there.
+    fn rise(&self, x: f64) -> f64 {
+        self.line.speed * self.way * self.reach(x)
+    }
+
+    /// The parts of a run beyond ρ = m.
+    pub fn paths<'o>(&self, outline: &'o Outline, run: &Run) -> SmallVec<[Path<'o>; 4]> {
+        let whole = Path::whole(outline, run, None);
+        let pieces = &outline.pieces[run.from..run.to];
+        let beyond = |point: Point| point[0] > self.miss;
+        let mut cuts: SmallVec<[f64; 8]> = SmallVec::new();
+        for (number, piece) in pieces.iter().enumerate() {
+            if beyond(piece.first()) != beyond(piece.last()) {
+                cuts.push(number as f64 + piece.meets(0, self.miss));
+            }
+        }
+        let Some(&first) = cuts.first() else {
+            // A run that begins on the axis, and is nowhere beyond, is not met.
+            let is_beyond = run.closed && beyond(pieces[0].first());
+            return if is_beyond { SmallVec::from_iter([whole]) } else { SmallVec::new() };
+        };
+        if beyond(pieces[0].first()) {
+            cuts.remove(0);
+            cuts.push(first + pieces.len() as f64);
+        }
+        let end = |v: f64| whole.at(v).0[1] >= self.height;
+        let part = |pair: &[f64]| whole.part(pair[0], pair[1], [end(pair[0]), end(pair[1])]);
+        cuts.chunks_exact(2).map(part).collect()
+    }
+
+    /// **Error:** the reach of what the change lies within, B farther out and in; where it begins at the
+    /// middle, that of the other arm too.
+    pub fn wall(&self, change: &Change) -> (f64, f64) {
+        let Line { across, off, .. } = *self.line;
+        let here = self.reach(change.point()[0]);
+        let least = change.places().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+        let most = change.places().map(|p| p[0]).fold(0.0, f64::max);
+        let (near, far) = (self.reach(least - off), self.reach(most + off));
+        let inner = if change.is_at_end() { here + far } else { here - near };
+        let error = inner.max(far - here) + (2.0 * off + 8.0 * U * here) / across;
+        (self.middle + self.way * here, error)
+    }
+}
+
+impl Side for Arm<'_> {
+    /// **Error:** it rises all the way, or falls: what is certain at both of the corners of a square of twice B
+    /// is certain.
+    fn sample(&self, piece: &Piece, u: f64) -> Sample {
+        let ([x, y], [x_speed, y_speed]) = piece.at(u);
+        let Line { across, speed, off, .. } = *self.line;
+        let rise = self.rise(x);
+        let value = y - self.height - rise;
+        let outer = (value > 0.0) == (speed * self.way > 0.0);
+        let beside = if outer { self.rise(x + off) } else { self.rise((x - off).max(0.0)) };
+        let steepness = speed * self.way * x / (self.reach(x) * across * across);
+        Sample { value, slope: y_speed - steepness * x_speed, error: off + (beside - rise).abs() }
+    }
+
+    fn of_box(&self, [low, high]: &Hull) -> Option<bool> {
+        let off = self.line.off;
+        let most = self.rise(high[0] + off).abs() + 4.0 * off;
+        match () {
+            () if low[1] - self.height > most => Some(true),
+            () if self.height - high[1] > most => Some(false),
+            () => None,
+        }
+    }
+
+    fn has_one_root(&self, piece: &Piece) -> bool {
+        self.line.has_one_root(piece)
+    }
+
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        self.line.turns(piece)
+    }
+}

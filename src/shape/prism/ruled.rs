@@ -1,0 +1,201 @@
+//! A line through space as the walls see it: on which side of their lines it passes, and where it meets them.
+//!
+//! All of a wall's lines that the ray meets lie with it in one plane, along them or through the tip. So the side is
+//! a linear function of the place of the outline, and its sign over a box is that at two corners.
+
+use std::cell::Cell;
+
+use smallvec::SmallVec;
+
+use crate::math::Vector;
+use crate::math::roots::bracket::Sample;
+use crate::shape::U;
+use crate::shape::body::{LocalRay, Met};
+use crate::shape::curve::{Change, Hull, Piece, Point, Side};
+
+/// The part of the first piece's outside; one more is that side seen from within, and so on.
+pub(super) const WALLS: u32 = 3;
+
+/// The part of a piece of the outline: its outside, or that side seen from within.
+pub(super) fn part_of(piece: usize, is_outside: bool) -> u32 {
+    WALLS + 2 * piece as u32 + u32::from(!is_outside)
+}
+
+/// A crossing with a wall.
+#[derive(Clone, Copy)]
+pub(super) struct Wall {
+    pub s: f64,
+    pub error: f64,
+    pub piece: usize,
+    /// It is met where z is positive, if it narrows.
+    pub above: bool,
+    /// The line goes the way of the wall's normal.
+    pub along: bool,
+}
+
+impl Wall {
+    /// None that is met: one that ends a span at ±∞ or at the tip.
+    pub fn beyond(s: f64) -> Self {
+        Self { s, error: 0.0, piece: 0, above: true, along: true }
+    }
+
+    pub fn met(&self, leaving: bool) -> Met {
+        let part = part_of(self.piece, self.along == leaving);
+        Met { t: self.s, error: self.error, leaving, part }
+    }
+}
+
+pub(super) struct Ruled<'a> {
+    ray: &'a LocalRay<'a>,
+    conic: bool,
+    /// The line has been found to lie in a wall, as far as rounding tells.
+    pub in_wall: Cell<bool>,
+    /// The coefficients of x, y and 1.
+    side: [f64; 3],
+    /// Of walls straight up: how steep the ray is to their lines.
+    sine: f64,
+    /// How far the side may be off at any place no farther than 1 from the origin, and more.
+    error: f64,
+}
+
+impl<'a> Ruled<'a> {
+    /// With g the way of a wall's line and r the gap to it, the volume r·(d × g) has the sign of the side on
+    /// which the ray passes. No g is longer than √2, no r than |n| + 1.
+    pub fn new(ray: &'a LocalRay<'a>, conic: bool) -> Self {
+        let LocalRay { nearest: n, direction: d, blur, turn, .. } = *ray;
+        let in_wall = Cell::new(false);
+        if conic {
+            let normal = d.cross(n);
+            let size = n.length();
+            // As of a place, and so much that what is told there is no parallel.
+            let error = 2.0 * blur + (4.0 * turn + 64.0 * U) * size;
+            let side = [normal.x, normal.y, normal.z];
+            return Self { ray, conic, in_wall, side, sine: f64::NAN, error };
+        }
+        let sine = (d.x * d.x + d.y * d.y).sqrt();
+        let size = n.length() + 1.0;
+        let error = 1.2 * (blur * sine + turn * size) + 32.0 * U * sine * (size + 1.0);
+        let error = if turn <= 0.5 * sine { error } else { f64::INFINITY };
+        let side = [d.y, -d.x, n.y * d.x - n.x * d.y];
+        Self { ray, conic, in_wall, side, sine, error }
+    }
+
+    /// The way of the wall's line through a place of the outline.
+    fn way(&self, [x, y]: Point) -> Vector {
+        if self.conic { Vector::new(x, y, 1.0) } else { Vector::Z }
+    }
+
+    /// The side, as [`Self::value`] but for what `error` bounds.
+    fn roughly(&self, [x, y]: Point) -> f64 {
+        let [a, b, c] = self.side;
+        a * x + b * y + c
+    }
+
+    /// **Error:** no line within the ray's blur meets the wall's line where the two are
+    /// farther apart than that: |r·(d × g)| > B·|d × g|, with B the blur where they are nearest, of which
+    /// |r × g|/|d × g| is the distance; a little more, as they are no parallels, as long as the ray is turned
+    /// by less than half of the angle between the two.
+    fn value(&self, point: Point) -> (f64, f64) {
+        let LocalRay { nearest, direction, blur, turn, .. } = *self.ray;
+        let [a, b, c] = self.side;
+        if self.conic {
+            let way = self.way(point);
+            let sine = direction.cross(way).length();
+            let error = 1.2 * (blur * sine + turn * nearest.cross(way).length())
+                + 32.0 * U * nearest.length();
+            let is_told = turn * way.length() <= 0.5 * sine;
+            return (a * point[0] + b * point[1] + c, if is_told { error } else { f64::INFINITY });
+        }
+        let [x, y] = [point[0] - nearest.x, point[1] - nearest.y];
+        let (sine, gap) = (self.sine, (x * x + y * y).sqrt());
+        let error = 1.2 * (blur * sine + turn * gap) + 16.0 * U * sine * (gap + 1.0);
+        (a * x + b * y, if turn <= 0.5 * sine { error } else { f64::INFINITY })
+    }
+
+    /// Where on the ray it is nearest to a wall's line.
+    fn place(&self, point: Point) -> f64 {
+        let LocalRay { nearest, direction, .. } = *self.ray;
+        if self.conic {
+            let way = self.way(point);
+            let across = direction.cross(way);
+            return -nearest.cross(way).dot(across) / across.length_squared();
+        }
+        let along = (point[0] - nearest.x) * direction.x + (point[1] - nearest.y) * direction.y;
+        along / (self.sine * self.sine)
+    }
+
+    /// −∞ or ∞ if the wall's line is certainly not met before the body ends, at √2; for all that is known of
+    /// a ray so nearly along it, it might be met anywhere else beyond.
+    fn beyond(&self, point: Point) -> Option<f64> {
+        let LocalRay { nearest, direction, .. } = *self.ray;
+        let way = self.way(point);
+        let gap = if self.conic { nearest } else { nearest - Vector::new(point[0], point[1], 0.0) };
+        let near = 2.0 * direction.cross(way).length();
+        let off = (2.0 * self.ray.blur_at(2.0) + 32.0 * U) * way.length();
+        (gap.cross(way).length() > near + off).then(|| self.place(point) * f64::INFINITY)
+    }
+
+    /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
+    /// wall's line for no more than itself.
+    pub fn wall(&self, change: &Change) -> Wall {
+        let point = change.point();
+        let s = self.place(point);
+        let above = !self.conic || self.ray.at(s).dot(self.way(point)) > 0.0;
+        let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
+        let way = self.way(point);
+        let sine = self.ray.direction.cross(way).length() / way.length();
+        let (s, error) = match self.beyond(point) {
+            Some(end) if change.places().all(|point| self.beyond(point) == Some(end)) => (end, 0.0),
+            _ => {
+                let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+                (s, 1.25 * reach + 1.5 * off / sine)
+            }
+        };
+        // On the other side of its tip a wall faces the other way.
+        let along = change.rising == above;
+        Wall { s, error, piece: change.path.piece(change.v), above, along }
+    }
+}
+
+impl Side for Ruled<'_> {
+    #[inline]
+    fn sample(&self, piece: &Piece, u: f64) -> Sample {
+        let (point, speed) = piece.at(u);
+        let (value, error) = self.value(point);
+        let [a, b, _] = self.side;
+        Sample { value, slope: a * speed[0] + b * speed[1], error }
+    }
+
+    #[inline]
+    fn of_box(&self, [low, high]: &Hull) -> Option<bool> {
+        let [a, b, c] = self.side;
+        let (left, right) = if a >= 0.0 { (low[0], high[0]) } else { (high[0], low[0]) };
+        let (below, above) = if b >= 0.0 { (low[1], high[1]) } else { (high[1], low[1]) };
+        let is_outside = a * left + b * below + c > self.error;
+        (is_outside || a * right + b * above + c < -self.error).then_some(is_outside)
+    }
+
+    fn of_piece(&self, piece: &Piece) -> Option<bool> {
+        let sides = || piece.points().iter().map(|point| self.roughly(*point));
+        let is_outside = sides().all(|side| side > self.error);
+        (is_outside || sides().all(|side| side < -self.error)).then_some(is_outside)
+    }
+
+    const IS_LINEAR: bool = true;
+
+    fn holds(&self, _: &Piece) {
+        self.in_wall.set(true);
+    }
+
+    /// A polynomial changes its sign no more often than its Bézier coefficients.
+    fn has_one_root(&self, piece: &Piece) -> bool {
+        let is_outside = |point: &Point| self.roughly(*point) > 0.0;
+        let pairs = piece.points().windows(2);
+        let changes = pairs.filter(|pair| is_outside(&pair[0]) != is_outside(&pair[1]));
+        changes.count() <= 1
+    }
+
+    fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
+        piece.turns([self.side[0], self.side[1]])
+    }
+}
