@@ -333,7 +333,9 @@ impl Local for BicubicPatch {
     }
 
     fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
-        let near = (self.reach + ray.nearest.length()) * f64::from(f32::EPSILON);
+        // As far as a place may be from itself when it is told along the ray and back.
+        let size = self.reach + ray.nearest.length();
+        let near = 8.0 * ray.blur_at(size) + 64.0 * U * size;
         let mut found = Crossings::new();
         self.meet(ray, (s - near, s + near), &mut found);
         found.retain(|met| (met.t - s).abs() <= near);
