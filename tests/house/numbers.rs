@@ -164,6 +164,8 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/curve/mod.rs", "const NEAR", "relative: of a piece's size, and of u, which is 0 to 1"),
     ("shape/curve/mod.rs", "let length", "keeps 0/0 from a piece without length"),
     ("shape/lathe/line.rs", "more / (", "keeps 0/0 from the axis"),
+    ("shape/lathe.rs", "const GRAZING", "a slope, and costs time only"),
+    ("shape/prism.rs", "const GRAZING", "a slope, and costs time only"),
     ("shape/prism.rs", "STEEP", "a slope, and costs time only"),
     ("shape/prism/ends.rs", "2.0 * end.error", "so that a bound of 0 grows"),
     ("shape/sor.rs", "2.0 * met.error", "so that a bound of 0 grows"),
