@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn a_text_nested_too_deep_is_told_that_and_nothing_else() {
         let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
-        let deep = format!("sphere {{ 0, {}1", "(".repeat(50_000));
+        let deep = format!("sphere {{ 0, {}1", "(".repeat(200_001));
         road.compile("a.scene", deep.into_bytes());
         let codes: Vec<Code> = road.diagnostics.iter().map(|message| message.code).collect();
         assert_eq!(codes, [Code::NestingLimit]);
