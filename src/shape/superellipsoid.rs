@@ -253,7 +253,7 @@ impl Superellipsoid {
         walk.note(low, true, &mut note);
         for pair in ends.windows(2) {
             let (from, to) = (pair[0].max(low), pair[1].min(high));
-            if !(from < to) {
+            if from.partial_cmp(&to) != Some(std::cmp::Ordering::Less) {
                 continue;
             }
             let ways = ray.at(0.5 * (from + to)).signum();
