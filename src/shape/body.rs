@@ -140,7 +140,7 @@ impl LocalRay<'_> {
     }
 
     /// From where on a crossing is certainly ahead of a ray of which `first_crossings` is told that it starts at
-    /// `from`: [`Seen::place`] tells that as far before the start as that may be off.
+    /// `from`: `Seen::place` tells that as far before the start as that may be off.
     pub fn ahead_of(&self, from: f64) -> f64 {
         from + 4.0 * (self.blur + self.turn * self.nearest.length() + 8.0 * U * from.abs())
     }
