@@ -15,6 +15,7 @@ mod nearest;
 mod occluder;
 mod polyhedron;
 mod search;
+mod sides;
 mod single;
 mod span;
 mod surface;
@@ -28,15 +29,16 @@ pub use occluder::Occluder;
 pub use surface::{shading_normal, spread, surface};
 pub use work::Work;
 
-use crate::shape::body::{Local, Met};
+use crate::shape::body::Local;
 use crate::shape::compiled::compiled;
 use crate::shape::{
-    Bounds, Box_, Chord, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
+    Bounds, Box_, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
 };
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use beside::Grain;
 pub use extent::Extent;
+use sides::Sides;
 use tree::Tree;
 use whole::{Part, Whole};
 
@@ -126,16 +128,6 @@ impl Solid {
             Self::Whole(_) => compiled!("csg"),
         }
     }
-}
-
-/// Which crossings of a solid are seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sides {
-    Both,
-    /// The surface has the seed's finish: seen from outside only.
-    Outside,
-    /// The same, inside and outside exchanged.
-    Inside,
 }
 
 impl Geometry {
@@ -392,34 +384,6 @@ impl Geometry {
             None => return None,
         };
         (met.t <= limit).then_some((met.crossing(), met.leaving))
-    }
-}
-
-impl Sides {
-    /// Whether a surface is seen where a ray leaves the solid, or enters it.
-    #[inline(always)]
-    fn shows(self, leaving: bool) -> bool {
-        match self {
-            Self::Both => true,
-            Self::Outside => !leaving,
-            Self::Inside => leaving,
-        }
-    }
-
-    /// Whether a crossing of a placed body is ahead, and seen.
-    fn see(self, met: &Met) -> bool {
-        met.is_seen() && self.shows(met.leaving) && met.crossing().is_ahead()
-    }
-
-    #[inline(always)]
-    fn first_seen(self, chord: &Chord) -> Option<(Crossing, bool)> {
-        let enters = || chord.enter.is_ahead().then_some((chord.enter, false));
-        let leaves = || chord.leave.is_ahead().then_some((chord.leave, true));
-        match self {
-            Self::Both => enters().or_else(leaves),
-            Self::Outside => enters(),
-            Self::Inside => leaves(),
-        }
     }
 }
 

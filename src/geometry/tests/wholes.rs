@@ -1,7 +1,7 @@
 //! Wholes: found with and without their trees, their surface where membership changes.
 
 use super::*;
-use crate::shape::body::Body;
+use crate::shape::body::{Body, Met};
 use crate::shape::csg::Node;
 use crate::shape::{Cylinder, Placed};
 
