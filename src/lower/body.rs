@@ -20,8 +20,8 @@ use crate::shape::isosurface;
 use crate::shape::julia_fractal::{Algebra, Function};
 use crate::shape::mesh::{Face, Skin};
 use crate::shape::{
-    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, JuliaFractal, Mesh, Ovus, Parametric,
-    Placed, Superellipsoid, Torus,
+    Algebraic, Body, Cone, Cylinder, Disc, Isosurface, JuliaFractal, Memory, Mesh, Ovus,
+    Parametric, Placed, Superellipsoid, Torus,
 };
 use crate::vocabulary::Word;
 
@@ -178,7 +178,7 @@ pub fn isosurface(
     let (container, centre, scale) = held(container)?;
     let function = function.clone();
     let accuracy = accuracy / scale;
-    let cells = isosurface::Cells::default();
+    let cells = Memory::default();
     let body = Isosurface { function, threshold, container, centre, scale, accuracy, open, cells };
     Ok((Body::Isosurface(body), about(centre, scale)))
 }

@@ -13,14 +13,15 @@ mod ends;
 mod net;
 
 use std::fmt::Write;
+use std::sync::OnceLock;
 
 use along::Line;
 pub use clipped::HalfSpace;
 use closed::Closed;
-use ends::{Ends, Remembered};
+use ends::Ends;
 
-use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::{Memory, U};
 use crate::math::Vector;
 use crate::math::roots::polynomial::{Asked, MOST, Polynomial};
 use crate::math::terms::{count_of_terms, exponents};
@@ -41,7 +42,7 @@ pub struct Algebraic {
     /// Where it ends, if that is known: of a quadric.
     closed: Option<Closed>,
     /// Likewise, of others.
-    ends: Remembered,
+    ends: Memory<OnceLock<Option<Ends>>>,
 }
 
 impl Algebraic {
@@ -51,7 +52,7 @@ impl Algebraic {
         let sizes = terms.iter().map(|term| term.abs()).collect();
         let closed = if degree == 2 { Closed::of(&terms) } else { None };
         let zeros = if fits { along::zeros(degree, &terms) } else { Vec::new() };
-        fits.then_some(Self { degree, terms, sizes, zeros, closed, ends: Remembered::default() })
+        fits.then_some(Self { degree, terms, sizes, zeros, closed, ends: Memory::default() })
     }
 
     /// Where it ends, if that is known and it is no quadric.
@@ -59,7 +60,7 @@ impl Algebraic {
         if self.degree == 2 {
             return None;
         }
-        self.ends.or(|| Ends::of(self.degree, &self.terms))
+        self.ends.get_or_init(|| Ends::of(self.degree, &self.terms)).as_ref()
     }
 
     /// What the language calls it.

@@ -12,8 +12,6 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::fmt;
-use std::sync::OnceLock;
 
 use super::super::U;
 use super::net::{Net, Sides, Term};
@@ -262,33 +260,4 @@ fn farthest(
     }
     *sums = sums.saturating_sub(taken);
     found
-}
-
-/// What was found of where a surface ends, once it was asked for.
-#[derive(Default)]
-pub struct Remembered(OnceLock<Option<Ends>>);
-
-impl Remembered {
-    pub fn or(&self, find: impl FnOnce() -> Option<Ends>) -> Option<&Ends> {
-        self.0.get_or_init(find).as_ref()
-    }
-}
-
-impl Clone for Remembered {
-    fn clone(&self) -> Self {
-        Self(self.0.clone())
-    }
-}
-
-impl PartialEq for Remembered {
-    /// It is a memory, and no part of what the surface is.
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl fmt::Debug for Remembered {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Remembered")
-    }
 }

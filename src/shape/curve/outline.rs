@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::boxes::{Boxes, Hull, union};
 use super::{Piece, Point, is_apart};
-use crate::shape::U;
+use crate::shape::{Memory, U};
 
 /// Pieces in a row, by the numbers of the first and of the one after the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Run {
 pub struct Outline {
     pub pieces: Vec<Piece>,
     pub runs: Vec<Run>,
-    pub(super) boxes: Boxes,
+    pub(super) boxes: Memory<Boxes>,
     /// A box about all of it.
     hull: Hull,
     /// How far from the origin it goes at most.

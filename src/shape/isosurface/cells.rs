@@ -4,7 +4,6 @@
 //! known of the function there. **Invariant:** what a cell says depends on its place alone, so whichever line
 //! comes first, all find the same. Cells are made as lines come by, at most 64 along each axis.
 
-use std::fmt;
 use std::sync::OnceLock;
 
 use smallvec::SmallVec;
@@ -61,19 +60,6 @@ impl Clone for Cells {
     /// What is remembered is found again.
     fn clone(&self) -> Self {
         Self::default()
-    }
-}
-
-impl PartialEq for Cells {
-    /// It is a memory, and no part of what the function is.
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl fmt::Debug for Cells {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Cells")
     }
 }
 

@@ -15,8 +15,8 @@ mod nowhere;
 
 use std::sync::Arc;
 
-use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::{Memory, U};
 use crate::function::{Closed, Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
@@ -52,7 +52,7 @@ pub struct Isosurface {
     /// Where the container cuts it, there is nothing to be seen.
     pub open: bool,
     /// Where it has been looked for.
-    pub cells: Cells,
+    pub cells: Memory<Cells>,
 }
 
 /// Which of the crossings are wanted.

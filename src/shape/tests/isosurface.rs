@@ -11,9 +11,10 @@ use super::*;
 use crate::function::{Binary, Builder, Closed, Function, Node, Unary};
 use crate::math::random::tries_in;
 use crate::shape::Body;
+use crate::shape::Memory;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
-use crate::shape::isosurface::{Cells, Container, Isosurface};
+use crate::shape::isosurface::{Container, Isosurface};
 
 /// Operations as they are read.
 pub(super) struct Formula(Builder);
@@ -65,7 +66,7 @@ fn surface(function: Arc<Closed>, container: Container) -> Isosurface {
         scale: 1.0,
         accuracy: 1e-3,
         open: false,
-        cells: Cells::default(),
+        cells: Memory::default(),
     }
 }
 

@@ -12,10 +12,10 @@ use lucarne::math::double::Double;
 use lucarne::math::terms::exponents;
 use lucarne::math::{Matrix, Vector};
 use lucarne::shape::curve::{Outline, Piece, Point};
-use lucarne::shape::isosurface::{Cells, Container};
+use lucarne::shape::isosurface::Container;
 use lucarne::shape::julia_fractal::Algebra;
 use lucarne::shape::{
-    Algebraic, Blob, Body, Isosurface, JuliaFractal, Lathe, Ovus, Prism, Sor, SphereSweep,
+    Algebraic, Blob, Body, Isosurface, JuliaFractal, Lathe, Memory, Ovus, Prism, Sor, SphereSweep,
     Superellipsoid, blob, sor, sphere_sweep,
 };
 
@@ -293,7 +293,7 @@ impl Field for Tube {
             scale: 1.0,
             accuracy: 1e-3,
             open: false,
-            cells: Cells::default(),
+            cells: Memory::default(),
         }))
     }
     fn value<N: Number>([x, y, z]: &[N; 3]) -> N {
