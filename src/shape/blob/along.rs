@@ -140,10 +140,10 @@ impl<'a> Line<'a> {
         joints.sort_unstable_by(f64::total_cmp);
         self.parts.sort_unstable_by(|a, b| a.ends.0.total_cmp(&b.ends.0));
         let mut walk = Walk::new(|s| self.height(s), self.ray.tolerance);
-        let is_enough = Cell::new(false);
+        let (is_enough, ahead) = (Cell::new(false), self.ray.ahead_of(start));
         let mut note = |Root { t, error }: Root, leaving: bool| {
             found.push(Met { t, error, leaving, part: 0 });
-            is_enough.set(is_enough.get() || first && t - error > start);
+            is_enough.set(is_enough.get() || first && t - error > ahead);
         };
         // The parts that the line is in, and how many it has met.
         let (mut open, mut met): (SmallVec<[usize; 16]>, _) = (SmallVec::new(), 0);

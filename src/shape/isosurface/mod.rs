@@ -176,7 +176,8 @@ impl Isosurface {
                     }
                 }
                 self.tell(&line, search.found(), &mut told, enter, found);
-                let is_enough = |met: &Met| met.is_seen() && met.t - met.error > from;
+                let ahead = ray.ahead_of(from);
+                let is_enough = |met: &Met| met.is_seen() && met.t - met.error > ahead;
                 wanted == Wanted::All || !found.iter().any(is_enough)
             });
         }

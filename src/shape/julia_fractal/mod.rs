@@ -200,7 +200,7 @@ impl JuliaFractal {
             };
             let root = root(|s| self.sample(ray, s), (outside, inside), f64::NAN, ray.tolerance);
             found.push(Met { t: root.t, error: root.error, leaving: change.rising, part: 0 });
-            if !all && root.t - root.error > from {
+            if !all && root.t - root.error > ray.ahead_of(from) {
                 return;
             }
         }
