@@ -62,6 +62,20 @@ impl Array {
     }
 }
 
+/// Arrays within arrays are taken apart one by one: a call for each would overflow the stack.
+impl Drop for Array {
+    fn drop(&mut self) {
+        let mut left = std::mem::take(&mut self.elements);
+        while let Some(element) = left.pop() {
+            if let Some(Value::Array(array)) = element
+                && let Some(mut last) = Arc::into_inner(array)
+            {
+                left.append(&mut last.elements);
+            }
+        }
+    }
+}
+
 /// Why an element is not there.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NoElement {
@@ -108,20 +122,22 @@ pub(super) fn element<'v>(mut value: &'v Value, indices: &[f64]) -> Result<&'v V
 
 /// The place of an element, to be set; arrays on the way are copied if they are shared.
 pub(super) fn element_place<'v>(
-    value: &'v mut Value,
+    mut value: &'v mut Value,
     indices: &[f64],
-    from: usize,
+    mut from: usize,
 ) -> Result<(&'v mut Array, usize), NoElement> {
-    let Value::Array(array) = value else {
-        return Err(NoElement::NoArray(from, value.clone()));
-    };
-    let array = Arc::make_mut(array);
-    let at = place(array, &indices[from..], from)?;
-    let next = from + array.dimensions.len();
-    if next >= indices.len() {
-        return Ok((array, at));
+    loop {
+        let array = match value {
+            Value::Array(array) => Arc::make_mut(array),
+            other => return Err(NoElement::NoArray(from, other.clone())),
+        };
+        let at = place(array, &indices[from..], from)?;
+        from += array.dimensions.len();
+        if from >= indices.len() {
+            return Ok((array, at));
+        }
+        value = array.elements[at].as_mut().ok_or(NoElement::Unset)?;
     }
-    element_place(array.elements[at].as_mut().ok_or(NoElement::Unset)?, indices, next)
 }
 
 /// The element that indices lead to, to be changed.

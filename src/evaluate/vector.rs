@@ -15,10 +15,14 @@ use super::{Evaluator, Here, Outcome, Reported};
 const COMPONENTS: [&str; 12] =
     ["x", "y", "z", "t", "u", "v", "red", "green", "blue", "filter", "transmit", "gray"];
 
+const MOST_COMPONENTS: usize = 5;
+/// The coefficients of a polynomial of the highest order, 15.
+const MOST_NUMBERS: usize = 816;
+
 /// What a vector has between its angle brackets, so far.
 #[derive(Default)]
 struct Gathered {
-    numbers: [f64; 5],
+    numbers: [f64; MOST_COMPONENTS],
     /// How many there were: more than five are counted, and not kept.
     count: usize,
     poison: Option<Poison>,
@@ -57,7 +61,9 @@ impl Evaluator<'_> {
         for argument in arguments {
             let found = match *argument {
                 Argument::Items(items) => self
-                    .inside(here, items, |evaluator| evaluator.components(here, span))
+                    .inside(here, items, |evaluator| {
+                        evaluator.components(here, span, MOST_COMPONENTS)
+                    })
                     .map(|numbers| numbers.into_iter().for_each(|number| gathered.push(number))),
                 Argument::Expression(id) => match self.plain_number(here, id) {
                     Some(number) => {
@@ -216,8 +222,40 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// The numbers that the items of directives in a vector leave.
-    fn components(&mut self, here: &Here, span: Span) -> Outcome<Vec<f64>> {
+    /// The numbers between brackets, of which there may be more than a vector has: those of a matrix, the
+    /// coefficients of a polynomial. Directives and macros may leave some of them.
+    pub(super) fn numbers_of(
+        &mut self,
+        here: &Here,
+        list: Arguments,
+        span: Span,
+    ) -> Outcome<Vec<f64>> {
+        let mut numbers = Ok(Vec::new());
+        for argument in here.unit.ast.arguments(list) {
+            let found = match *argument {
+                Argument::Items(items) => self.inside(here, items, |evaluator| {
+                    evaluator.components(here, span, MOST_NUMBERS)
+                }),
+                Argument::Expression(id) => match self.left_by_macro(here, id) {
+                    None => self.number(here, id).map(|number| vec![number]),
+                    Some(left) => left.and_then(|values| {
+                        let at = here.unit.expression(id).span;
+                        let number = |value| self.as_number(here, at, value, "a number");
+                        values.iter().map(number).collect()
+                    }),
+                },
+            };
+            match (&mut numbers, found) {
+                (Ok(numbers), Ok(found)) => numbers.extend(found),
+                (numbers, Err(reported)) => *numbers = Err(reported),
+                (Err(_), Ok(_)) => {}
+            }
+        }
+        numbers
+    }
+
+    /// The numbers that the items of directives in a vector leave, and no more than one that is too many.
+    fn components(&mut self, here: &Here, span: Span, most: usize) -> Outcome<Vec<f64>> {
         let mut numbers = Vec::new();
         loop {
             match self.peek().map(|next| (next.kind.clone(), next.here.clone(), next.span)) {
@@ -228,7 +266,7 @@ impl Evaluator<'_> {
                     numbers.push(self.as_number(&here_of_it, place, &value, "a number")?);
                 }
             }
-            if numbers.len() > 5 {
+            if numbers.len() > most {
                 return Ok(numbers);
             }
         }

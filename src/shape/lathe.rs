@@ -157,8 +157,11 @@ impl Local for Lathe {
         let piece = self.outline.piece_at(place, off)?;
         let (_, [a, b]) = self.outline.pieces[piece].nearest(place);
         let slope = (across * (a / place[0]) + Vector::Z * b).dot(ray.direction);
-        let is_seen = self.outline.pieces[piece].seen;
-        (is_seen && slope.abs() > GRAZING).then(|| part_of(piece, (slope > 0.0) == leaving))
+        // As the place, so the normal may be off: the more, the nearer the axis and the sharper the bend.
+        let doubt = GRAZING.max(off.sqrt());
+        let is_told = place[0] > doubt && slope.abs() > 2.0 * doubt;
+        (is_told && self.outline.pieces[piece].seen)
+            .then(|| part_of(piece, (slope > 0.0) == leaving))
     }
 
     fn height(&self, part: u32, point: Vector) -> Height {

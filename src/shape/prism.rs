@@ -252,7 +252,9 @@ impl Local for Prism {
                 let piece = self.outline.piece_at(place, error)?;
                 let (at, normal) = self.outline.pieces[piece].nearest(place);
                 let slope = self.normal(at, normal).dot(ray.direction);
-                (slope.abs() > GRAZING).then(|| part_of(piece, (slope > 0.0) == leaving))
+                // As the place, so the normal may be off: the more, the sharper the bend.
+                (slope.abs() > 2.0 * GRAZING.max(error.sqrt()))
+                    .then(|| part_of(piece, (slope > 0.0) == leaving))
             }
             [true, true] => None,
             [is_base, _] => {

@@ -168,7 +168,6 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/prism.rs", "const GRAZING", "a slope, and costs time only"),
     ("shape/prism.rs", "STEEP", "a slope, and costs time only"),
     ("shape/prism/ends.rs", "2.0 * end.error", "so that a bound of 0 grows"),
-    ("shape/sor.rs", "2.0 * met.error", "so that a bound of 0 grows"),
     ("shape/box_.rs", "let blur", "relative: of the distance"),
     ("shape/box_.rs", "STEEP", "a slope"),
     ("shape/box_.rs", "LEVEL", "a slope"),

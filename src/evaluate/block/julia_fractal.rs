@@ -38,7 +38,7 @@ impl Evaluator<'_> {
                 TokenKind::Expression(id) => match next.here.unit.expression(*id).kind {
                     ExpressionKind::Call(Callee::Word(Word::Pwr, _), list) => {
                         self.next();
-                        let powers = self.numbers_of(&next.here, list);
+                        let powers = self.numbers_of(&next.here, list, next.span);
                         failed |= powers.is_err();
                         if let Ok(powers) = powers {
                             failed |= self.power(&next, &powers, &mut fractal).is_err();

@@ -5,11 +5,11 @@ use crate::math::Vector;
 use crate::math::terms::{count_of_terms, exponents};
 use crate::scene::Solid;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionKind};
+use crate::syntax::ast::{Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::{Evaluator, Here, Outcome, Reported};
+use super::super::{Evaluator, Outcome, Reported};
 use super::part::Given;
 
 /// The orders that `poly` and `polynomial` take.
@@ -153,7 +153,7 @@ impl Evaluator<'_> {
 
     /// Which term `xyz(i, j, k)` is.
     fn powers(&mut self, term: &Token, powers: Arguments, degree: usize) -> Outcome<usize> {
-        let given = self.numbers_of(&term.here, powers)?;
+        let given = self.numbers_of(&term.here, powers, term.span)?;
         let wanted = exponents(degree)
             .position(|[i, j, k]| given.as_slice() == [i as f64, j as f64, k as f64]);
         wanted.ok_or_else(|| {
@@ -176,7 +176,7 @@ impl Evaluator<'_> {
                 match here.unit.expression(id).kind {
                     ExpressionKind::Vector(numbers) => {
                         self.next();
-                        let value = self.numbers_of(&here, numbers)?;
+                        let value = self.numbers_of(&here, numbers, span)?;
                         Some(Given { value, span, here, expression: Some(id) })
                     }
                     _ => None,
@@ -218,23 +218,6 @@ impl Evaluator<'_> {
         }
         let terms = given.value.clone();
         self.polynomial_of(token, &given, form, degree, terms)
-    }
-
-    /// Numbers with commas between them.
-    pub(super) fn numbers_of(&mut self, here: &Here, list: Arguments) -> Outcome<Vec<f64>> {
-        let mut numbers = Ok(Vec::new());
-        for argument in here.unit.ast.arguments(list) {
-            let number = match *argument {
-                Argument::Expression(id) => self.number(here, id),
-                Argument::Items(_) => Err(Reported),
-            };
-            match (&mut numbers, number) {
-                (Ok(numbers), Ok(number)) => numbers.push(number),
-                (numbers, Err(reported)) => *numbers = Err(reported),
-                (Err(_), Ok(_)) => {}
-            }
-        }
-        numbers
     }
 
     fn polynomial_of<T>(

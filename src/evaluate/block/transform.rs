@@ -235,12 +235,7 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let unit = next.here.unit.clone();
-        let mut numbers = Vec::with_capacity(12);
-        for argument in unit.ast.arguments(components) {
-            if let Argument::Expression(id) = *argument {
-                numbers.push(self.number(&next.here, id)?);
-            }
-        }
+        let numbers = self.numbers_of(&next.here, components, next.span)?;
         let Ok(numbers) = <[f64; 12]>::try_from(numbers.as_slice()) else {
             let lost = self.commas_lost(next.span);
             let place = match lost.first() {

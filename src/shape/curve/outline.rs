@@ -79,7 +79,8 @@ impl Outline {
                     odd ^= above(first.first()) != above(last.last());
                     return false;
                 }
-                if row.len() == 1 {
+                // Its control points may go on where it has turned back.
+                if row.len() == 1 && above(first.first()) != above(first.last()) {
                     odd ^= first.at(first.meets(1, y)).0[0] > x;
                 }
                 row.len() > 1

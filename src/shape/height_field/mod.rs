@@ -19,6 +19,8 @@ use walk::{Cells, Track};
 
 /// Cells along a side of a block, whose least and greatest heights are known.
 const BLOCK: usize = 16;
+/// Of a smaller block within it.
+const SMALL: usize = 4;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightField {
@@ -29,8 +31,9 @@ pub struct HeightField {
     /// What is lower is solid, and not seen.
     pub(super) water: f64,
     smooth: bool,
-    /// The least and the greatest heights of each block.
+    /// The least and the greatest heights of each block, and of each small one.
     blocks: Vec<[f32; 2]>,
+    small: Vec<[f32; 2]>,
     /// Those of all.
     range: [f64; 2],
 }
@@ -48,18 +51,26 @@ impl HeightField {
             return None;
         }
         let cells = [width - 1, rows - 1];
-        let mut field = Self { heights, cells, water, smooth, blocks: Vec::new(), range: [0.0; 2] };
-        let [across, deep] = cells.map(|count| count.div_ceil(BLOCK));
-        for number in 0..across * deep {
-            let from = [number % across * BLOCK, number / across * BLOCK];
-            let to = [0, 1].map(|axis| (from[axis] + BLOCK).min(cells[axis]));
-            field.blocks.push(field.range_of(Cells { from, to }));
-        }
+        let (blocks, small) = (Vec::new(), Vec::new());
+        let mut field = Self { heights, cells, water, smooth, blocks, small, range: [0.0; 2] };
+        field.blocks = field.ranges(BLOCK);
+        field.small = field.ranges(SMALL);
         let range = field.blocks.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |all, block| {
             [all[0].min(block[0]), all[1].max(block[1])]
         });
         field.range = range.map(f64::from);
         (field.range[1] >= water).then_some(field)
+    }
+
+    /// Of all blocks of so many cells along a side, row by row.
+    fn ranges(&self, size: usize) -> Vec<[f32; 2]> {
+        let [across, deep] = self.cells.map(|count| count.div_ceil(size));
+        let range = |number: usize| {
+            let from = [number % across * size, number / across * size];
+            let to = [0, 1].map(|axis| (from[axis] + size).min(self.cells[axis]));
+            self.range_of(Cells { from, to })
+        };
+        (0..across * deep).map(range).collect()
     }
 
     fn range_of(&self, Cells { from, to }: Cells) -> [f32; 2] {
@@ -73,9 +84,9 @@ impl HeightField {
         range
     }
 
-    fn block(&self, cells: Cells) -> [f32; 2] {
-        let across = self.cells[0].div_ceil(BLOCK);
-        self.blocks[cells.from[1] / BLOCK * across + cells.from[0] / BLOCK]
+    /// The place of a block's range among those of all blocks of its size.
+    fn number_of(&self, block: Cells, size: usize) -> usize {
+        block.from[1] / size * self.cells[0].div_ceil(size) + block.from[0] / size
     }
 
     fn height_of(&self, [i, j]: [usize; 2]) -> f64 {
@@ -118,22 +129,31 @@ impl HeightField {
         };
         let all = Cells { from: [0; 2], to: self.cells };
         track.blocks(all, BLOCK, |block, heights| {
-            if apart(self.block(block), heights) {
+            if apart(self.blocks[self.number_of(block, BLOCK)], heights) {
                 return;
             }
-            track.blocks(block, 1, |cell, heights| {
-                if apart(self.range_of(cell), heights) {
+            track.blocks(block, SMALL, |block, heights| {
+                if apart(self.small[self.number_of(block, SMALL)], heights) {
                     return;
                 }
-                let number = (cell.from[1] * self.cells[0] + cell.from[0]) as u32;
-                for part in [2 * number, 2 * number + 1] {
-                    let corners = self.triangle(part);
-                    if let Some(leaving) = view.pierces(corners) {
-                        found(pierce::met(ray, corners, leaving, part));
+                track.blocks(block, 1, |cell, heights| {
+                    if !apart(self.range_of(cell), heights) {
+                        self.pierced_in(cell, ray, &view, &mut found);
                     }
-                }
+                });
             });
         });
+    }
+
+    /// The triangles of a cell that a line pierces.
+    fn pierced_in(&self, cell: Cells, ray: &LocalRay, view: &View, found: &mut impl FnMut(Met)) {
+        let number = (cell.from[1] * self.cells[0] + cell.from[0]) as u32;
+        for part in [2 * number, 2 * number + 1] {
+            let corners = self.triangle(part);
+            if let Some(leaving) = view.pierces(corners) {
+                found(pierce::met(ray, corners, leaving, part));
+            }
+        }
     }
 
     /// Where a line is between the walls; the ends are ±∞ where it is along them.

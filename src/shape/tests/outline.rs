@@ -256,3 +256,21 @@ fn bodies_of_outlines_reach_as_far_as_their_surface_and_hardly_farther() {
         }
     }
 }
+
+/// Also beside the control points of a piece, which may go on where it has turned back.
+#[test]
+fn a_place_is_inside_of_an_outline_where_twice_the_digits_have_it() {
+    let mut random = Random(98);
+    for _ in 0..tries_in(1000) {
+        let outline = any_outline(&mut random);
+        for _ in 0..20 {
+            let piece = &outline.pieces[random.below(outline.pieces.len())];
+            let [low, high] = piece.hull();
+            let place = [random.number(-1.0, high[0]), random.number(low[1], high[1])];
+            let told = planar(&outline, place.map(Double::of)).0;
+            if told.abs() > 1e-9 {
+                assert_eq!(outline.contains(place), told < 0.0, "{place:?} {outline:?}");
+            }
+        }
+    }
+}

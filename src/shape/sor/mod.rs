@@ -3,13 +3,13 @@
 //!
 //! **Source:** manual, section 3.4.5.1.15 ("Surface of Revolution").
 
-use smallvec::SmallVec;
+mod walk;
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::cylinder::{BASE, CAP, SIDE, between};
 use crate::math::Vector;
-use crate::math::roots::bracket::{Root, Sample, root};
+use crate::math::roots::bracket::Sample;
 
 /// The line is followed so far to each side; the body ends at √2.
 const FAR: f64 = 2.0;
@@ -39,7 +39,7 @@ impl Segment {
         let [a, b, c, d] = self.squares;
         let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
         let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
-        let error = 12.0 * U * self.squares.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        let error = 12.0 * U * self.greatest_point();
         Square { value: mix(abc, bcd), slope: 3.0 * (bcd - abc) / size, error }
     }
 
@@ -48,6 +48,17 @@ impl Segment {
         let [a, b, c, d] = self.squares;
         let size = self.high - self.low;
         6.0 * ((c - b) - (b - a)).abs().max(((d - c) - (c - b)).abs()) / (size * size)
+    }
+
+    /// A bound of |F′|.
+    fn steepness(&self) -> f64 {
+        let [a, b, c, d] = self.squares;
+        3.0 * (b - a).abs().max((c - b).abs()).max((d - c).abs()) / (self.high - self.low)
+    }
+
+    /// A bound of |F|.
+    fn greatest_point(&self) -> f64 {
+        self.squares.iter().fold(0.0, |most: f64, point| most.max(point.abs()))
     }
 
     /// A bound of F over one of so many equal parts.
@@ -102,85 +113,6 @@ impl Sor {
             error: error + 4.0 * U * square + off * (steepness + off * (1.0 + self.bend)),
         }
     }
-
-    /// Where ρ² − F may turn along the line, and where a segment ends, in order. Of a segment that all lies
-    /// on one side of its Bézier points, one place between its ends says as much.
-    fn turns(&self, ray: &LocalRay) -> SmallVec<[f64; 16]> {
-        let (n, d) = (ray.nearest, ray.direction);
-        let across = d.x * d.x + d.y * d.y;
-        let along = n.x * d.x + n.y * d.y;
-        let mut turns: SmallVec<[f64; 16]> = SmallVec::new();
-        turns.push(-along / across);
-        for Segment { low, high, squares: [a, b, c, e] } in &self.segments {
-            let size = high - low;
-            let start = low - n.z;
-            let place = |t: f64| (start + t * size) / d.z;
-            let ends = [place(0.0), place(1.0)];
-            let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            let square = |s: f64| {
-                let (x, y) = (n.x + s * d.x, n.y + s * d.y);
-                x * x + y * y
-            };
-            let nearest = square((-along / across).max(first).min(last));
-            let farthest = square(first).max(square(last));
-            let squares = [a, b, c, e];
-            if squares.iter().all(|f| nearest > **f) || squares.iter().all(|f| farthest < **f) {
-                turns.push(0.5 * (first + last));
-                continue;
-            }
-            turns.extend(ends);
-            // Half of the slope of ρ² − F by t, times dz².
-            let bend = d.z * d.z;
-            let constant = (across * start + along * d.z) * size - 1.5 * (b - a) * bend;
-            let linear = across * size * size - 3.0 * ((c - b) - (b - a)) * bend;
-            let quadratic = -1.5 * ((e - a) - 3.0 * (c - b)) * bend;
-            let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
-            let half = -0.5 * (linear + root.copysign(linear));
-            let inside = [half / quadratic, constant / half];
-            turns.extend(inside.into_iter().filter(|t| *t > 0.0 && *t < 1.0).map(place));
-        }
-        turns.retain(|s| s.abs() < FAR);
-        turns.push(FAR);
-        turns.sort_by(f64::total_cmp);
-        turns
-    }
-
-    /// Where the line is in the round, its ends not counted.
-    fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
-        let mut found: SmallVec<[Met; 6]> = SmallVec::new();
-        let mut before: Option<(f64, bool)> = None;
-        let met = |t, error, leaving| Met { t, error, leaving, part: SIDE };
-        let mut advance = |s: f64| {
-            let sample = self.sample(ray, s);
-            if !(sample.is_inside() || sample.is_outside()) {
-                return;
-            }
-            let outside = sample.is_outside();
-            match before.replace((s, outside)) {
-                // What is not told before may all be outside.
-                None if !outside => found.push(met(-FAR, s + FAR, false)),
-                Some((from, was)) if was != outside => {
-                    let (far, deep) = if outside { (s, from) } else { (from, s) };
-                    let Root { t, error } =
-                        root(|s| self.sample(ray, s), (far, deep), f64::NAN, ray.tolerance);
-                    found.push(met(t, error, outside));
-                }
-                _ => {}
-            }
-        };
-        let mut last = -FAR;
-        advance(last);
-        for turn in self.turns(ray) {
-            // Also between them, for where they tell nothing.
-            advance(0.5 * (last + turn));
-            advance(turn);
-            last = turn;
-        }
-        if let Some((last, false)) = before {
-            found.push(met(FAR, FAR - last, true));
-        }
-        found
-    }
 }
 
 impl Local for Sor {
@@ -192,11 +124,14 @@ impl Local for Sor {
         };
         for pair in self.round(ray).chunks_exact(2) {
             let (mut enter, mut leave) = (pair[0].later(first), pair[1].earlier(last));
+            if enter.t >= leave.t {
+                continue;
+            }
             // At a rim, an end may be passed where the round is not told.
             for (met, way) in [(&mut enter, 1.0), (&mut leave, -1.0)] {
                 let is_told = |met: &Met| self.sample(ray, met.t + way * met.error).is_inside();
                 while met.part != SIDE && met.error < FAR && !is_told(met) {
-                    met.error = 2.0 * met.error + f64::MIN_POSITIVE;
+                    met.error = (2.0 * met.error).max(ray.blur_at(met.t) + U);
                 }
             }
             // What rounding cannot tell from a miss is missed.

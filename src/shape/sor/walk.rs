@@ -1,0 +1,205 @@
+//! The line followed through the round of a sor: from where ρ² − F turns, or a segment ends, to where it does next.
+//!
+//! **Invariant:** between two such places ρ² − F rises or falls, so that the sides at both tell all. Where its
+//! Bézier points tell them for a whole segment no place within it is asked.
+
+use smallvec::SmallVec;
+
+use super::super::U;
+use super::super::body::{LocalRay, Met};
+use super::super::cylinder::SIDE;
+use super::{FAR, Segment, Sor};
+use crate::math::Vector;
+use crate::math::roots::bracket::{Root, root};
+
+/// Whether it is certainly outside or inside; `None` where rounding cannot tell.
+type Side = Option<bool>;
+
+/// Of ρ² − F along the line through one segment.
+struct Course {
+    /// On which side the line is at the segment's ends.
+    sides: [Side; 2],
+    /// Whether nothing else happens between.
+    tells_all: bool,
+    /// About where its one root is; no number where there is none, or there may be more.
+    root: f64,
+}
+
+/// About where a cubic is 0 that has one root in 0 … 1, from its Bézier points. **Method:** Newton's, three
+/// steps from the chord's root.
+fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
+    let (linear, quadratic, cubic) =
+        (3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b));
+    let step = |t: f64| {
+        let value = a + t * (linear + t * (quadratic + t * cubic));
+        let slope = linear + t * (2.0 * quadratic + t * 3.0 * cubic);
+        (t - value / slope).clamp(0.0, 1.0)
+    };
+    step(step(step(a / (a - d))))
+}
+
+impl Sor {
+    /// What a segment's F says of the line between two places, where it begins and ends. **Method:** ρ² − F
+    /// along it is a cubic, within its Bézier points, and has at most as many roots as those have changes of
+    /// sign.
+    fn course(&self, ray: &LocalRay, segment: &Segment, ends: [f64; 2]) -> Course {
+        if !ends.iter().all(|s| s.abs() < FAR) {
+            return Course { sides: [None; 2], tells_all: false, root: f64::NAN };
+        }
+        let [a, b] = ends.map(|s| ray.at(s));
+        let dot = |a: Vector, b: Vector| a.x * b.x + a.y * b.y;
+        let (first, middle, last) = (dot(a, a), dot(a, b), dot(b, b));
+        let squares = [first, (first + 2.0 * middle) / 3.0, (last + 2.0 * middle) / 3.0, last];
+        let greatest = first.max(last);
+        let farthest = ends[0].abs().max(ends[1].abs());
+        let off = ray.blur_at(farthest) + 8.0 * U * (1.0 + farthest);
+        let steepness = 2.0 * greatest.sqrt() + segment.steepness();
+        // Of a sample as well as of the Bézier points.
+        let error = 32.0 * U * (greatest + segment.greatest_point())
+            + 2.0 * off * (steepness + off * (1.0 + self.bend));
+        let [p, q, r, t] = segment.squares;
+        let points = if ray.direction.z < 0.0 { [t, r, q, p] } else { [p, q, r, t] };
+        let values = [0, 1, 2, 3].map(|i| squares[i] - points[i]);
+        let sides = values.map(|value| (value.abs() > error).then_some(value > 0.0));
+        let turned = sides.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let tells_all = sides.iter().all(Option::is_some) && turned <= 1;
+        let root = match tells_all && turned == 1 {
+            true => ends[0] + (ends[1] - ends[0]) * near_root(values),
+            false => f64::NAN,
+        };
+        Course { sides: [sides[0], sides[3]], tells_all, root }
+    }
+
+    /// Where ρ² − F may turn along the line within a segment, in order; what is beyond it is no number.
+    fn turns(&self, ray: &LocalRay, segment: &Segment, nearest: f64) -> [f64; 3] {
+        let (n, d) = (ray.nearest, ray.direction);
+        let Segment { low, high, squares: [a, b, c, e] } = segment;
+        let (size, start) = (high - low, low - n.z);
+        let across = d.x * d.x + d.y * d.y;
+        let along = n.x * d.x + n.y * d.y;
+        // Half of the slope of ρ² − F by t, times dz².
+        let bend = d.z * d.z;
+        let constant = (across * start + along * d.z) * size - 1.5 * (b - a) * bend;
+        let linear = across * size * size - 3.0 * ((c - b) - (b - a)) * bend;
+        let quadratic = -1.5 * ((e - a) - 3.0 * (c - b)) * bend;
+        let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+        let half = -0.5 * (linear + root.copysign(linear));
+        let place = |t: f64| match t > 0.0 && t < 1.0 {
+            true => (start + t * size) / d.z,
+            false => f64::NAN,
+        };
+        // Across the axis t says little.
+        let mut turns = [place(half / quadratic), place(constant / half), nearest];
+        turns.sort_unstable_by(f64::total_cmp);
+        turns
+    }
+
+    /// Where the line is in the round, its ends not counted: walked from where ρ² − F turns, or a segment
+    /// ends, to where it does next. Between the two it rises or falls.
+    pub(super) fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
+        let mut walk = Walk::new(self, ray);
+        let (n, d) = (ray.nearest, ray.direction);
+        let nearest = -(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
+        let count = self.segments.len();
+        for number in 0..count {
+            let is_down = d.z < 0.0;
+            let segment = &self.segments[if is_down { count - 1 - number } else { number }];
+            let place = |z: f64| (z - n.z) / d.z;
+            let (low, high) = (place(segment.low), place(segment.high));
+            let (begin, end) = if is_down { (high, low) } else { (low, high) };
+            let Course { sides, tells_all, root } = self.course(ray, segment, [begin, end]);
+            // Beyond the ends it tells on which side a rim is passed.
+            if number == 0 && sides[0].is_none() {
+                walk.to(-FAR, None);
+                if nearest < begin {
+                    walk.to(nearest, None);
+                }
+            }
+            walk.to(begin, sides[0]);
+            if !tells_all {
+                let is_flat = !(begin.abs() < FAR && end.abs() < FAR);
+                let nearest =
+                    if is_flat && !(nearest < begin || nearest > end) { nearest } else { f64::NAN };
+                for turn in self.turns(ray, segment, nearest) {
+                    walk.to(turn, None);
+                }
+            }
+            walk.near = root;
+            walk.to(end, sides[1]);
+            walk.near = f64::NAN;
+            if number + 1 == count && sides[1].is_none() {
+                if nearest > end {
+                    walk.to(nearest, None);
+                }
+                walk.to(FAR, None);
+            }
+        }
+        walk.found()
+    }
+}
+
+/// Along a line, from place to place.
+struct Walk<'a> {
+    sor: &'a Sor,
+    ray: &'a LocalRay<'a>,
+    found: SmallVec<[Met; 6]>,
+    /// The last place that told whether it is outside.
+    told: Option<(f64, bool)>,
+    /// The last place.
+    last: Option<(f64, Side)>,
+    /// About where the root before the next place is, where that is known.
+    near: f64,
+}
+
+impl<'a> Walk<'a> {
+    fn new(sor: &'a Sor, ray: &'a LocalRay<'a>) -> Self {
+        Self { sor, ray, found: SmallVec::new(), told: None, last: None, near: f64::NAN }
+    }
+
+    fn side(&self, s: f64) -> Side {
+        let sample = self.sor.sample(self.ray, s);
+        (sample.is_inside() || sample.is_outside()).then_some(sample.is_outside())
+    }
+
+    /// On to a place, whose side may be known; one that is behind, as rounding may have it, or none, is left out.
+    fn to(&mut self, s: f64, side: Side) {
+        let is_ahead = self.last.is_none_or(|(last, _)| last <= s);
+        if !(is_ahead && s.abs() <= FAR) {
+            return;
+        }
+        let side = side.or_else(|| self.side(s));
+        // Also between them, for where they tell nothing.
+        if let Some((last, before)) = self.last
+            && (before.is_none() || side.is_none())
+        {
+            let middle = 0.5 * (last + s);
+            self.note(middle, self.side(middle));
+        }
+        self.note(s, side);
+        self.last = Some((s, side));
+    }
+
+    fn note(&mut self, s: f64, side: Side) {
+        let met = |t, error, leaving| Met { t, error, leaving, part: SIDE };
+        let Some(outside) = side else { return };
+        match self.told.replace((s, outside)) {
+            // What is not told before may all be outside.
+            None if !outside => self.found.push(met(-FAR, s + FAR, false)),
+            Some((from, was)) if was != outside => {
+                let (far, deep) = if outside { (s, from) } else { (from, s) };
+                let sample = |s| self.sor.sample(self.ray, s);
+                let Root { t, error } = root(sample, (far, deep), self.near, self.ray.tolerance);
+                self.found.push(met(t, error, outside));
+            }
+            _ => {}
+        }
+    }
+
+    /// All that was found; what is inside at last stays so.
+    fn found(mut self) -> SmallVec<[Met; 6]> {
+        if let Some((last, false)) = self.told {
+            self.found.push(Met { t: FAR, error: FAR - last, leaving: true, part: SIDE });
+        }
+        self.found
+    }
+}
