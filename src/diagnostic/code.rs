@@ -168,6 +168,7 @@ codes! {
     IncompleteMesh "incomplete-mesh" sure "a mesh's file asks for what is not there, or not read";
     UnreadableFile "unreadable-file" error "a file is there and cannot be read, or cannot be made";
     StandInFont "stand-in-font" lint "a font of POV-Ray's is not there, and the built-in one is used";
+    MissingLetter "missing-letter" lint "a text has a letter that its font does not have";
     // limits
     LoopLimit "loop-limit" error "a loop turns more often than the limit";
     MacroLimit "macro-limit" error "macros call each other deeper than the limit";

@@ -70,6 +70,11 @@ impl<'a> Font<'a> {
         Some(letters)
     }
 
+    /// The first character of a text that the font has nothing for.
+    pub fn first_missing(&self, text: &str) -> Option<char> {
+        text.chars().find(|character| self.glyph(*character) == GlyphId::default())
+    }
+
     /// That of a character; the one for what is missing where there is none. Fonts of symbols have theirs in a
     /// range of private use.
     fn glyph(&self, character: char) -> GlyphId {

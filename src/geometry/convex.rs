@@ -4,6 +4,8 @@
 //!
 //! **Invariant:** what is told is what the algebra of `shape/csg.rs` keeps, but for what is seen of nobody: where
 //! error bounds do not tell the two ends from all others, nothing is.
+//!
+//! **Source:** M. Cyrus, J. Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3 (1978).
 
 use super::span::Around;
 use super::whole::Whole;

@@ -1,6 +1,8 @@
 //! Span: the part of a line that a whole may lie in, by the leaves in which all of it lies.
 //!
 //! **Invariant:** no place of the whole is outside of it by more than the errors of its ends.
+//!
+//! **Source:** S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982).
 
 use crate::math::Vector;
 use crate::shape::body::Met;

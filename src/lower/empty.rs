@@ -1,5 +1,5 @@
 //! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away; and
-//! parts that take nothing away.
+//! parts that take nothing away, such as those that are only a surface.
 //!
 //! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
 //! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
@@ -14,6 +14,7 @@ use crate::geometry::bounds_of_part;
 use crate::math::Vector;
 use crate::math::elementary::{cos, sin};
 use crate::scene::Operation;
+use crate::shape::body::Local;
 use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
 use crate::source::Site;
 use crate::world::Object;
@@ -175,19 +176,37 @@ impl Lowering<'_, '_> {
             let site = other.site;
             let taken = other.turned(true);
             let apart = gap(&[*first, taken]).is_some_and(|gap| !gap.touching);
-            let is_idle = apart && !taken.is_nothing() && site.span != first.site.span;
-            let told = is_idle.then(|| {
-                let message = "this is taken away where nothing is: it does not reach the first";
+            let hollow = self.sheet(other);
+            let is_idle = (apart || hollow.is_some()) && !taken.is_nothing();
+            let told = (is_idle && site.span != first.site.span).then(|| {
+                let (message, help) = match hollow {
+                    Some(help) => ("this is taken away, but has no inside", help),
+                    None => (
+                        "this is taken away where nothing is: it does not reach the first",
+                        "move it to where it is to cut, or leave it out",
+                    ),
+                };
                 Diagnostic::new(Code::TakesNothing, message)
                     .at(site.span, "takes nothing away")
                     .also(first.site.span, "of this")
-                    .help("move it to where it is to cut, or leave it out")
+                    .help(help)
             });
             self.idle
                 .entry(site.span)
                 .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
                 .or_insert(told.map(|told| (told, site)));
         }
+    }
+
+    /// What to do about a part that is a surface alone; `None` of one that has an inside.
+    fn sheet(&self, part: &Known) -> Option<&'static str> {
+        let (object, _) = part.object?;
+        let Shape::Placed(i) = self.world.objects[object as usize].shape else { return None };
+        let body = &*self.world.placed[i as usize].body;
+        body.is_sheet().then_some(match body {
+            Body::Mesh(_) => "`inside_vector` gives a closed mesh an inside",
+            _ => "only what encloses a volume can take away: a `box`, a `prism`, a closed mesh with `inside_vector`",
+        })
     }
 
     /// Whether nothing of a part is left where `rest` is what another leaves.

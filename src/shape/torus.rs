@@ -4,6 +4,8 @@
 //! A line crosses it where a polynomial of degree 4 is 0. Its coefficients are of the size of
 //! `major`², which is too much for a thin tube; so no polynomial is made: the height over the surface
 //! is itself taken apart into pieces that have one root each.
+//!
+//! **Source:** for where it is convex S. Boyd, L. Vandenberghe, "Convex Optimization" (2004), 3.1.3 and 3.1.4.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};

@@ -195,9 +195,7 @@ impl Evaluator<'_> {
                 if !value.is_finite() {
                     stray.get_or_insert((x, y));
                 }
-                let within =
-                    if (0.0..=1.0).contains(&value) { value } else { value - value.floor() };
-                heights.push(heights::height(within));
+                heights.push(heights::height(wrapped(value)));
             }
         }
         if let Some((x, y)) = stray {
@@ -207,5 +205,16 @@ impl Evaluator<'_> {
             return Err(self.report(&word.here, diagnostic));
         }
         Ok(("a function".to_owned(), Heights { width, heights }))
+    }
+}
+
+/// A height beyond 0 … 1, as far as it is above the last whole number below it.
+///
+/// **Source:** measured of POV-Ray 3.7: 2 and 3 are 1, −1 and −2 are 0.
+fn wrapped(height: f64) -> f64 {
+    match height {
+        0.0..=1.0 => height,
+        _ if height > 1.0 => height - height.ceil() + 1.0,
+        _ => height - height.floor(),
     }
 }

@@ -296,11 +296,18 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         self.block(token, Word::ClippedBy, |evaluator| {
+            let begins =
+                |token: &Token| matches!(token.kind, TokenKind::Word(word) if opens_object(word));
+            let begins = evaluator.peek().is_some_and(begins);
             let clips = match evaluator.take_word(Word::BoundedBy) {
                 Some(_) => evaluator.bounds.clone(),
                 None => evaluator.children(),
             };
             if clips.is_empty() && evaluator.poison.is_none() {
+                if begins {
+                    // What is wrong with it was told.
+                    return Err(Reported);
+                }
                 let found = evaluator.next();
                 return Err(evaluator.expected(
                     "a solid",

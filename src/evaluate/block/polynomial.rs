@@ -9,6 +9,7 @@ use crate::syntax::ast::{Arguments, Callee, ExpressionKind};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::part::Given;
 
@@ -90,10 +91,17 @@ impl Evaluator<'_> {
         }
         let order = self.number_after(token, "a number for the order")?;
         if !ORDERS.contains(&order.value) || order.value.fract() != 0.0 {
-            let message = format!("the order is {}, and must be a whole number", order.value);
+            let message = match order.value.fract() == 0.0 {
+                true => format!("the order is {}, and must be 2 to 15", order.value),
+                false => format!("the order is {}, and must be a whole number", order.value),
+            };
             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
                 .at(order.span, "expected 2 to 15")
                 .help("the order is the greatest sum of powers in one term");
+            let diagnostic = match order.value == 1.0 {
+                true => diagnostic.help("of order 1 it is a `plane`"),
+                false => diagnostic,
+            };
             return Err(self.report(&order.here, diagnostic));
         }
         Ok(order.value as usize)
@@ -190,6 +198,22 @@ impl Evaluator<'_> {
             None => {
                 let wanted = format!("a list of {count} coefficients in angle brackets");
                 let given = self.given(token, &wanted)?;
+                let goes_on = matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. }));
+                let text = self.sources.text(given.span);
+                let is_list = goes_on || text.contains(',');
+                if matches!(given.value, Value::Number(_)) && is_list {
+                    let name = form.name();
+                    let message = format!("the coefficients of a `{name}` stand in angle brackets");
+                    let right = format!("<{text}>");
+                    let diagnostic = Diagnostic::new(Code::WrongType, message)
+                        .at(given.span, "expected `<` before these, and `>` behind");
+                    let diagnostic = match text.contains(',') {
+                        true => diagnostic.fix(given.span, right),
+                        false => diagnostic,
+                    };
+                    self.skip_values();
+                    return Err(self.report(&given.here, diagnostic));
+                }
                 match given.value.numbers() {
                     Some(numbers) => given.with(numbers.as_slice().to_vec()),
                     None => {

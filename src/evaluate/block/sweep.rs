@@ -27,6 +27,7 @@ impl Evaluator<'_> {
             let wanted = "`linear_spline`, `b_spline` or `cubic_spline`";
             return Err(self.expected(wanted, found.as_ref(), (&token.here, token.span.after())));
         };
+        self.skip_commas();
         let label = "expected how many there are before this".to_owned();
         if let Some(reported) = self.uncounted("", label, "how many spheres there are") {
             return Err(reported);

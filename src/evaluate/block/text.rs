@@ -65,14 +65,23 @@ impl Evaluator<'_> {
         let offset = self.given(token, wanted)?;
         let offset = self.as_vector(offset, wanted)?.value;
         let fits = |bytes: u64| self.has_memory(bytes + string.len() as u64);
-        let letters = match Font::parse(&font) {
-            Ok(font) => font.set(&string, [offset.x, offset.y], fits),
+        let (letters, missing) = match Font::parse(&font) {
+            Ok(font) => {
+                (font.set(&string, [offset.x, offset.y], fits), font.first_missing(&string))
+            }
             // It was when it was read.
-            Err(_) => Some(Vec::new()),
+            Err(_) => (Some(Vec::new()), None),
         };
         let Some(letters) = letters else {
             return Err(self.too_much_memory(&token.here, token.span));
         };
+        if let Some(letter) = missing {
+            let message = format!("the font has no {letter:?}, and shows a box or nothing for it");
+            let diagnostic = Diagnostic::new(Code::MissingLetter, message)
+                .at(given.span, "not all of this is in the font")
+                .help("`text { ttf \"file.ttf\" … }` names another font");
+            self.report(&given.here, diagnostic);
+        }
         let text = Text { string, letters, thickness: thickness.value };
         self.stored += text.letters.iter().map(|letter| letter.bytes()).sum::<u64>();
         if text.string.is_empty() {

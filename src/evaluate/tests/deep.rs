@@ -38,6 +38,18 @@ fn a_macro_that_calls_itself_inside_of_many_brackets_ends_at_the_limit() {
     }
 }
 
+/// Each holds the one before: freed by a call each, they would need a stack.
+#[test]
+fn arrays_within_arrays_are_as_deep_as_a_loop_makes_them() {
+    let work = || {
+        let grow =
+            "#declare A = array[1] {1}; #for (I, 1, 200000) #declare A = array[1] { A }; #end";
+        assert_eq!(printed(&format!("{grow} P(dimension_size(A, 1))")), "1.000");
+    };
+    let small = std::thread::Builder::new().stack_size(1 << 20);
+    small.spawn(work).expect("a thread").join().expect("as on a large stack");
+}
+
 #[test]
 fn a_recursion_may_be_as_deep_as_macros_may() {
     let fall = "#macro F(N) #if (N > 0) #local A = F(N - 1); #end N #end #declare B = F(998); P(B)";

@@ -3,6 +3,8 @@
 //! A line meets a ball between two places, which change steadily as the ball moves on. So what it meets of
 //! a stretch of balls that it meets without a break is one piece of the line, from the least of the places
 //! where it enters one to the greatest of those where it leaves one.
+//!
+//! **Source:** J. van Wijk, "Ray tracing objects defined by sweeping a sphere", Computers & Graphics 9 (1985).
 
 mod along;
 
