@@ -204,8 +204,8 @@ impl Lowering<'_, '_> {
         let Shape::Placed(i) = self.world.objects[object as usize].shape else { return None };
         let body = &*self.world.placed[i as usize].body;
         body.is_sheet().then_some(match body {
-            Body::Mesh(_) => "`inside_vector` gives a closed mesh an inside",
-            _ => "only what encloses a volume can take away: a `box`, a `prism`, a closed mesh with `inside_vector`",
+            Body::Mesh(_) => "a closed mesh has an inside where `inside_vector` is said",
+            _ => "only what encloses a volume can take away, such as a `box` or a `prism`",
         })
     }
 
