@@ -33,6 +33,8 @@ mod merged;
 mod mirrors;
 #[path = "hard/other_words.rs"]
 mod other_words;
+#[path = "hard/outlines.rs"]
+mod outlines;
 #[path = "hard/page.rs"]
 mod page;
 #[path = "hard/poles.rs"]

@@ -225,7 +225,7 @@ impl Geometry {
     }
 
     /// Whether the faces where a line enters and leaves are those of an edge, and not the two sides of something
-    /// thin.
+    /// thin; of what is not there to be seen, nothing tells how it faces.
     #[cold]
     #[inline(never)]
     fn meets_edge(&self, solid: &Solid, ray: &Ray, enter: &Met, leave: &Met) -> bool {
@@ -234,6 +234,9 @@ impl Geometry {
             Solid::Placed(i) => Some(self.placed[*i as usize].surface(ray, t, leaving)),
             Solid::Sphere(_) | Solid::Plane(_) | Solid::Ellipsoid(_) | Solid::Whole(_) => None,
         };
+        if !(enter.is_seen() && leave.is_seen()) {
+            return false;
+        }
         let (Some(one), Some(other)) = (surface(enter.t, false), surface(leave.t, true)) else {
             return false;
         };

@@ -272,7 +272,9 @@ impl Local for Prism {
             BASE => Height { value: low - point.z, gradient: -Vector::Z, error: U },
             _ => {
                 let number = part.saturating_sub(WALLS);
-                let piece = &self.outline.pieces[number as usize / 2];
+                let Some(piece) = self.outline.pieces.get(number as usize / 2) else {
+                    return Height { value: 0.0, gradient: Vector::Z, error: 0.0 };
+                };
                 let side = if number % 2 == 1 { -1.0 } else { 1.0 };
                 let scale = if self.conic { point.z } else { 1.0 };
                 if scale == 0.0 {

@@ -345,7 +345,7 @@ impl Local for Superellipsoid {
 
     fn height(&self, part: u32, point: Vector) -> Height {
         if let Some(side) = part.checked_sub(PLATES) {
-            let axis = (side / 2) as usize;
+            let axis = (side / 2).min(2) as usize;
             let sign = if side % 2 == 0 { -1.0 } else { 1.0 };
             return Height {
                 value: sign * point[axis],

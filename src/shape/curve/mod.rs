@@ -137,20 +137,75 @@ impl Piece {
         }
         let (x, y) = (self.powers(0), self.powers(1));
         let [c, h, q] = [1, 2, 3].map(|k| k as f64 * (a * x[k] + b * y[k]));
-        // q·u² + h·u + c, by the root that does not cancel.
-        let half = -0.5 * (h + (h * h - 4.0 * q * c).max(0.0).sqrt().copysign(h));
-        let roots = if h * h < 4.0 * q * c { [f64::NAN; 2] } else { [half / q, c / half] };
+        let roots = if self.ends_level([a, b]) {
+            // (1 − u)·(c − q·u): 1 is no place within it.
+            [c / q, f64::NAN]
+        } else if h * h < 4.0 * q * c {
+            [f64::NAN; 2]
+        } else {
+            // q·u² + h·u + c, by the root that does not cancel.
+            let half = -0.5 * (h + (h * h - 4.0 * q * c).max(0.0).sqrt().copysign(h));
+            [half / q, c / half]
+        };
         found.extend(roots.into_iter().filter(|u| *u > 0.0 && *u < 1.0));
         found.sort_by(f64::total_cmp);
         found
     }
 
+    /// Whether `a`·x + `b`·y neither rises nor falls where it ends.
+    fn ends_level(&self, [a, b]: Point) -> bool {
+        let ([x, y], [p, q]) = (self.last(), self.points[self.degree - 1]);
+        a * (x - p) + b * (y - q) == 0.0
+    }
+
+    /// How far its coordinates are rounded, and a little more.
+    fn rounding(&self) -> f64 {
+        4.0 * U * self.points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
+    }
+
+    /// Its points lie in their order on the way from the first to the last, as far as rounding tells.
+    fn is_row(&self) -> bool {
+        let way = |from: Point, to: Point| [to[0] - from[0], to[1] - from[1]];
+        let whole = way(self.first(), self.last());
+        let size = whole[0].abs().max(whole[1].abs());
+        let [a, b] = whole.map(|c| c / size);
+        let off = self.rounding();
+        let is_beside = |point: &Point| {
+            let [x, y] = way(self.first(), *point);
+            (x * b - y * a).abs() <= off
+        };
+        let is_onward = |pair: &[Point]| {
+            let [x, y] = way(pair[0], pair[1]);
+            x * a + y * b >= 0.0
+        };
+        self.points().iter().all(is_beside) && self.points().windows(2).all(is_onward)
+    }
+
+    /// A line, if it is one; level at its ends, where rounding does not tell that it turns beside them.
+    fn plain(self) -> Self {
+        if self.is_row() {
+            return Self { seen: self.seen, ..Self::line(self.first(), self.last()) };
+        }
+        let (mut plain, off) = (self, self.rounding());
+        for end in [0, self.degree] {
+            for axis in [0, 1] {
+                let level = self.points[end][axis];
+                let next = &mut plain.points[end.abs_diff(1)][axis];
+                if (*next - level).abs() <= off {
+                    *next = level;
+                }
+            }
+        }
+        plain
+    }
+
     /// Parts of it that turn along no axis.
     fn monotone(self) -> SmallVec<[Self; 5]> {
-        let mut cuts = self.turns([1.0, 0.0]);
-        cuts.extend(self.turns([0.0, 1.0]));
+        let whole = self.plain();
+        let mut cuts = whole.turns([1.0, 0.0]);
+        cuts.extend(whole.turns([0.0, 1.0]));
         cuts.sort_by(f64::total_cmp);
-        let (mut parts, mut rest, mut done) = (SmallVec::new(), self, 0.0);
+        let (mut parts, mut rest, mut done) = (SmallVec::new(), whole, 0.0);
         for cut in cuts {
             let [before, after] = rest.split((cut - done) / (1.0 - done));
             (rest, done) = (after, cut);

@@ -171,6 +171,22 @@ fn on_line(v: f64, Sample { slope, error, .. }: Sample) -> Root {
     Root { t: v, error: least + 2.0 * U * v }
 }
 
+/// What is as far off as that, as a part of a piece, may be all of the next, of another size: then it costs time
+/// to look nearer, and any would do.
+const WIDE: f64 = 1.0 / 64.0;
+
+/// From a place whose side is told to another: about as near as it is told.
+fn nearest_told(sample: impl Fn(f64) -> Sample, told: f64, other: f64, outside: bool) -> f64 {
+    let (mut told, mut near) = (told, other);
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let middle = 0.5 * (told + near);
+        let here = sample(middle);
+        let is_told = if outside { here.is_outside() } else { here.is_inside() };
+        *if is_told { &mut told } else { &mut near } = middle;
+    }
+    told
+}
+
 /// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
 pub fn walk<'a, S: Side>(
     path: Path<'a>,
@@ -195,11 +211,15 @@ pub fn walk<'a, S: Side>(
         let piece = &path.pieces[path.locate(before.v).0];
         let is_linear =
             S::IS_LINEAR && piece.is_straight() && after.v - before.v <= 1.0 && start.is_finite();
-        let Root { t: v, error } = match is_linear {
-            true => on_line(start, sample(start)),
-            false => root(sample, (outside, inside), start, tolerance),
-        };
-        let (low, high) = ((v - error).max(before.v), (v + error).min(after.v));
+        let line = is_linear.then(|| on_line(start, sample(start)));
+        let Root { t: v, error } = line
+            .filter(|root| root.error.is_finite())
+            .unwrap_or_else(|| root(sample, (outside, inside), start, tolerance));
+        let (mut low, mut high) = ((v - error).max(before.v), (v + error).min(after.v));
+        if error > WIDE + 2.0 * tolerance {
+            low = nearest_told(sample, low, v, before.outside);
+            high = nearest_told(sample, high, v, after.outside);
+        }
         Change { path, v, low, high, rising: after.outside }
     };
     let (mut first, mut last): (Option<Certain>, Option<Certain>) = (None, None);

@@ -135,14 +135,30 @@ impl<'a> Ruled<'a> {
         (gap.cross(way).length() > near + off).then(|| self.place(point) * f64::INFINITY)
     }
 
+    /// Whether a narrowing wall's line goes so nearly the ray's way that they meet beyond the body, on whichever side;
+    /// and so does every line between two of which that is true, as |n × g| is more than 0.9·|n|·|g| there.
+    fn is_along(&self, point: Point) -> bool {
+        let LocalRay { nearest, direction, .. } = *self.ray;
+        let way = self.way(point);
+        let off = 2.0 * self.ray.blur_at(2.0) + 32.0 * U;
+        let near = 4.0 * direction.cross(way).length() + 2.0 * off * way.length();
+        self.conic && near < nearest.length() * way.length()
+    }
+
     /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
     /// wall's line for no more than itself.
     pub fn wall(&self, change: &Change) -> Wall {
         let point = change.point();
-        let s = self.place(point);
-        let above = !self.conic || self.ray.at(s).dot(self.way(point)) > 0.0;
+        let (s, way) = (self.place(point), self.way(point));
+        let piece = change.path.piece(change.v);
+        // What is inside of one end of a wall along the ray is so as far as the body goes: on which side of the
+        // body the two meet does not matter.
+        if self.is_along(point) && change.places().all(|point| self.is_along(point)) {
+            let (s, above) = (f64::INFINITY, self.ray.direction.z > 0.0);
+            return Wall { s, error: 0.0, piece, above, along: change.rising == above };
+        }
+        let above = !self.conic || self.ray.at(s).dot(way) > 0.0;
         let reach = change.places().map(|point| (self.place(point) - s).abs()).fold(0.0, f64::max);
-        let way = self.way(point);
         let sine = self.ray.direction.cross(way).length() / way.length();
         let (s, error) = match self.beyond(point) {
             Some(end) if change.places().all(|point| self.beyond(point) == Some(end)) => (end, 0.0),
@@ -153,7 +169,7 @@ impl<'a> Ruled<'a> {
         };
         // On the other side of its tip a wall faces the other way.
         let along = change.rising == above;
-        Wall { s, error, piece: change.path.piece(change.v), above, along }
+        Wall { s, error, piece, above, along }
     }
 }
 

@@ -1,12 +1,16 @@
 //! Prisms against twice the digits.
 
+use super::lathe::any_lathe;
 use super::outline::{along_outline, any_outline, goes_along, is_clear, one, planar, ray_through};
 use super::placed::{
     assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, blur,
     greater, placed, ray_at_placed,
 };
+use super::sor::any_sor;
 use super::*;
 use crate::math::random::tries_in;
+use crate::shape::Superellipsoid;
+use crate::shape::body::{Height, Local, Met};
 use crate::shape::exact::Triple;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
@@ -103,4 +107,25 @@ fn a_prism_is_crossed_where_a_ray_meets_its_edges_goes_along_its_walls_or_throug
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");
+}
+
+/// Also what is not there to be seen, of which its owner may be asked.
+#[test]
+fn whatever_number_a_part_has_it_has_a_height() {
+    let mut random = Random(94);
+    for _ in 0..tries_in(10) {
+        let bodies = [
+            Body::Prism(any_prism(&mut random)),
+            Body::Lathe(any_lathe(&mut random)),
+            Body::Sor(any_sor(&mut random)),
+            Body::Superellipsoid(Superellipsoid::new(0.3, 3.0)),
+        ];
+        for (body, part) in bodies.iter().flat_map(|body| {
+            [0, 1, 2, 3, 1000, Met::UNSEEN / 2, Met::UNSEEN - 1, Met::UNSEEN]
+                .map(|part| (body, part))
+        }) {
+            let Height { value, gradient, .. } = body.height(part, random.point(1.0));
+            assert!(value.is_finite() && gradient.is_finite(), "{part} {body:?}");
+        }
+    }
 }
