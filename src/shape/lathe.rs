@@ -5,6 +5,7 @@
 //! outline as it is. Of a flat one the two arms lie close together: each parts the outline by itself, and where
 //! an arm begins, at ρ = m, the outline is cut, so both see the same ends.
 
+mod level;
 mod line;
 
 use smallvec::SmallVec;
@@ -13,6 +14,7 @@ use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, walk};
 use crate::math::Vector;
+use level::{beside, moved};
 use line::{Arm, Line, STEEP, Steep};
 
 /// A line that is less steep to the surface may go its way or against it, as far as a look at the place tells.
@@ -31,11 +33,13 @@ struct Wall {
     piece: usize,
     /// The line goes the way of the piece's normal.
     along: bool,
+    /// Of what may lie where the arms begin, which way its arm goes; else 0.
+    begins: f64,
 }
 
 impl Wall {
     fn new(change: &Change, along: bool, (s, error): (f64, f64)) -> Self {
-        Self { s, error, piece: change.path.piece(change.v), along }
+        Self { s, error, piece: change.path.piece(change.v), along, begins: 0.0 }
     }
 }
 
@@ -88,20 +92,45 @@ impl Lathe {
                 });
             }
         } else {
+            let line = beside(line, &self.outline, ray);
             for arm in Arm::both(&line) {
                 for run in &self.outline.runs {
                     for path in arm.paths(&self.outline, run) {
                         walk(path, &arm, ray.tolerance, |change| {
                             // What is above is to the left of a line that goes away from the axis.
                             let along = change.rising != (arm.way > 0.0);
-                            walls.push(Wall::new(&change, along, arm.wall(&change)));
+                            let begins = if change.is_at_end() { arm.way } else { 0.0 };
+                            walls.push(Wall {
+                                begins,
+                                ..Wall::new(&change, along, arm.wall(&change))
+                            });
                         });
                     }
                 }
             }
+            if line.raised != 0.0 {
+                for wall in &mut walls {
+                    let height = self.height(part_of(wall.piece, true), ray.at(wall.s));
+                    wall.error += moved(&line, height, ray.direction);
+                }
+            }
         }
         walls.sort_by(|a, b| a.s.total_cmp(&b.s));
+        drop_touches(&mut walls);
         walls
+    }
+}
+
+/// Drops what both arms cross right where they begin: the line may as well only touch it, as at a tip.
+fn drop_touches(walls: &mut SmallVec<[Wall; 6]>) {
+    let mut at = 0;
+    while let Some([one, other]) = walls.get(at..at + 2) {
+        if one.begins * other.begins < 0.0 {
+            walls.drain(at..at + 2);
+            at = at.saturating_sub(1);
+        } else {
+            at += 1;
+        }
     }
 }
 

@@ -55,7 +55,7 @@ impl Slab {
         let met = |end: f64, leaving| {
             let (part, way) = if end == high { (cap, 1.0) } else { (base, -1.0) };
             if steep <= most {
-                let gap = way * self.gap(ray, end);
+                let gap = way * gap(ray, axis, end);
                 let falls_inside = way * nudge(ray)[axis] < 0.0;
                 let room = if falls_inside { -most } else { 0.5 * most };
                 if falls_inside || steep <= 0.25 * most {
@@ -73,19 +73,39 @@ impl Slab {
         let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };
         Some((met(near, false)?, met(far, true)?))
     }
+}
 
-    /// From a line along the slab to one of its planes, as the world has it: there all that touches it has the same.
-    #[cold]
-    fn gap(&self, ray: &LocalRay, end: f64) -> f64 {
-        let axis = self.axis;
-        let seen = ray.in_world.and_then(|InWorld { ray, placed }| {
-            placed.exact.as_deref().map(|exact| (ray, &placed.placement, exact))
-        });
-        let Some((line, placement, exact)) = seen else { return end - ray.nearest[axis] };
-        let mut place = Vector::ZERO;
-        place[axis] = end;
-        let way = exact.way(line.origin, place);
-        let start = placement.local_point(line.origin).dot(ray.direction);
-        placement.local_direction(way)[axis] + ray.direction[axis] * start
+/// From a line to a plane across an axis that it goes along, as the world has it: there all that touches it has
+/// the same.
+#[cold]
+fn gap(ray: &LocalRay, axis: usize, end: f64) -> f64 {
+    let seen = ray.in_world.and_then(|InWorld { ray, placed }| {
+        placed.exact.as_deref().map(|exact| (ray, &placed.placement, exact))
+    });
+    let Some((line, placement, exact)) = seen else { return end - ray.nearest[axis] };
+    let mut place = Vector::ZERO;
+    place[axis] = end;
+    let way = exact.way(line.origin, place);
+    let start = placement.local_point(line.origin).dot(ray.direction);
+    placement.local_direction(way)[axis] + ray.direction[axis] * start
+}
+
+/// Which way along an axis, 1 or −1, a line is off a plane across it where a body has an end, no farther than 1 from
+/// the local origin: in the plane, as far as rounding tells, as a [`Slab`] there has it. `holds` tells whether the
+/// body is on the side of that way. `None` where the line does not go along.
+#[cold]
+pub(super) fn side(
+    ray: &LocalRay,
+    axis: usize,
+    end: f64,
+    holds: impl FnOnce(f64) -> bool,
+) -> Option<f64> {
+    let far = 2.0;
+    let most = 0.25 * (ray.blur_at(far) + 2.0 * U * (0.5 * far + ray.nearest[axis].abs()));
+    if far * ray.direction[axis].abs() > most {
+        return None;
     }
+    let way = nudge(ray)[axis].signum();
+    let room = if holds(way) { most } else { 0.5 * most };
+    Some(if way * gap(ray, axis, end) > room { -way } else { way })
 }

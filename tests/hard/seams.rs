@@ -99,3 +99,41 @@ fn a_polygon_and_a_triangle_that_share_an_edge_far_off_leave_nothing_between_the
         assert_eq!(holes, 0, "{edge}");
     }
 }
+
+#[test]
+fn a_ring_is_whole_at_the_height_where_its_curve_begins() {
+    // One curve, begun at two of its points.
+    for curves in [
+        [
+            "cubic_spline 7, <0.7, 0.3>, <0.5, 0.5>, <0.5, 0.7>, <0.9, 0.6>, <0.7, 0.3>, <0.5, 0.5>, <0.5, 0.7>",
+            "cubic_spline 7, <0.9, 0.6>, <0.7, 0.3>, <0.5, 0.5>, <0.5, 0.7>, <0.9, 0.6>, <0.7, 0.3>, <0.5, 0.5>",
+        ],
+        [
+            "linear_spline 5, <0.5, 0.5>, <0.6, 0.7>, <0.9, 0.6>, <0.7, 0.3>, <0.5, 0.5>",
+            "linear_spline 5, <0.9, 0.6>, <0.7, 0.3>, <0.5, 0.5>, <0.6, 0.7>, <0.9, 0.6>",
+        ],
+        [
+            "bezier_spline 8, <0.5, 0.5>, <0.5, 0.8>, <0.9, 0.8>, <0.9, 0.6>, <0.9, 0.6>, <0.9, 0.4>, <0.6, 0.2>, <0.5, 0.5>",
+            "bezier_spline 8, <0.9, 0.6>, <0.9, 0.4>, <0.6, 0.2>, <0.5, 0.5>, <0.5, 0.5>, <0.5, 0.8>, <0.9, 0.8>, <0.9, 0.6>",
+        ],
+    ] {
+        for around in [
+            "difference { RING sphere { <50, 60, 70>, 1 }",
+            "merge { RING sphere { <50, 60, 70>, 1 }",
+        ] {
+            let pictures = curves.map(|curve| {
+                let thing = around.replace("RING", &format!("lathe {{ {curve} }}"));
+                let text = format!(
+                    "camera {{ orthographic location <8, 0, 0> direction -x right -4.1*z up 3.1*y }}
+                     background {{ rgb <1, 0, 0> }} {thing} {PAINT} }}"
+                );
+                let film = rendered(&text, (41, 31));
+                film.radiance.iter().map(|radiance| radiance.red > 0.5).collect::<Vec<_>>()
+            });
+            assert!(
+                pictures[0].contains(&false) && pictures[0] == pictures[1],
+                "{around} {curves:?}"
+            );
+        }
+    }
+}

@@ -132,9 +132,9 @@ pub struct Change<'a> {
 }
 
 impl Change<'_> {
-    /// It may lie at the very end of its path.
+    /// It may lie at the very end of its path; one that comes to its begin again has none.
     pub fn is_at_end(&self) -> bool {
-        self.low <= self.path.from || self.high >= self.path.to
+        !self.path.closed && (self.low <= self.path.from || self.high >= self.path.to)
     }
 
     pub fn point(&self) -> Point {

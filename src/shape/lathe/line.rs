@@ -26,6 +26,8 @@ pub(super) struct Line {
     across: f64,
     /// How far rounding may move the line anywhere near the body, the outline's own rounding with it.
     pub off: f64,
+    /// How much higher it is taken to be than it is.
+    pub raised: f64,
 }
 
 impl Line {
@@ -38,7 +40,13 @@ impl Line {
             speed: d.z,
             across: (d.x * d.x + d.y * d.y).sqrt(),
             off: ray.blur_at(2.0) + 32.0 * U,
+            raised: 0.0,
         }
+    }
+
+    /// The line so much higher.
+    pub fn raised(self, by: f64) -> Self {
+        Self { start: self.start + by, raised: by, ..self }
     }
 
     /// dz times where the line is at the height z, across the axis.
@@ -222,7 +230,7 @@ impl<'a> Arm<'a> {
         cuts.chunks_exact(2).map(part).collect()
     }
 
-    /// **Error:** the reach of what the change lies within, B farther out and in; where it begins at the
+    /// **Error:** the reach of what the change lies within, B farther out and in; where the path begins at the
     /// middle, that of the other arm too.
     pub fn wall(&self, change: &Change) -> (f64, f64) {
         let Line { across, off, .. } = *self.line;

@@ -9,7 +9,8 @@ use super::placed::{
 };
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::curve::Point;
+use crate::shape::body::{Crossings, Local, LocalRay};
+use crate::shape::curve::{Piece, Point};
 use crate::shape::exact::Triple;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
@@ -105,4 +106,35 @@ fn a_lathe_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis()
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");
+}
+
+#[test]
+fn a_level_line_that_only_touches_a_tip_of_a_lathe_misses_it() {
+    let tip = Piece::line([0.3, -0.7], [0.0, 0.7]);
+    let dimple = Piece::line([0.3, 0.9], [0.0, 0.7]);
+    for pieces in [vec![tip], vec![dimple]] {
+        let lathe = Lathe::new([pieces]).expect("a cone");
+        for way in [Vector::X, Vector::new(0.6, 0.8, 0.0)] {
+            let mut found = Crossings::new();
+            lathe.crossings(&LocalRay::exact(Vector::Z * 0.7, way), &mut found);
+            assert!(found.is_empty(), "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_line_in_a_level_end_of_a_lathe_is_in_one_of_two_that_touch_there() {
+    let corners: [Point; 4] = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.7], [0.0, 0.7]];
+    let ends = [1.0, -1.0].map(|way| {
+        let at = |[x, z]: Point| [x, way * z];
+        let pieces = corners.windows(2).map(|p| Piece::line(at(p[0]), at(p[1])));
+        let lathe = Lathe::new([pieces.collect()]).expect("a cylinder");
+        let mut found = Crossings::new();
+        lathe.crossings(&LocalRay::exact(Vector::Y * 0.1, Vector::X), &mut found);
+        found
+    });
+    let [above, below] = &ends;
+    assert!(above.len() == 2 && below.is_empty(), "{ends:?}");
+    let half = (0.36_f64 - 0.01).sqrt();
+    assert!(above.iter().all(|met| (met.t.abs() - half).abs() <= met.error && met.error < 1e-12));
 }
