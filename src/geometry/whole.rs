@@ -273,7 +273,7 @@ impl Geometry {
         match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),
-            Solid::Box(i) => self.boxes[*i as usize].0.chord(ray),
+            Solid::Box(i) => self.boxes[*i as usize].0.chord_of_part(ray),
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
             // A body may be crossed more often, and a whole's leaves are no wholes.
             Solid::Placed(_) | Solid::Whole(_) => None,

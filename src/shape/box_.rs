@@ -1,6 +1,7 @@
 //! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. The normals need not be at right
 //! angles: then it is a parallelepiped.
 
+use super::slab::falls_inside;
 use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::{Real, UnitVector, Vector, Vector3};
 
@@ -48,6 +49,34 @@ impl Box_ {
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         let slabs = slabs(self.centre, self.directions(), self.half_widths, ray)?;
         Some(Chord { enter: slabs.enter, leave: slabs.leave })
+    }
+
+    /// As of a part of a whole: a line in a face, as far as rounding tells, that of two solids which touch there
+    /// is the other's, misses it.
+    #[inline(always)]
+    pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
+        self.chord(ray).filter(|_| !self.yields(ray))
+    }
+
+    #[inline(always)]
+    fn yields(&self, ray: &Ray) -> bool {
+        let is_along = |normal: Vector| normal.dot(ray.direction).abs() <= LEVEL_OF_PART;
+        self.directions().into_iter().any(is_along) && self.yields_face(ray)
+    }
+
+    /// **Error:** as of [`slabs`]. Nothing that starts from the surface is so near to a face.
+    #[cold]
+    fn yields_face(&self, ray: &Ray) -> bool {
+        let start = ray.origin - self.centre;
+        let is_in_face = |(normal, half_width): (Vector, f64)| {
+            let (place, speed) = (normal.dot(start), normal.dot(ray.direction));
+            let far = 2.0 * normal.abs_dot(self.centre);
+            let error = U * (6.0 * start.abs().element_sum() + 3.0 * half_width + far);
+            let is_along = speed.abs() <= 40.0 * U * normal.abs_dot(ray.direction);
+            let is_near = half_width > 0.0 && (place.abs() - half_width).abs() <= error;
+            is_along && is_near && !falls_inside(normal * place.signum())
+        };
+        self.directions().into_iter().zip(self.half_widths).any(is_in_face)
     }
 
     /// The point where `ray` enters or leaves, put onto the face it crosses there.
@@ -264,6 +293,9 @@ pub fn slabs<R: Real>(
 const STEEP: f64 = 1.0 / 1_048_576.0;
 /// Slower than this a ray is along the slab: the speed has no reciprocal.
 const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
+
+/// Faster than this a line certainly goes along no slab: 40u, and more.
+const LEVEL_OF_PART: f64 = 64.0 * U;
 
 struct End<R: Real> {
     t: R,

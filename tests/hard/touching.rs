@@ -42,6 +42,12 @@ const PAIRS: &[[&str; 2]] = &[
         "difference { box { -1, 1 } cylinder { -2*y, 0, 3 }",
     ],
     ["box { <-1, -1, -1>, <1, 0, 1>", "cylinder { 0, y, 1"],
+    [
+        "lathe { linear_spline 4, <0, -1>, <1, -1>, <1, 0>, <0, 0>",
+        "lathe { linear_spline 5, <0.2, 0>, <1, 0>, <1, 1>, <0.2, 1>, <0.2, 0>",
+    ],
+    ["cylinder { -y, 0, 1", "lathe { linear_spline 4, <0, 0>, <1, 0>, <1, 1>, <0, 1>"],
+    ["lathe { linear_spline 3, <0, -1>, <0.8, -0.5>, <1, 0>", "cone { 0, 1, y, 0.5"],
 ];
 
 /// A closed mesh from y = −1 to 0.
@@ -95,13 +101,16 @@ fn no_ray_slips_through_between_two_solids_that_touch() {
 
 #[test]
 fn nothing_is_in_two_solids_that_touch() {
-    // A box has its faces.
-    let without_box = PAIRS.iter().filter(|[below, _]| !below.starts_with("box"));
-    for [below, above] in without_box {
+    for [below, above] in PAIRS {
         for map in MAPS {
-            let both = format!("intersection {{ {below} }} {above} }} {PAINT} {map} }}");
-            let [middle, next] = rows(&both, map);
-            assert!(!middle.contains(&true) && !next.contains(&true), "{both}");
+            // Another part, in which both lie, for no short cut to be taken.
+            let others = ["", "union { sphere { 0, 3 } sphere { x, 3 } }"];
+            for beside in others.into_iter().take(if *map == MAPS[0] { 2 } else { 1 }) {
+                let both = format!("{below} }} {above} }} {beside}");
+                let both = format!("intersection {{ {both} {PAINT} {map} }}");
+                let [middle, next] = rows(&both, map);
+                assert!(!middle.contains(&true) && !next.contains(&true), "{both}");
+            }
         }
     }
 }
