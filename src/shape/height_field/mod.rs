@@ -236,6 +236,12 @@ impl HeightField {
         (enter.t + enter.error < leave.t - leave.error).then_some((enter, leave))
     }
 
+    /// Whether a crossing certainly lies under the water.
+    fn is_under_water(&self, ray: &LocalRay, met: &Met) -> bool {
+        let off = ray.blur_at(met.t) + met.error * ray.direction.y.abs() + 2.0 * U;
+        ray.at(met.t).y + off < self.water
+    }
+
     /// How high the triangles are at a place; `None` beside the square.
     fn ground(&self, point: Vector) -> Option<f64> {
         if !(point.x.abs() < 0.5 && point.z.abs() < 0.5) {
@@ -287,6 +293,12 @@ impl Local for HeightField {
         let Some(walls) = self.between_walls(ray) else { return };
         let mut spans = self.under_ground(ray, walls);
         if self.water > self.range[0] {
+            // Of the ground that is under the water nothing is seen, also where the line enters both at once.
+            for met in spans.iter_mut().flat_map(|(enter, leave)| [enter, leave]) {
+                if self.is_under_water(ray, met) {
+                    met.part = Met::UNSEEN;
+                }
+            }
             spans.extend(self.under_water(ray, walls));
         }
         let mut all = Crossings::new();

@@ -205,3 +205,17 @@ fn flat_letters_are_met_where_exact_arithmetic_is_inside_of_them() {
     }
     assert!(met > tries() / 20 && missed > tries() / 8, "{met} {missed}");
 }
+
+#[test]
+fn of_the_ground_under_the_water_nothing_is_seen() {
+    // It rises from x = −0.5 on; the line comes in level with its foot.
+    let field = HeightField::new(vec![-0.5, 0.5, -0.5, 0.5], 2, 0.0, false).expect("a landscape");
+    for height in [-0.5, -0.4375, -1e-9] {
+        for way in [Vector::X, Vector::new(1.0, 0.0, 0.25).normalize()] {
+            let ray = LocalRay::exact(Vector::Y * height, way);
+            let mut found = Crossings::new();
+            field.crossings(&ray, &mut found);
+            assert!(!found.iter().any(Met::is_seen), "{height} {found:?}");
+        }
+    }
+}
