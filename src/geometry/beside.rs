@@ -12,7 +12,7 @@ use super::{ANY, Entry, Geometry, Solid, TIGHT};
 use crate::math::Vector;
 use crate::math::placement::norm;
 use crate::shape::Ray;
-use crate::shape::body::Local;
+use crate::shape::body::{Local, Met};
 
 /// How far beside the ray is looked, in sizes of the smallest solid that is met: so near that a picture does
 /// not show it, and so far that surfaces that touch are apart; farther where they still are not, as where a
@@ -88,41 +88,67 @@ impl Geometry {
         let told = (32.0 * (hit.error + (limit - hit.t)) * grain.size).sqrt();
         let ways = BESIDE.map(|share| (share * grain.size).max(told));
         let seen = ways.into_iter().filter(|far| *far < grain.size);
-        seen.map(|far| self.around(ray, hit.t, far)).find_map(|seen| match seen {
+        seen.map(|far| self.around(ray, &hit, [far, grain.size])).find_map(|seen| match seen {
             Around::Nothing => None,
             Around::Different => Some(None),
             Around::Same(nearer) => Some((nearer.object != hit.object).then_some(nearer)),
         })?
     }
 
-    /// What rays so far beside meet at about the same distance.
-    fn around(&self, ray: &Ray, t: f64, far: f64) -> Around {
+    /// What rays so far beside meet at about the same distance, where what was hit goes on behind that: beside the
+    /// edge of a face that coincides with another it does not.
+    fn around(&self, ray: &Ray, hit: &Hit, [far, size]: [f64; 2]) -> Around {
         let (aside, across) = ray.direction.any_orthonormal_pair();
         let mut seen = Around::Nothing;
         for [a, b] in WAYS {
             let step = (aside * a + across * b) * far;
-            let [Some(one), Some(other)] = [step, -step].map(|step| self.beside(ray, step)) else {
+            let [one, other] = [step, -step].map(|step| beside(ray, step));
+            let [Some(first), Some(second)] = [&one, &other].map(|ray| self.raced(ray)) else {
                 return Around::Different;
             };
-            if one.contested || other.contested {
+            if first.contested || second.contested {
                 continue;
             }
-            let is_here = (0.5 * (one.t + other.t) - t).abs() <= far;
-            let is_same = |known: &Hit| known.object == one.object;
-            let is_one = one.object == other.object && one.leaving == other.leaving;
+            let is_here = (0.5 * (first.t + second.t) - hit.t).abs() <= far;
+            let is_same = |known: &Hit| known.object == first.object;
+            let is_one = first.object == second.object && first.leaving == second.leaving;
+            let goes_on = || [&one, &other].iter().all(|ray| self.goes_on(ray, hit, size));
             seen = match seen {
-                Around::Nothing if is_here && is_one => Around::Same(one),
-                Around::Same(known) if is_here && is_one && is_same(&known) => seen,
+                Around::Nothing if is_here && is_one && goes_on() => Around::Same(first),
+                Around::Same(known) if is_here && is_one && is_same(&known) && goes_on() => seen,
                 _ => return Around::Different,
             };
         }
         seen
     }
 
-    /// What a ray beside another meets.
-    fn beside(&self, ray: &Ray, step: Vector) -> Option<Hit> {
-        self.raced(&Ray { origin: ray.origin + step, direction: ray.direction })
+    /// Whether a ray beside meets what was hit, within `size` of where that was.
+    fn goes_on(&self, beside: &Ray, hit: &Hit, size: f64) -> bool {
+        let is_near = |met: &Met| (met.t - hit.t).abs() <= size;
+        let meets = |leaf: &Entry| {
+            leaf.object == hit.object && self.crossings(&leaf.solid, beside).iter().any(is_near)
+        };
+        let (limit, mut found) = (hit.t + size, false);
+        let look = |place: usize, _: &mut Uncounted| {
+            let entry = &self.entries[place];
+            found |= match entry.solid {
+                Solid::Whole(i) => self.wholes[i as usize].leaves.iter().any(meets),
+                Solid::Sphere(_)
+                | Solid::Plane(_)
+                | Solid::Box(_)
+                | Solid::Ellipsoid(_)
+                | Solid::Placed(_) => meets(entry),
+            };
+            if found { f64::NEG_INFINITY } else { limit }
+        };
+        self.search(beside, limit, &mut Each(Uncounted, look));
+        found
     }
+}
+
+/// A ray beside another.
+fn beside(ray: &Ray, step: Vector) -> Ray {
+    Ray { origin: ray.origin + step, direction: ray.direction }
 }
 
 /// What rays around another see.

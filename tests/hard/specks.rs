@@ -78,3 +78,40 @@ fn surfaces_that_coincide_keep_their_order() {
         assert_no_speck(&format!("union {{ {things} {map} }}"), map);
     }
 }
+
+#[test]
+fn the_first_of_two_coinciding_faces_is_seen_up_to_its_corner() {
+    let prism = "prism { -0.7, 1, 4, <-0.7, 0.3>, <0.3, 0.3>, <0.3, 0.5>, <-0.7, 0.5>";
+    let narrow = "prism { -0.7, 1, 4, <-0.7, 0.49>, <0.3, 0.49>, <0.3, 0.5>, <-0.7, 0.5>";
+    let block = "box { <-0.7, -0.7, 0.3>, <0.3, 1, 0.5>";
+    let wide = "box { <-0.7, 0.5, 0.3>, <0.7, 1, 0.7>";
+    let other = "prism { 0.5, 1, 4, <-0.7, 0.3>, <0.7, 0.3>, <0.7, 0.7>, <-0.7, 0.7>";
+    for (first, second, depth) in [
+        (prism, wide, 0.2),
+        (prism, other, 0.2),
+        (block, other, 0.2),
+        (narrow, wide, 0.01),
+        (
+            block,
+            "superellipsoid { <0.001, 0.001> scale <0.7, 0.5, 0.2> translate <0, 0.5, 0.5>",
+            0.2,
+        ),
+    ] {
+        for group in ["union", "merge"] {
+            let text = format!(
+                "camera {{ orthographic location <0.301, 4, 0.501> direction -y right 0.12*x up -0.09*z }}
+                 {group} {{ {first} {GREEN} {second} {RED} }}"
+            );
+            let film = rendered(&text, (41, 31));
+            for (x, y) in (0..31).flat_map(|y| (0..41).map(move |x| (x, y))) {
+                let place = |cells: f64, at: usize, middle: f64, size: f64| {
+                    middle + size * ((at as f64 + 0.5) / cells - 0.5)
+                };
+                let (a, b) = (place(41.0, x, 0.301, 0.12), place(31.0, y, 0.501, 0.09));
+                let is_first = a < 0.3 && b < 0.5 && b > 0.5 - depth;
+                let green = film.radiance[film.index(x as u32, y as u32)].green > 0.5;
+                assert_eq!(green, is_first, "{text} {x} {y}");
+            }
+        }
+    }
+}
