@@ -127,3 +127,29 @@ fn what_both_begin_with_is_of_the_first() {
         |x, y| usize::from(in_square(x, y, 1.0)),
     );
 }
+
+#[test]
+fn an_isosurface_in_a_whole_loses_nothing_from_afar_where_a_line_goes_along_it_and_then_in() {
+    for function in ["z - max(0, y)", "z - max(0, y - 0.3)/2", "min(max(y, 0.1), z + 0.5)"] {
+        for (whole, with) in [
+            ("intersection", "sphere { 0, 5 }"),
+            ("difference", "sphere { 9*x, 1 }"),
+            ("object", "clipped_by { box { -4, 4 } }"),
+        ] {
+            let seen = |from: f64| {
+                let scene = format!(
+                    "camera {{ orthographic location <0.013, -{from}, 0.017> direction y
+                     right 3.45*x up 2.6*z }} background {{ rgb 0 }}
+                     {whole} {{ isosurface {{ function {{ {function} }} contained_by {{ box {{ -1, 1 }} }} }}
+                     {with} pigment {{ gradient y color_map {{ [0 rgb 0.25] [1 rgb 0.75] }} scale 8
+                     translate -4*y }} finish {{ ambient 1 diffuse 0 }} }}"
+                );
+                rendered(&scene, (18, 13)).radiance.iter().map(|seen| seen.red).collect::<Vec<_>>()
+            };
+            let (near, far) = (seen(6.0), seen(1e5));
+            assert!(near.iter().filter(|red| **red > 0.0).count() > 50, "{whole} {function}");
+            let apart = near.iter().zip(&far).filter(|(a, b)| (*a - *b).abs() > 1e-4).count();
+            assert_eq!(apart, 0, "{whole} {function}");
+        }
+    }
+}

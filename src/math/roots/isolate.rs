@@ -140,7 +140,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.left.push((first, last));
     }
 
-    /// Looks on, to the next change; `false` where there is none.
+    /// Looks on, to the next change; `false` where there is none, and all is searched.
     pub fn goes_on(&mut self) -> bool {
         let told = self.found.all.len();
         while let Some((a, b)) = self.left.pop() {
@@ -155,19 +155,23 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
                 return true;
             }
         }
-        false
+        // The last that was searched may have been moved inward from where all ends.
+        if let Some(end) = self.end {
+            self.note(end.s, end.sign());
+        }
+        self.found.all.len() > told
     }
 
     /// The same, where the function is known to rise or to fall throughout.
     pub fn through_slope(&mut self, from: f64, to: f64) {
         let first = self.look_again(from);
         let last = self.look(to);
+        self.end = Some(last);
         if first.sign().is_none() || last.sign().is_none() {
             self.left.push((first, last));
             while self.goes_on() {}
         }
         self.note(from, first.sign());
-        self.end = Some(last);
         self.note(to, last.sign());
     }
 
@@ -322,6 +326,17 @@ mod tests {
         let roots = polynomial(&[-0.9, 0.1, 0.100_01, 0.100_02, 0.9]);
         assert_eq!(search.found(), &changes(&roots, -2.0, 3.0, FINE));
         assert!(3 * first < looks.get(), "{first} {}", looks.get());
+    }
+
+    #[test]
+    fn the_last_place_of_certain_sign_is_the_end_of_what_was_searched() {
+        // Flat, and then falling: from its root on the slope alone tells the sign.
+        let ramp = |x: Interval| Bounds {
+            value: Interval::point(0.5) - x.max(Interval::point(0.0)),
+            slope: Interval { low: if x.high > 0.0 { -1.0 } else { 0.0 }, high: 0.0 },
+        };
+        let found = changes(&ramp, -1.0, 1.0, FINE);
+        assert_eq!((found.all.len(), found.last), (1, Some((1.0, true))), "{found:?}");
     }
 
     #[test]
