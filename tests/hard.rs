@@ -31,6 +31,8 @@ mod lights;
 mod merged;
 #[path = "hard/mirrors.rs"]
 mod mirrors;
+#[path = "hard/multiple.rs"]
+mod multiple;
 #[path = "hard/other_words.rs"]
 mod other_words;
 #[path = "hard/outlines.rs"]

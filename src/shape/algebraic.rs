@@ -21,7 +21,7 @@ use closed::Closed;
 use ends::Ends;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
-use super::{Memory, U};
+use super::{Memory, U, multiple};
 use crate::math::Vector;
 use crate::math::roots::polynomial::{Asked, MOST, Polynomial};
 use crate::math::terms::{count_of_terms, exponents};
@@ -93,6 +93,14 @@ impl Algebraic {
             all = all * x + plane;
         }
         (all, slope)
+    }
+
+    /// By the value and the gradient at the point itself, which may be 0.
+    fn simple_height(&self, point: Vector) -> multiple::Told {
+        let (value, gradient) = self.at(&self.terms, point);
+        let (size, steepness) = self.at(&self.sizes, point.abs());
+        let rounding = self.rounding();
+        (Height { value, gradient, error: rounding * size }, rounding * steepness.length())
     }
 
     /// How often a term of a value is rounded at most: each factor twice, each of the sums it is carried
@@ -177,14 +185,23 @@ impl Local for Algebraic {
     }
 
     fn height(&self, _: u32, point: Vector) -> Height {
-        let (value, gradient) = self.at(&self.terms, point);
-        let (size, _) = self.at(&self.sizes, point.abs());
-        let error = self.rounding() * size;
-        if gradient == Vector::ZERO {
-            // The tip of a cone, or the place where two sheets cross: it faces no way, or any.
-            return Height { value: 0.0, gradient: Vector::Y, error: error.sqrt() };
+        let (height, _) = self.simple_height(point);
+        let far = Some(point.length()).filter(|far| *far > 0.0).unwrap_or(1.0);
+        if height.gradient.length() * (multiple::MOVED * far) > height.error {
+            return height;
         }
-        Height { value, gradient, error }
+        let sample = |place| Some(self.simple_height(place));
+        if multiple::is_steady(point, &height, sample) {
+            return height;
+        }
+        if let Some(height) = multiple::height(point, multiple::NEAREST * far, sample) {
+            return height;
+        }
+        if height.gradient == Vector::ZERO {
+            // The tip of a cone, or the place where two sheets cross: it faces no way, or any.
+            return Height { value: 0.0, gradient: Vector::Y, error: height.error.sqrt() };
+        }
+        height
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {

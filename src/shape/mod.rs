@@ -22,6 +22,7 @@ pub mod julia_fractal;
 pub mod lathe;
 mod memory;
 pub mod mesh;
+mod multiple;
 pub mod ovus;
 pub mod parametric;
 pub mod placed;

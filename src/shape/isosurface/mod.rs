@@ -16,7 +16,7 @@ mod nowhere;
 use std::sync::Arc;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
-use super::{Memory, U};
+use super::{Memory, U, multiple};
 use crate::function::{Closed, Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
@@ -66,6 +66,9 @@ enum Wanted {
 /// As steep as this, over the size of the container, a function may have a pole.
 const STEEPEST: f64 = 1e9;
 
+/// Where the gradient is 0 as the root is many at once, it is so many times as steep around.
+const TIMES_STEEPER: f64 = 8.0;
+
 impl Isosurface {
     fn world(&self, point: Vector) -> Vector {
         self.centre + point * self.scale
@@ -107,6 +110,25 @@ impl Isosurface {
             if rise.is_nan() { 0.0 } else { rise / (2.0 * step) }
         };
         Vector::new(along(Vector::X), along(Vector::Y), along(Vector::Z))
+    }
+
+    /// By the value and the gradient at the point itself, which may be 0 or no numbers.
+    fn simple_height(&self, point: Vector) -> multiple::Told {
+        let anyhow = || Sloped::anyhow(Interval::EVERYTHING, false);
+        let Sloped { value: Interval { low, high }, slopes } =
+            self.bounds(point.to_array().map(Interval::point)).unwrap_or_else(anyhow);
+        let gradient = Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high)));
+        let width = Vector::from_array(slopes.map(|slope| slope.high - slope.low)).length();
+        (Height { value: 0.5 * (low + high), gradient, error: 0.5 * (high - low) }, width)
+    }
+
+    /// By the gradients around, as of a function whose own is 0.
+    fn height_around(&self, point: Vector) -> Option<Height> {
+        let is_told = |(height, width): &multiple::Told| {
+            height.gradient.is_finite() && height.error.is_finite() && width.is_finite()
+        };
+        let sample = |place| Some(self.simple_height(place)).filter(is_told);
+        multiple::height(point, multiple::NEAREST * self.reach(), sample)
     }
 
     /// The gradient where bounds tell no good one: at kinks and jumps, that of a wider and wider
@@ -230,12 +252,8 @@ impl Local for Isosurface {
         if part != SURFACE {
             return self.container.height(part, point);
         }
-        let anyhow = || Sloped::anyhow(Interval::EVERYTHING, false);
-        let Sloped { value: Interval { low, high }, slopes } =
-            self.bounds(point.to_array().map(Interval::point)).unwrap_or_else(anyhow);
-        let value = 0.5 * (low + high);
-        let gradient = Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high)));
-        let width = Vector::from_array(slopes.map(|slope| slope.high - slope.low)).length();
+        let (here, width) = self.simple_height(point);
+        let Height { value, gradient, error } = here;
         let steepness = gradient.length();
         let is_known = value.is_finite() && width <= 1e-3 * steepness && steepness > 0.0;
         // Beside a pole it falls, and rises across.
@@ -245,7 +263,20 @@ impl Local for Isosurface {
         };
         let is_known = is_known && !(steepness > STEEPEST && is_pole());
         if is_known && value.abs() <= self.accuracy * steepness {
-            return Height { value, gradient, error: 0.5 * (high - low) };
+            let sample = |place| Some(self.simple_height(place));
+            if error <= multiple::MOVED * self.reach() * steepness
+                || multiple::is_steady(point, &here, sample)
+            {
+                return here;
+            }
+            return self.height_around(point).unwrap_or(here);
+        }
+        let around = || self.differences(point, 1e-6).length();
+        if width.is_finite()
+            && TIMES_STEEPER * (steepness + width) <= around()
+            && let Some(height) = self.height_around(point)
+        {
+            return height;
         }
         let (gradient, step) = self.gradient_around(point).unwrap_or((Vector::Y, 0.0));
         let (value, steepness) = (self.value(point), gradient.length());
