@@ -26,8 +26,8 @@ const FARTHEST: f64 = 4.0;
 pub(super) const MOVED: f64 = 1.0 / 1_048_576.0;
 
 /// Where rounding may have moved the surface of hⁿ to, the gradient is other by more than this part of itself: by
-/// 0.7 of it at least where n is 3.
-const STEADY: f64 = 0.25;
+/// (1 + 1/n)ⁿ⁻¹ - 1 of it at least, 7/9 where n is 3.
+const STEADY: f64 = 0.75;
 
 /// Of how far off a point is: the least distance at which the gradient is asked for.
 pub(super) const NEAREST: f64 = 1.0 / 67_108_864.0;
