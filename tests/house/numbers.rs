@@ -31,7 +31,11 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("evaluate/probe.rs", "UNBOUNDED", "what POV-Ray's max_extent answers for a plane"),
     ("shape/multiple.rs", "const TOLD", "roundings of a value and of a gradient"),
     ("shape/multiple.rs", "const MOVED", "relative: of how far off a point is, or of a container"),
-    ("shape/multiple.rs", "const NEAREST", "relative: of how far off a point is, or of a container"),
+    (
+        "shape/multiple.rs",
+        "const NEAREST",
+        "relative: of how far off a point is, or of a container",
+    ),
     ("shape/isosurface/mod.rs", "let around", "of a container's size"),
     ("shape/algebraic/closed.rs", "MOST_STRETCHED", "a length over a length, squared"),
     ("shape/algebraic/net.rs", "const NARROWEST", "relative: of the first box's half width"),
