@@ -19,12 +19,11 @@ pub(super) fn mean(
     mut sample: impl FnMut(&mut Walk, u32, u32) -> Rgb,
 ) -> Rgb {
     let mut sum = Rgb::BLACK;
-    'all: for j in 0..grid {
+    for j in 0..grid {
+        if j > 0 && walk.patience.is_over_after(grid, watch) {
+            break;
+        }
         for i in 0..grid {
-            let steps = if i == 0 { grid } else { 0 };
-            if (i, j) != (0, 0) && walk.patience.is_over_after(steps, watch) {
-                break 'all;
-            }
             sum += sample(walk, i, j);
         }
     }

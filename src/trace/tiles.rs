@@ -97,12 +97,14 @@ impl<'a> Crew<'a> {
                 return;
             }
             walk.occluders.clear();
-            walk.patience.is_short = true;
             for (y, (radiance, samples)) in (tile.y..).zip(tile.rows) {
+                // A row may take long; what is done of the tile is kept.
+                if y > tile.y && self.watch.should_stop() {
+                    stopped.store(true, Ordering::Relaxed);
+                    break;
+                }
                 for ((x, radiance), samples) in (tile.x..).zip(radiance).zip(samples) {
-                    // One line may take seconds; what is done of the tile is kept.
-                    let is_over = walk.patience.ask(self.watch);
-                    let seen = if is_over { None } else { pixel(walk, x, y) };
+                    let seen = pixel(walk, x, y);
                     if walk.patience.is_over {
                         stopped.store(true, Ordering::Relaxed);
                         break;

@@ -61,10 +61,8 @@ impl Watch for Limited<'_> {
 /// times.
 #[derive(Debug, Default)]
 pub(super) struct Patience {
-    /// After fewer steps than this it does not ask.
+    /// Steps until then.
     left: u32,
-    /// It asks at each step: where nobody counts the questions, and one line may take seconds.
-    pub is_short: bool,
     /// The watch wants no more: what the pixel at hand shows is no longer true.
     pub is_over: bool,
 }
@@ -76,7 +74,7 @@ impl Patience {
     /// Whether to give up, after some more steps.
     #[inline(always)]
     pub fn is_over_after(&mut self, steps: u32, watch: &dyn Watch) -> bool {
-        if steps < self.left {
+        if steps <= self.left {
             self.left -= steps;
             return false;
         }
@@ -87,7 +85,7 @@ impl Patience {
     #[inline(never)]
     pub fn ask(&mut self, watch: &dyn Watch) -> bool {
         self.is_over = self.is_over || watch.should_stop();
-        self.left = if self.is_over || self.is_short { 0 } else { Self::STEPS + 1 };
+        self.left = if self.is_over { 0 } else { Self::STEPS };
         self.is_over
     }
 }

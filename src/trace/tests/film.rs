@@ -140,19 +140,3 @@ fn a_stopped_film_knows_which_pixels_were_reached() {
         assert_eq!(result.film.radiance[i], expected);
     }
 }
-
-#[test]
-fn a_watch_that_wants_no_more_is_heard_before_the_next_pixel() {
-    struct Asked(AtomicUsize);
-    impl Watch for Asked {
-        fn progress(&self, _: usize, _: usize) {}
-        fn should_stop(&self) -> bool {
-            self.0.fetch_add(1, Ordering::Relaxed) >= 5
-        }
-    }
-    let world = varied();
-    let plan = plan(&world, &Origins::default(), &options(40, 40, Antialias::Off));
-    let result = trace(&world, &plan, &TraceOptions::on_threads(1), &Asked(AtomicUsize::new(0)));
-    assert!(!result.complete);
-    assert!(result.film.samples.iter().filter(|&&n| n > 0).count() <= 5);
-}
