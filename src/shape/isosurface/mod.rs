@@ -271,9 +271,13 @@ impl Local for Isosurface {
             }
             return self.height_around(point).unwrap_or(here);
         }
-        let around = || self.differences(point, 1e-6).length();
+        // At a jump, which has a slope beside it, the differences are the steeper the nearer.
+        let is_steeper_around = || {
+            let [near, far] = [1e-6, 1e-5].map(|step| self.differences(point, step).length());
+            TIMES_STEEPER * (steepness + width) <= near && near <= far
+        };
         if width.is_finite()
-            && TIMES_STEEPER * (steepness + width) <= around()
+            && is_steeper_around()
             && let Some(height) = self.height_around(point)
         {
             return height;

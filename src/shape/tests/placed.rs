@@ -78,9 +78,12 @@ pub(super) fn blur(placed: &Placed, ray: &Ray) -> f64 {
 fn is_level(placed: &Placed, ray: &Ray) -> bool {
     let step = placed.placement.local_direction(ray.direction);
     let level = match *placed.body {
-        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) | Body::Text(_) => {
-            step.z.abs()
-        }
+        Body::Cylinder(_)
+        | Body::Cone(_)
+        | Body::Prism(_)
+        | Body::Sor(_)
+        | Body::Lathe(_)
+        | Body::Text(_) => step.z.abs(),
         Body::Isosurface(_) => step.abs().min_element(),
         _ => return false,
     };
