@@ -29,7 +29,7 @@ fn off(many: &str, one: &str) -> f64 {
     };
     let (many, one) = (seen(many), seen(one));
     let apart = |(a, b): (&lucarne::color::Rgb, &lucarne::color::Rgb)| {
-        f64::from((a.red - b.red).abs().max((a.blue - b.blue).abs()))
+        (a.red - b.red).abs().max((a.blue - b.blue).abs())
     };
     many.radiance.iter().zip(&one.radiance).map(apart).fold(0.0, f64::max)
 }
