@@ -36,7 +36,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "const NEAREST",
         "relative: of how far off a point is, or of a container",
     ),
-    ("shape/isosurface/mod.rs", "let around", "of a container's size"),
+    ("shape/isosurface/mod.rs", "let [near, far]", "of a container's size"),
     ("shape/algebraic/closed.rs", "MOST_STRETCHED", "a length over a length, squared"),
     ("shape/algebraic/net.rs", "const NARROWEST", "relative: of the first box's half width"),
     ("shape/algebraic/net.rs", "let slack", "roundings of a value, relative, and what underflows"),
