@@ -3,6 +3,12 @@
 use super::printed;
 
 facts! {
+    what_is_turned_is_as_wide_as_it_is:
+        "#declare T = torus { 1, 0.25 rotate 45*z } V(max_extent(T))
+         #declare B = box { -1, 1 rotate 45*y } V(max_extent(B))
+         #declare C = cylinder { -y, y, 0.5 rotate 30*z } V(max_extent(C))
+         #declare D = sphere { 0, 1 scale <1, 2, 3> rotate 45*x } V(max_extent(D))"
+        => "<0.96,0.96,1.25> <1.41,1.00,1.41> <0.93,1.12,0.50> <1.00,2.55,2.55>";
     planes_alone_may_make_a_box:
         "#declare A = intersection { plane { x, 1 } plane { -x, 1 } plane { y, 2 } plane { -y, -0.5 }
            plane { z, 1 } plane { -z, 1 } } V(min_extent(A)) V(max_extent(A))"
