@@ -2,6 +2,7 @@
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::math::terms::count_of_terms;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Component, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
@@ -16,8 +17,6 @@ const COMPONENTS: [&str; 12] =
     ["x", "y", "z", "t", "u", "v", "red", "green", "blue", "filter", "transmit", "gray"];
 
 const MOST_COMPONENTS: usize = 5;
-/// The coefficients of a polynomial of the highest order, 15.
-const MOST_NUMBERS: usize = 816;
 
 /// What a vector has between its angle brackets, so far.
 #[derive(Default)]
@@ -230,12 +229,14 @@ impl Evaluator<'_> {
         list: Arguments,
         span: Span,
     ) -> Outcome<Vec<f64>> {
+        // No list has more than the coefficients of a polynomial of the highest order.
+        let most = count_of_terms(15);
         let mut numbers = Ok(Vec::new());
         for argument in here.unit.ast.arguments(list) {
             let found = match *argument {
-                Argument::Items(items) => self.inside(here, items, |evaluator| {
-                    evaluator.components(here, span, MOST_NUMBERS)
-                }),
+                Argument::Items(items) => {
+                    self.inside(here, items, |evaluator| evaluator.components(here, span, most))
+                }
                 Argument::Expression(id) => match self.left_by_macro(here, id) {
                     None => self.number(here, id).map(|number| vec![number]),
                     Some(left) => left.and_then(|values| {

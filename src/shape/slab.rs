@@ -45,7 +45,7 @@ impl Slab {
     pub fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
         let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
         let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
-        let rounded = 2.0 * U * (0.5 * far + place.abs());
+        let rounded = rounding(far, place);
         let flat_off = ray.blur_at(far) + rounded;
         let beyond = |leaving| if leaving { f64::INFINITY } else { f64::NEG_INFINITY };
         // Of two that touch the one is nudged inside, and has all that it may have; the other has nothing then, but
@@ -75,6 +75,11 @@ impl Slab {
     }
 }
 
+/// How far a plane may be off as a line at `place` along its axis sees it.
+fn rounding(far: f64, place: f64) -> f64 {
+    2.0 * U * (0.5 * far + place.abs())
+}
+
 /// From a line to a plane across an axis that it goes along, as the world has it: there all that touches it has
 /// the same.
 #[cold]
@@ -101,7 +106,7 @@ pub(super) fn side(
     holds: impl FnOnce(f64) -> bool,
 ) -> Option<f64> {
     let far = 2.0;
-    let most = 0.25 * (ray.blur_at(far) + 2.0 * U * (0.5 * far + ray.nearest[axis].abs()));
+    let most = 0.25 * (ray.blur_at(far) + rounding(far, ray.nearest[axis]));
     if far * ray.direction[axis].abs() > most {
         return None;
     }

@@ -100,9 +100,8 @@ impl Sor {
         let mut walk = Walk::new(self, ray);
         let (n, d) = (ray.nearest, ray.direction);
         let nearest = -(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
-        let count = self.segments.len();
+        let (count, is_down) = (self.segments.len(), d.z < 0.0);
         for number in 0..count {
-            let is_down = d.z < 0.0;
             let segment = &self.segments[if is_down { count - 1 - number } else { number }];
             let place = |z: f64| (z - n.z) / d.z;
             let (low, high) = (place(segment.low), place(segment.high));
