@@ -145,11 +145,13 @@ impl Polynomial {
 
     fn scaled(&self, scale: f64) -> Self {
         let mut scaled = self.clone();
-        let mut power = 1.0;
+        // scaleᵏ as two factors: it may be as great as its coefficient is small.
+        let (mut half, mut other) = (1.0, 1.0);
         for k in 0..=self.degree {
-            scaled.values[k] *= power;
-            scaled.slack[k] *= power;
-            power *= scale;
+            for list in [&mut scaled.values, &mut scaled.slack] {
+                list[k] = list[k] * half * other;
+            }
+            (half, other) = (other, half * scale);
         }
         scaled
     }
@@ -167,8 +169,13 @@ impl Polynomial {
 
     /// The sign at s; 0 where the bound does not tell it.
     fn sign(&self, s: f64) -> i8 {
+        self.sign_beyond(0.0, s)
+    }
+
+    /// The sign at s if the value is farther from 0 than `least`, and the bound tells that.
+    fn sign_beyond(&self, least: f64, s: f64) -> i8 {
         let value = value(&self.values[..=self.degree], s);
-        let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
+        let slack = value_of_positive(&self.slack[..=self.degree], s.abs()) + least;
         match () {
             () if value > slack && value.is_finite() => 1,
             () if value < -slack && value.is_finite() => -1,

@@ -6,7 +6,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Change, Polynomial, value};
+use super::{Change, Polynomial, U, value};
 use crate::math::elementary::cbrt;
 
 /// About where, and between which places.
@@ -75,7 +75,11 @@ impl Polynomial {
             let reach = 1.0 + 2.0 * y.abs();
             return one(change(-reach, y, reach));
         }
-        match (sign(-1.0), sign(1.0)) {
+        // Where it turns is off by rounding, and there it goes this much farther than where it was looked at.
+        let off = 8.0 * U * (middle.abs() + width + (middle * middle + (c / a).abs()) / width);
+        let farther = 3.0 * a.abs() * width * off * off;
+        let sign_of_turn = |y: f64| self.sign_beyond(farther, place(y)) * outside;
+        match (sign_of_turn(-1.0), sign_of_turn(1.0)) {
             (1, -1) => {
                 let [first, second, third] = three_roots(r);
                 let roots = [

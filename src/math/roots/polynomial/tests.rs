@@ -1,5 +1,7 @@
 //! Roots against those that are known.
 
+mod exact;
+
 use super::turning::order_without_roots;
 use super::*;
 use crate::math::random::{Random, tries_in};
