@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 mod examples;
 mod pictures;
+mod proofs;
 mod silhouettes;
 mod syntax;
 

@@ -24,7 +24,7 @@ const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/pictu
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
 
 /// The mean of FLIP's errors up to which two pictures are the same.
-const SAME: f32 = 0.05;
+pub(crate) const SAME: f32 = 0.05;
 
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
@@ -38,37 +38,44 @@ fn picture(run: &mut Command, file: &Path) -> Result<RgbImage, String> {
     if told.status.success() { Ok(picture) } else { Err(last()) }
 }
 
-/// The pictures of both, ours first; what the scene names lies in that folder.
-fn both(scene: &Path, folder: &Path) -> Result<[RgbImage; 2], String> {
+/// Our picture of a scene; what it names lies in that folder.
+pub(crate) fn ours(scene: &Path, folder: &Path) -> Result<RgbImage, String> {
     let place = tempfile::tempdir().expect("a folder");
-    let [ours, theirs] = ["ours.png", "theirs.png"].map(|name| place.path().join(name));
-    let run = |program: &str| {
-        let mut run = Command::new(program);
-        run.current_dir(&place);
-        run
-    };
-    let mine = picture(
-        run(env!("CARGO_BIN_EXE_lucarne"))
-            .arg("render")
-            .arg(scene)
-            .arg("-o")
-            .arg(&ours)
-            .arg("-I")
-            .arg(folder)
-            .args(["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"]),
-        &ours,
-    );
-    let other = picture(
-        run("povray").args(["-D", "-GA", "-A"]).args([
-            format!("+I{}", scene.display()),
-            format!("+O{}", theirs.display()),
-            format!("+L{}", folder.display()),
-            format!("+W{WIDTH}"),
-            format!("+H{HEIGHT}"),
-        ]),
-        &theirs,
-    );
-    Ok([mine?, other.map_err(|told| format!("POV-Ray: {told}"))?])
+    let file = place.path().join("ours.png");
+    let mut run = Command::new(env!("CARGO_BIN_EXE_lucarne"));
+    run.current_dir(&place).arg("render").arg(scene).arg("-o").arg(&file).arg("-I").arg(folder);
+    run.args(["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"]);
+    picture(&mut run, &file)
+}
+
+/// POV-Ray's.
+pub(crate) fn theirs(scene: &Path, folder: &Path) -> Result<RgbImage, String> {
+    let place = tempfile::tempdir().expect("a folder");
+    let file = place.path().join("theirs.png");
+    let mut run = Command::new("povray");
+    run.current_dir(&place).args(["-D", "-GA", "-A"]).args([
+        format!("+I{}", scene.display()),
+        format!("+O{}", file.display()),
+        format!("+L{}", folder.display()),
+        format!("+W{WIDTH}"),
+        format!("+H{HEIGHT}"),
+    ]);
+    picture(&mut run, &file).map_err(|told| format!("POV-Ray: {told}"))
+}
+
+/// The pictures of both, ours first.
+fn both(scene: &Path, folder: &Path) -> Result<[RgbImage; 2], String> {
+    Ok([ours(scene, folder)?, theirs(scene, folder)?])
+}
+
+/// How many pixels of two pictures differ.
+pub(crate) fn differing([ours, theirs]: &[RgbImage; 2]) -> usize {
+    ours.pixels().zip(theirs.pixels()).filter(|(ours, theirs)| ours != theirs).count()
+}
+
+/// The mean of FLIP's errors.
+pub(crate) fn mean_error(pictures: &[RgbImage; 2]) -> f32 {
+    FlipPool::from_image(&errors(pictures)).mean()
 }
 
 /// FLIP's errors, of pictures of one size.
@@ -130,9 +137,8 @@ fn without_a_bound_that_cuts_not_one_pixel_differs() {
         let text = plain(&String::from_utf8_lossy(&text), &[("bound", "bounded_by")]);
         std::fs::write(&scene, text.expect("it has one")).expect("it is written");
         let folder = original.parent().expect("below the examples");
-        let [ours, theirs] = both(&scene, folder).unwrap_or_else(|told| panic!("{name}: {told}"));
-        let differ = ours.pixels().zip(theirs.pixels()).filter(|(ours, theirs)| ours != theirs);
-        assert_eq!(differ.count(), 0, "{name}");
+        let pictures = both(&scene, folder).unwrap_or_else(|told| panic!("{name}: {told}"));
+        assert_eq!(differing(&pictures), 0, "{name}");
         count += 1;
     }
     assert!(count > 0);
@@ -185,9 +191,7 @@ fn a_picture_is_the_same_as_itself_and_not_as_one_with_a_spot() {
     let plain = RgbImage::from_fn(64, 48, |x, y| image::Rgb([x as u8 * 3, y as u8 * 4, 90]));
     let mut spotted = plain.clone();
     (0..12 * 12).for_each(|i| spotted.put_pixel(20 + i % 12, 20 + i / 12, image::Rgb([255; 3])));
-    let mean =
-        |other: &RgbImage| FlipPool::from_image(&errors(&[plain.clone(), other.clone()])).mean();
-    assert_eq!(mean(&plain), 0.0);
-    let spot = mean(&spotted);
+    assert_eq!(mean_error(&[plain.clone(), plain.clone()]), 0.0);
+    let spot = mean_error(&[plain, spotted]);
     assert!(spot > SAME / 2.0, "{spot}");
 }

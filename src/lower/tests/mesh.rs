@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
+use crate::math::elementary::sin_cos_degrees;
 use crate::math::random::{Random, tries};
 use crate::math::{UnitVector, Vector};
 use crate::road::{Options, Road};
@@ -309,26 +310,60 @@ fn a_sheet_of_squares_has_no_holes_however_far_off_it_stands() {
                     triangle {{ P(I + 1, J), P(I + 1, J + 1), P(I, J + 1) }}
                 #end #end }}"
             );
-            let (world, _) = world(&scene);
-            let placed = &world.placed[0];
-            let middle = placed.placement.centre;
-            for _ in 0..tries() / 4 {
-                let at = |random: &mut Random| match random.below(3) {
+            assert_has_no_hole(&scene, size * 20.0, tries() / 4, || {
+                let mut at = || match random.below(3) {
                     0 => random.below(13) as f64 - 6.0,
                     1 => random.below(25) as f64 * 0.5 - 6.0,
                     _ => random.number(-6.0, 6.0),
                 };
-                let target = middle + Vector::new(at(&mut random), at(&mut random), 0.0) * size;
-                let origin = middle + random.direction().get() * (size * 20.0);
-                let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
-                // Along the sheet it may pass by.
-                if direction.get().z.abs() < 0.1 {
-                    continue;
-                }
-                let ray = Ray { origin, direction: direction.get() };
-                let all = placed.crossings(&ray);
-                assert_eq!(all.len(), 1, "{all:?} {ray:?} toward {target}");
-            }
+                Vector::new(at(), at(), 0.0) * size
+            });
         }
+    }
+}
+
+#[test]
+fn a_fan_of_800_slivers_has_no_holes_however_small_it_is() {
+    let mut random = Random(92);
+    let sizes = [("0", &[1.0, 1e-3, 1e-5, 1e-7][..]), ("<148376, 1234, -223423>", &[1.0, 1e-3])];
+    for (offset, sizes) in sizes.into_iter().chain([("1e7*<1, -1, 1>", &[1.0, 1e-3][..])]) {
+        for &size in sizes {
+            let scene = format!(
+                "#macro P(I) {size}*vrotate(x, I*0.45*z) + {offset} #end
+                mesh {{ #for (I, 0, 799) triangle {{ {offset}, P(I), P(I + 1) }} #end }}"
+            );
+            assert_has_no_hole(&scene, size * 2.0, tries() / 8, || {
+                // On a spoke, or anywhere; near the rim, near the hub, or in it.
+                let turn = [random.below(800) as f64, random.number(0.0, 800.0)][random.below(2)];
+                let far = [0.0, random.size(-9.0, 0.0), random.number(0.0, 1.0)][random.below(3)];
+                let (sine, cosine) = sin_cos_degrees(turn * 0.45);
+                Vector::new(cosine, sine, 0.0) * (far * 0.999 * size)
+            });
+        }
+    }
+}
+
+/// Lines from `distance` away to targets of a level sheet, as seen from its middle, meet it once.
+fn assert_has_no_hole(
+    scene: &str,
+    distance: f64,
+    lines: usize,
+    mut target: impl FnMut() -> Vector,
+) {
+    let mut random = Random(93);
+    let (world, _) = world(scene);
+    let placed = &world.placed[0];
+    let middle = placed.placement.centre;
+    for _ in 0..lines {
+        let target = middle + target();
+        let origin = middle + random.direction().get() * distance;
+        let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
+        // Along the sheet it may pass by.
+        if direction.get().z.abs() < 0.1 {
+            continue;
+        }
+        let ray = Ray { origin, direction: direction.get() };
+        let all = placed.crossings(&ray);
+        assert_eq!(all.len(), 1, "{all:?} {ray:?} toward {target} in {scene}");
     }
 }

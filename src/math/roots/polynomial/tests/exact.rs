@@ -155,7 +155,11 @@ fn quartics_of_every_kind_and_scale_have_as_many_roots_as_sturm_counts() {
         // Two roots that stand 10⁻⁷ apart, as far as rounding the coefficients leaves them where they are.
         let known = count_of_roots(&values);
         if depth_of_turns > 0.25e-14 {
-            assert_eq!(found.len(), known, "{kind} 2^{power} {depth_of_turns:e} {values:?} {found:?}");
+            assert_eq!(
+                found.len(),
+                known,
+                "{kind} 2^{power} {depth_of_turns:e} {values:?} {found:?}"
+            );
             (told, roots) = (told + 1, roots + known);
         } else {
             assert!(found.len() <= known, "{kind} 2^{power} {values:?} {found:?}");
