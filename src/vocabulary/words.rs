@@ -359,7 +359,7 @@ vocabulary! {
         FadeColor "fade_color" | "fade_colour" statement later "the colour light takes inside";
         FadeDistance "fade_distance" statement built "of lights so far: with `fade_power`: the distance at which a light has the strength of its colour";
         FadePower "fade_power" statement built "of lights so far: how fast a light fades with the distance d: by 2/(1 + (d/fade_distance)^fade_power)";
-        Interior "interior" statement built "`interior { ior n }`: what a clear object is filled with";
+        Interior "interior" statement built "`interior { ior n }`: what a clear object is filled with; where two of one glass overlap nothing is bent between them, while POV-Ray leaves the glass there if they share one interior";
         Intervals "intervals" statement later "the pieces in which media are sampled";
         Ior "ior" statement built "how much slower light is inside, more than 0: water 1.33, glass 1.5, diamond 2.4; 1 bends nothing";
         Media "media" statement later "smoke, fog and light in the air";
