@@ -66,14 +66,15 @@ fn is_binary(bytes: &[u8]) -> bool {
 
 pub const UTF_16: &str = "it is UTF-16";
 
-/// A byte order mark says so; without one, every other byte of such a text is zero, nearly.
+/// A byte order mark says so; without one, every other byte of such a text is zero, nearly. A picture begins
+/// with letters for its kind, whatever its samples are.
 pub fn is_utf_16(bytes: &[u8]) -> bool {
     let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
     let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
     let most = pairs.len() - pairs.len() / 8;
-    let [high, low] = [zeros(0), zeros(1)];
+    let is_half_empty = |at: usize| zeros(at) >= most && zeros(1 - at) == 0;
     matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
-        || pairs.len() > 8 && (high >= most && low == 0 || low >= most && high == 0)
+        || pairs.len() > 8 && [0, 1].into_iter().any(|at| pairs[0][at] == 0 && is_half_empty(at))
 }
 
 /// A name like this one in the same folder, or this one with the extension of a scene.
@@ -110,6 +111,10 @@ mod tests {
         let swapped: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
         assert!(is_utf_16(&swapped));
         assert!(!is_utf_16(text.as_bytes()) && !is_utf_16(&[0; 64]) && !is_utf_16(b""));
+        // Heights of 8 bits in a picture of 16.
+        let heights = (1..200).flat_map(|height| [height, 0]);
+        let picture: Vec<u8> = b"P5 199 1 65535\n".iter().copied().chain(heights).collect();
+        assert!(!is_utf_16(&picture));
     }
 
     #[test]

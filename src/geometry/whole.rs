@@ -272,7 +272,7 @@ impl Geometry {
         solid.compiled();
         match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
-            Solid::Plane(plane) => plane.chord(ray),
+            Solid::Plane(plane) => plane.chord_of_part(ray),
             Solid::Box(i) => self.boxes[*i as usize].0.chord_of_part(ray),
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray),
             // A body may be crossed more often, and a whole's leaves are no wholes.

@@ -60,23 +60,22 @@ impl Box_ {
 
     #[inline(always)]
     fn yields(&self, ray: &Ray) -> bool {
-        let is_along = |normal: Vector| normal.dot(ray.direction).abs() <= LEVEL_OF_PART;
+        let is_along = |normal: Vector| normal.dot(ray.direction).abs() <= STEEP;
         self.directions().into_iter().any(is_along) && self.yields_face(ray)
     }
 
     /// **Error:** as of [`slabs`]. Nothing that starts from the surface is so near to a face.
     #[cold]
     fn yields_face(&self, ray: &Ray) -> bool {
-        let start = ray.origin - self.centre;
-        let is_in_face = |(normal, half_width): (Vector, f64)| {
-            let (place, speed) = (normal.dot(start), normal.dot(ray.direction));
-            let far = 2.0 * normal.abs_dot(self.centre);
-            let error = U * (6.0 * start.abs().element_sum() + 3.0 * half_width + far);
-            let is_along = speed.abs() <= 40.0 * U * normal.abs_dot(ray.direction);
-            let is_near = half_width > 0.0 && (place.abs() - half_width).abs() <= error;
-            is_along && is_near && !falls_inside(normal * place.signum())
-        };
-        self.directions().into_iter().zip(self.half_widths).any(is_in_face)
+        let along = Along::of(self.centre, self.directions(), self.half_widths, ray);
+        (0..3).any(|axis| {
+            let normal = self.normals[axis].get();
+            let line = Line::of(self.centre, normal, self.half_widths[axis], ray);
+            let place = line.place + line.speed * along.middle;
+            let is_near = (place.abs() - self.half_widths[axis]).abs() <= line.place_error;
+            let is_sheet = self.half_widths[axis] == 0.0;
+            along.axes[axis] && !is_sheet && is_near && !falls_inside(normal * place.signum())
+        })
     }
 
     /// The point where `ray` enters or leaves, put onto the face it crosses there.
@@ -229,29 +228,59 @@ pub fn slabs<R: Real>(
     half_widths: [R; 3],
     ray: &Ray<R>,
 ) -> Option<Slabs<R>> {
+    let (found, is_flat) = through(centre, normals, half_widths, ray, None)?;
+    if is_flat { through_along(centre, normals, half_widths, ray) } else { Some(found) }
+}
+
+/// Of a line that may go along a slab, which cannot be told from its speed alone.
+#[cold]
+#[inline(never)]
+fn through_along<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Option<Slabs<R>> {
+    let along = Along::of(centre, normals, half_widths, ray);
+    Some(through(centre, normals, half_widths, ray, Some(along))?.0)
+}
+
+/// The line's part in all slabs, and whether it is nearly along one that it is not known to go along.
+#[inline(always)]
+fn through<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+    along: Option<Along<R>>,
+) -> Option<(Slabs<R>, bool)> {
     let number = R::from_f64;
-    let u = R::UNIT_ROUNDOFF;
     let start = ray.origin - centre;
     let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
     let mut enter =
         End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
     let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
+    let mut is_flat = false;
     for axis in 0..3 {
-        let place = normals[axis].dot(start);
-        let speed = normals[axis].dot(ray.direction);
         let half_width = half_widths[axis];
-        let far = number(2.0) * normals[axis].abs_dot(centre);
-        let place_error = u * (number(6.0) * reach + number(3.0) * half_width + far);
-        let mut speed_error = number(10.0) * u;
+        let Line { place, speed, place_error } =
+            Line::from(start, reach, centre, normals[axis], half_width, ray.direction);
+        let mut speed_error = number(10.0) * R::UNIT_ROUNDOFF;
         if speed.abs() <= number(STEEP) {
             // A normal along an axis has an exact speed, however small.
             speed_error = speed_error * normals[axis].abs_dot(ray.direction);
-            if speed.abs() <= number(4.0) * speed_error || speed.abs() <= number(LEVEL) {
-                if place.abs() - half_width > place_error {
+            let middle = match along {
+                Some(along) if along.axes[axis] => Some(along.middle),
+                _ if is_level(speed, speed_error) => Some(R::ZERO),
+                _ => None,
+            };
+            if let Some(middle) = middle {
+                if (place + speed * middle).abs() - half_width > place_error {
                     return None;
                 }
                 continue;
             }
+            is_flat = true;
         }
         let reciprocal = R::ONE / speed;
         let rising = speed > R::ZERO;
@@ -281,21 +310,89 @@ pub fn slabs<R: Real>(
         return None;
     }
     leave.t = leave.t.max(enter.t);
-    Some(Slabs {
+    let slabs = Slabs {
         enter: enter.crossing(),
         leave: leave.crossing(),
         enter_face: enter.face,
         leave_face: leave.face,
-    })
+    };
+    Some((slabs, is_flat))
+}
+
+/// Whether a speed cannot be told from 0, or has no reciprocal.
+#[inline(always)]
+fn is_level<R: Real>(speed: R, speed_error: R) -> bool {
+    speed.abs() <= R::from_f64(4.0) * speed_error || speed.abs() <= R::from_f64(LEVEL)
+}
+
+/// A line as a slab sees it: a, v, and how far a may be off.
+#[derive(Clone, Copy)]
+struct Line<R: Real> {
+    place: R,
+    speed: R,
+    place_error: R,
+}
+
+impl<R: Real> Line<R> {
+    fn of(centre: R::Vector, normal: R::Vector, half_width: R, ray: &Ray<R>) -> Self {
+        let start = ray.origin - centre;
+        let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+        Self::from(start, reach, centre, normal, half_width, ray.direction)
+    }
+
+    #[inline(always)]
+    fn from(
+        start: R::Vector,
+        reach: R,
+        centre: R::Vector,
+        normal: R::Vector,
+        half_width: R,
+        direction: R::Vector,
+    ) -> Self {
+        let number = R::from_f64;
+        let far = number(2.0) * normal.abs_dot(centre);
+        let place_error = R::UNIT_ROUNDOFF * (number(6.0) * reach + number(3.0) * half_width + far);
+        Self { place: normal.dot(start), speed: normal.dot(direction), place_error }
+    }
+}
+
+/// The slabs that a line goes along: over all of its way through the others it comes no farther from their
+/// planes than a few times what these may be off.
+#[derive(Clone, Copy)]
+struct Along<R: Real> {
+    axes: [bool; 3],
+    /// The middle of that way.
+    middle: R,
+}
+
+impl<R: Real> Along<R> {
+    #[cold]
+    #[inline(never)]
+    fn of(centre: R::Vector, normals: [R::Vector; 3], half_widths: [R; 3], ray: &Ray<R>) -> Self {
+        let number = R::from_f64;
+        let lines = [0, 1, 2].map(|axis| Line::of(centre, normals[axis], half_widths[axis], ray));
+        let (mut enter, mut leave) = (R::NEG_INFINITY, R::INFINITY);
+        for (line, half_width) in lines.iter().zip(half_widths) {
+            if line.speed.abs() > number(STEEP) {
+                let (middle, way) = (-line.place / line.speed, half_width / line.speed.abs());
+                (enter, leave) = (enter.max(middle - way), leave.min(middle + way));
+            }
+        }
+        let far = enter.abs().max(leave.abs());
+        let axes = [0, 1, 2].map(|axis| {
+            let Line { speed, place_error, .. } = lines[axis];
+            let speed_error =
+                number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
+            is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
+        });
+        Self { axes, middle: number(0.5) * (enter + leave) }
+    }
 }
 
 /// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
 const STEEP: f64 = 1.0 / 1_048_576.0;
 /// Slower than this a ray is along the slab: the speed has no reciprocal.
 const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
-
-/// Faster than this a line certainly goes along no slab: 40u, and more.
-const LEVEL_OF_PART: f64 = 64.0 * U;
 
 struct End<R: Real> {
     t: R,

@@ -167,6 +167,11 @@ pub struct Chord<R: Real = f64> {
     pub leave: Crossing<R>,
 }
 
+impl<R: Real> Chord<R> {
+    /// Of a line that is inside all along.
+    pub const WHOLE: Self = Self { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
+}
+
 impl<R: Real> Crossing<R> {
     pub const BEFORE_ALL: Self = Self { t: R::NEG_INFINITY, error: R::ZERO };
     pub const BEYOND_ALL: Self = Self { t: R::INFINITY, error: R::ZERO };

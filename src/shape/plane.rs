@@ -17,6 +17,30 @@ impl Plane {
         chord(self.normal.get(), self.distance, ray)
     }
 
+    /// As of a part of a whole: of two that share the plane, one has a line in it, as far as rounding tells
+    /// within some distance of the ray's start and the origin.
+    #[inline(always)]
+    pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
+        let speed = self.normal.get().dot(ray.direction);
+        match speed.abs() <= NEARLY_ALONG {
+            true => self.chord_along(ray, speed),
+            false => self.chord(ray),
+        }
+    }
+
+    /// **Error:** as of [`chord`]. Nothing that starts from the plane is so near to it.
+    #[cold]
+    fn chord_along(&self, ray: &Ray, speed: f64) -> Option<Chord> {
+        let normal = self.normal.get();
+        let size = ray.origin.abs().element_sum() + self.distance.abs();
+        let error = inside_error(normal, self.distance, ray);
+        let is_along = 2.0 * size * speed.abs() <= 4.0 * error;
+        if is_along && self.signed_distance(ray.origin).abs() <= error {
+            return falls_inside(normal).then_some(Chord::WHOLE);
+        }
+        self.chord(ray)
+    }
+
     /// Whether the ray moves toward the plane.
     #[inline(always)]
     pub fn is_ahead(&self, ray: &Ray) -> bool {
@@ -87,6 +111,17 @@ impl Plane {
     }
 }
 
+/// Slower than this a ray may be along the plane.
+const NEARLY_ALONG: f64 = 1.0 / 1_048_576.0;
+
+/// How far d − N·S may be off.
+#[inline(always)]
+fn inside_error<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> R {
+    let number = R::from_f64;
+    let size = number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs();
+    R::UNIT_ROUNDOFF * size
+}
+
 /// The part of the ray's line inside the half space: from −∞, or to +∞, or both when the line runs
 /// inside and parallel (v not to be told from ±0, or the crossing farther off than any number); outside,
 /// it misses, and in the plane itself it is inside of the one half space or of the other.
@@ -105,13 +140,11 @@ pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Ch
     let speed_error = number(6.0) * u * normal.abs_dot(ray.direction);
     let t = inside / speed;
     if speed.abs() <= speed_error || t.abs() == R::INFINITY {
-        let whole = Chord { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
         // Of two that share the plane, one has what lies in it.
         let is_inside = inside > R::ZERO || inside == R::ZERO && falls_inside(normal.to_vector());
-        return is_inside.then_some(whole);
+        return is_inside.then_some(Chord::WHOLE);
     }
-    let inside_error =
-        u * (number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs());
+    let inside_error = inside_error(normal, distance, ray);
     let error = (inside_error + t.abs() * speed_error) / (speed.abs() - speed_error)
         + number(2.0) * u * t.abs();
     let crossing = Crossing { t, error };
