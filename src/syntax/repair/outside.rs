@@ -128,7 +128,7 @@ impl Repair<'_> {
         let of_shapes = matches!(outer, Word::ContainedBy | Word::BoundedBy | Word::ClippedBy);
         match inner {
             Word::Pigment | Word::Normal | Word::Finish | Word::Texture => {
-                (of_surface || of_shapes) && self.begins_statement(at)
+                (of_surface || of_shapes || is_list(outer)) && self.begins_statement(at)
             }
             Word::Threshold
             | Word::Accuracy
@@ -136,14 +136,22 @@ impl Repair<'_> {
             | Word::Evaluate
             | Word::AllIntersections => matches!(outer, Word::ContainedBy | Word::Function),
             Word::ContainedBy => outer == Word::Function,
-            Word::FaceIndices | Word::NormalIndices | Word::UvIndices | Word::NormalVectors => {
-                is_list(outer) && self.begins_statement(at)
+            Word::FaceIndices
+            | Word::NormalIndices
+            | Word::UvIndices
+            | Word::NormalVectors
+            | Word::UvVectors
+            | Word::TextureList => {
+                (is_list(outer) || outer == Word::TextureList) && self.begins_statement(at)
             }
+            Word::InsideVector => is_list(outer) || outer == Word::TextureList,
             Word::Interior | Word::Material => {
-                (of_surface || outer == Word::Texture) && self.begins_statement(at)
+                (of_surface || is_list(outer) || outer == Word::Texture)
+                    && self.begins_statement(at)
             }
             Word::Translate | Word::Rotate | Word::Scale | Word::Matrix => {
-                matches!(outer, Word::Finish | Word::ColorMap)
+                is_list(outer)
+                    || matches!(outer, Word::Finish | Word::ColorMap | Word::Function)
             }
             _ => false,
         }
