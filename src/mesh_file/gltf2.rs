@@ -38,9 +38,10 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
             None => Place::Line(error.line().max(1)),
             Some(_) => text.place(offset(text.bytes, error.line(), error.column())),
         };
-        let said = error.to_string();
-        let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
-        Fault::new(said.to_owned()).at(place)
+        let told = error.to_string();
+        let told = told.rsplit_once(" at line ").map_or(told.as_str(), |(told, _)| told);
+        let is_json = if error.is_data() { "" } else { "it is no whole JSON: " };
+        Fault::new(format!("{is_json}{told}")).at(place)
     })?;
     if !root.asset.version.starts_with("2.") {
         let version = &root.asset.version;
@@ -67,8 +68,19 @@ fn parts(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), Fault> {
     if length.is_none_or(|length| length < 12) {
         return Err(Fault::new("its head tells no length").at(Place::Byte(8)));
     }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|error| {
-        Fault::new(format!("its parts are not whole: {error}")).at(Place::Byte(12))
+    let version =
+        bytes.get(4..8).and_then(|four| four.try_into().ok()).map_or(0, u32::from_le_bytes);
+    if version != 2 {
+        let fault = Fault::new(format!("it is binary glTF of version {version}, and 2 is read"));
+        return Err(fault.at(Place::Byte(4)));
+    }
+    let glb = gltf::Glb::from_slice(bytes).map_err(|_| {
+        let reason = match bytes.get(16..20) {
+            Some(b"JSON") => "the file ends before its parts do",
+            Some(_) => "its first part is not `JSON`",
+            None => "the file ends in its head",
+        };
+        Fault::new(reason).at(Place::Byte(12))
     })?;
     let end = GLB_HEAD + glb.json.len();
     let text = bytes.get(GLB_HEAD..end).unwrap_or_default();

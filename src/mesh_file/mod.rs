@@ -12,6 +12,7 @@ mod json;
 mod material;
 mod obj;
 mod ply;
+mod said;
 mod stl;
 #[cfg(test)]
 mod tests;

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use super::build::{Builder, Corner};
 use super::material::{self, Material};
-use super::{Beside, Fault};
+use super::{Beside, Fault, said};
 use crate::color::srgb_decode;
 
 struct Reader<'b, 'f> {
@@ -103,7 +103,7 @@ impl Reader<'_, '_> {
             Some(&[x, y, z, red, green, blue, ..]) => ([x, y, z], Some([red, green, blue])),
             Some(&[x, y, z, w, ..]) if w != 0.0 => ([x / w, y / w, z / w], None),
             Some(&[x, y, z]) => ([x, y, z], None),
-            _ => return Err(Fault::new("a vertex has three numbers")),
+            _ => return Err(lacks_numbers("a vertex has three numbers", rest)),
         };
         self.builder.vertex(place)?;
         let color = color.map(|rgb| self.builder.color(rgb.map(srgb_decode), 1.0));
@@ -217,7 +217,14 @@ fn numbers(text: &str, wanted: &str) -> Result<[f64; 3], Fault> {
     let mut words = text.split_whitespace().map(str::parse);
     match [words.next(), words.next(), words.next()] {
         [Some(Ok(x)), Some(Ok(y)), Some(Ok(z))] => Ok([x, y, z]),
-        _ => Err(Fault::new(wanted)),
+        _ => Err(lacks_numbers(wanted, text)),
+    }
+}
+
+fn lacks_numbers(wanted: &str, text: &str) -> Fault {
+    match text.trim() {
+        "" => Fault::new(format!("{wanted}, found none")),
+        text => Fault::new(format!("{wanted}, {}", said::found(text))),
     }
 }
 

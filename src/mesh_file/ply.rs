@@ -1,5 +1,5 @@
-//! PLY: elements with properties, as text or in binary of either order; the only file that names
-//! `ply_rs_bw`.
+//! PLY: elements with properties, as text or in binary of either order; the only file but `said.rs` that
+//! names `ply_rs_bw`.
 //!
 //! Read are the `vertex` elements (x y z, nx ny nz, red green blue alpha, s t) and the `face` elements
 //! (vertex_indices, red green blue alpha). Colours of whole numbers are display values.
@@ -9,24 +9,34 @@
 use std::borrow::Cow;
 use std::io::{Cursor, ErrorKind};
 
-use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
     ScalarType,
 };
 
 use super::build::{Builder, Corner};
-use super::{Fault, Place};
+use super::{Fault, Place, said};
 use crate::color::srgb_decode;
 
 type Bytes<'b> = Reader<Cursor<&'b [u8]>>;
+
+/// What a face calls its vertices.
+const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let bytes = &*with_plain_head(bytes);
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = Parser::<Unread>::new().read_header(&mut reader).map_err(|error| {
         // Of what is missing, where it ends.
-        told(&error).at(Place::Line(reader.line().saturating_sub(1).max(1)))
+        let line = error.line().unwrap_or_else(|| reader.line().saturating_sub(1).max(1));
+        Fault::line(
+            line,
+            match error.kind() {
+                ErrorKind::UnexpectedEof => "the file ends before `end_header`".to_owned(),
+                _ => said::of_ply_head(bytes, line),
+            },
+        )
     })?;
     let declared = |name: &str| Place::Line(line_of(bytes, &format!("element {name}")));
     let mut colors = Vec::new();
@@ -34,6 +44,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let mut has_faces = false;
     for element in header.elements.values() {
         check_count(element, &header, bytes.len() - reader.get_ref().position() as usize)
+            .and_then(|()| check_lists(element))
             .map_err(|fault| fault.at(declared(&element.name)))?;
         match element.name.as_str() {
             "vertex" => {
@@ -127,6 +138,25 @@ fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(),
     }
 }
 
+/// What is counted, and what names vertices, are whole numbers.
+fn check_lists(element: &ElementDef) -> Result<(), Fault> {
+    let is_whole = |scalar: &ScalarType| !matches!(scalar, ScalarType::Float | ScalarType::Double);
+    for (name, property) in &element.properties {
+        let is_index = element.name == "face" && INDICES.contains(&name.as_str());
+        let is_right = match &property.data_type {
+            PropertyType::Scalar(_) => !is_index,
+            PropertyType::List(count, entry) => is_whole(count) && (!is_index || is_whole(entry)),
+        };
+        if !is_right {
+            let element = &element.name;
+            return Err(Fault::new(format!(
+                "`{name}` of its `{element}` is no list of whole numbers"
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// The elements of a kind, each with where it begins.
 fn elements<E: PropertyAccess>(
     reader: &mut Bytes,
@@ -137,7 +167,14 @@ fn elements<E: PropertyAccess>(
     if header.encoding == Encoding::Ascii {
         let first = reader.line();
         let read = parser.read_payload_for_element(reader, element, header);
-        let read = read.map_err(|error| told(&error).at(Place::Line(reader.line())))?;
+        let read = read.map_err(|error| {
+            let line = error.line().unwrap_or_else(|| reader.line());
+            let bytes = *reader.get_ref().get_ref();
+            Fault::line(
+                line,
+                said::of_ply_element(element, bytes, line, line.saturating_sub(first)),
+            )
+        })?;
         // A line each.
         return Ok(read
             .into_iter()
@@ -159,21 +196,14 @@ fn elements<E: PropertyAccess>(
                 let reason = format!("the file ends in the middle of {name} {number} of {count}");
                 Fault::new(reason).at(Place::Byte(bytes.position() as usize))
             }
-            _ => Fault { place: Some(Place::Byte(at)), ..told(&error) },
+            _ => {
+                let reason = format!("{} {number}: the length of a list is below 0", element.name);
+                Fault::new(reason).at(Place::Byte(at))
+            }
         })?;
         read.push((Place::Byte(at), one));
     }
     Ok(read)
-}
-
-/// The first line of what the crate says.
-fn told(error: &ParseError) -> Fault {
-    let said = error.to_string();
-    let said = said.lines().next().unwrap_or("");
-    let place = error.line().map(Place::Line);
-    let said =
-        error.line().and_then(|line| said.strip_prefix(&format!("Line {line}: "))).unwrap_or(said);
-    Fault { place, ..Fault::new(said.trim_end_matches('.')) }
 }
 
 /// An element of which nothing is kept.
@@ -298,7 +328,7 @@ impl PropertyAccess for Polygon {
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !matches!(name, "vertex_indices" | "vertex_index") {
+        if !INDICES.contains(&name) {
             self.paint.set(name, &property);
             return PropertyAccessResult::Set;
         }

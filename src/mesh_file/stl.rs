@@ -11,7 +11,7 @@ use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use stl_io::{Triangle, create_stl_reader};
 
 use super::build::{Builder, Corner};
-use super::{Fault, Place, line_at};
+use super::{Fault, Place, line_at, said};
 
 /// A title and a count of 4 bytes, then 50 for each triangle.
 const HEAD: usize = 84;
@@ -27,7 +27,13 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
         let title =
             bytes.get(HEAD - 4..).map(|rest| Pieces::new(&[b' '; HEAD - 4], rest, usize::MAX));
         let mut pieces = title.ok_or_else(|| {
-            Fault::new("the file ends in the middle of its head").at(Place::Byte(bytes.len()))
+            let reason = match bytes.is_empty() {
+                true => "the file is empty",
+                false => {
+                    "it does not begin with `solid`, as a text, and ends in the head of a binary file"
+                }
+            };
+            Fault::new(reason).at(Place::Byte(bytes.len()))
         })?;
         return soup.read(&mut pieces).map_err(|fault| fault.at(Place::Byte(pieces.at)));
     }
@@ -39,7 +45,8 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
             continue;
         }
         if !head.trim_ascii_start().starts_with(b"solid") {
-            return Err(Fault::line(line_at(bytes, at), "expected `solid`"));
+            let found = said::found(&String::from_utf8_lossy(head));
+            return Err(Fault::line(line_at(bytes, at), format!("expected `solid`, {found}")));
         }
         at += head.len();
         // Of the line, the crate wants no more than the word and a blank.
@@ -47,7 +54,14 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
         let outcome = soup.read(&mut pieces);
         at += pieces.at - pieces.head.len().min(pieces.at);
         // The line that was given last.
-        outcome.map_err(|fault| fault.at(Place::Line(line_at(bytes, at.saturating_sub(1)))))?;
+        outcome.map_err(|fault| {
+            let line = line_at(bytes, at.saturating_sub(1));
+            let fault = match fault.reason.is_empty() {
+                true => Fault { reason: said::of_stl(bytes, line), ..fault },
+                false => fault,
+            };
+            fault.at(Place::Line(line))
+        })?;
     }
     Ok(())
 }
@@ -66,9 +80,13 @@ struct Soup<'b> {
 }
 
 impl Soup<'_> {
+    /// A fault without a reason is one of the line of a text that was read last.
     fn read(&mut self, pieces: &mut Pieces) -> Result<(), Fault> {
+        let is_text = pieces.lines == 1;
         let told = |error: io::Error| match error.kind() {
+            ErrorKind::UnexpectedEof if is_text => Fault::new("the file ends before `endsolid`"),
             ErrorKind::UnexpectedEof => Fault::new("the file ends in the middle of a triangle"),
+            _ if is_text => Fault::new(""),
             _ => Fault::new(error.to_string()),
         };
         let triangles = create_stl_reader(pieces).map_err(told)?;

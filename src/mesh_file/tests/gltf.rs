@@ -134,9 +134,11 @@ fn a_broken_gltf_is_told_and_where_it_can_be() {
     assert_eq!(fault("a.gltf", gltf("")), nowhere);
     let (place, reason) = fault("a.gltf", gltf(r#","uri":"data:;base64,!""#));
     assert_eq!(place, Some(Place::Line(6)), "{reason}");
-    for (bytes, at) in
-        [(&b"glTF\x02\0\0\0\x03\0\0\0"[..], 8), (&b"glTF\x02\0\0\0\x40\0\0\0"[..], 12)]
-    {
+    for (bytes, at) in [
+        (&b"glTF\x02\0\0\0\x03\0\0\0"[..], 8),
+        (&b"glTF\x02\0\0\0\x40\0\0\0"[..], 12),
+        (&b"glTF\x01\0\0\0\x40\0\0\0"[..], 4),
+    ] {
         assert_eq!(fault("a.glb", bytes).0, Some(Place::Byte(at)));
     }
     let stray =

@@ -92,10 +92,10 @@ fn each_fault_of_a_ply_has_its_line() {
     let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     let places = "0 0 0\n1 0 0\n0 1 0\n";
     for (text, line, part) in [
-        (String::new(), 1, "magic number"),
-        ("plx\n".to_owned(), 1, "magic number"),
-        ("ply\nformat ascii 1.0\n".to_owned(), 3, "missing 'end_header'"),
-        ("ply\ncomment none\nend_header\n".to_owned(), 3, "No format line"),
+        (String::new(), 1, "the file ends before `end_header`"),
+        ("plx\n".to_owned(), 1, "expected `ply`, found `plx`"),
+        ("ply\nformat ascii 1.0\n".to_owned(), 3, "the file ends before `end_header`"),
+        ("ply\ncomment none\nend_header\n".to_owned(), 3, "no `format`"),
         (format!("{head}element vertex 1\nproperty float x\nend_header\n0\n"), 3, "no x, y and z"),
         (format!("{head}{three}end_header\n{places}"), 7, "no `face` elements"),
         (
@@ -103,7 +103,7 @@ fn each_fault_of_a_ply_has_its_line() {
             4,
             "it is too short for 99999999999999 `vertex` elements",
         ),
-        (format!("{head}{three}{faces}0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"), 11, ""),
+        (format!("{head}{three}{faces}0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"), 11, "vertex 1: "),
         (
             format!("{head}{three}{faces}0 0 0\n1 0 1e99\n0 1 0\n3 0 1 2\n"),
             11,
@@ -111,8 +111,47 @@ fn each_fault_of_a_ply_has_its_line() {
         ),
         (format!("{head}{three}{faces}{places}3 0 1 3\n"), 13, "face 0: index 3 is of nothing"),
         (format!("{head}{three}{faces}{places}3 0 1 -1\n"), 13, "face 0: index -1 is of nothing"),
-        (format!("{head}{three}{faces}{places}3 0 1\n"), 13, ""),
-        (format!("{head}{three}{faces}{places}"), 13, "end of file"),
+        (
+            format!("{head}{three}{faces}{places}3 0 1\n"),
+            13,
+            "face 0: expected numbers for how many vertex_indices follow, vertex_indices; found `3 0 1`",
+        ),
+        (
+            format!("{head}{three}{faces}0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n"),
+            11,
+            "vertex 1: expected numbers for x, y, z; found `1 0 x`",
+        ),
+        (
+            format!("{head}{three}{faces}0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            11,
+            "found an empty line",
+        ),
+        ("ply\nformat asci 1.0\n".to_owned(), 2, "expected `format ascii 1.0`"),
+        (
+            format!("{head}element vertex three\n"),
+            3,
+            "expected `element` with a name and how many there are, found `element vertex three`",
+        ),
+        (
+            format!("{head}element vertex 3\nproperty flot x\n"),
+            4,
+            "expected `property` with a type and a name",
+        ),
+        (format!("{head}property float x\n"), 3, "this `property` is of no `element`"),
+        (
+            format!("{head}vertex 3\n"),
+            3,
+            "expected `element`, `property`, `comment` or `end_header`, found `vertex 3`",
+        ),
+        (format!("{head}format binary_big_endian 1.0\n"), 3, "a second `format`"),
+        (
+            format!(
+                "{head}{three}element face 1\nproperty list uchar float vertex_indices\nend_header\n"
+            ),
+            7,
+            "`vertex_indices` of its `face` is no list of whole numbers",
+        ),
+        (format!("{head}{three}{faces}{places}"), 13, "the file ends before face 0 of 1"),
     ] {
         let (place, reason) = fault("a.ply", &text);
         assert_eq!(place, Some(Place::Line(line)), "{text}: {reason}");

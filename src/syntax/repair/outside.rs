@@ -150,8 +150,7 @@ impl Repair<'_> {
                     && self.begins_statement(at)
             }
             Word::Translate | Word::Rotate | Word::Scale | Word::Matrix => {
-                is_list(outer)
-                    || matches!(outer, Word::Finish | Word::ColorMap | Word::Function)
+                is_list(outer) || matches!(outer, Word::Finish | Word::ColorMap | Word::Function)
             }
             _ => false,
         }

@@ -1,0 +1,93 @@
+//! What is said of a line that cannot be read: what was expected there, and what it is instead.
+//!
+//! The crates that read these files tell in words of their own that a line is wrong, not what it should have
+//! been; that follows from the lines before it.
+
+use ply_rs_bw::ply::{ElementDef, PropertyType};
+
+/// How much of a line is shown.
+const MOST_SHOWN: usize = 40;
+
+/// A line of a file, counted from 1, without the blanks around it; `None` behind its end.
+fn line(bytes: &[u8], number: usize) -> Option<String> {
+    let mut rest = bytes.split(|byte| *byte == b'\n').skip(number.checked_sub(1)?);
+    let line = String::from_utf8_lossy(rest.next()?).trim().to_owned();
+    (!line.is_empty() || rest.next().is_some()).then_some(line)
+}
+
+/// `found …`: what stands instead of what was expected.
+pub fn found(text: &str) -> String {
+    let text = text.trim();
+    let is_text = |c: char| !c.is_control() && c != char::REPLACEMENT_CHARACTER || c == '\t';
+    match text.chars().nth(MOST_SHOWN) {
+        _ if text.is_empty() => "found an empty line".to_owned(),
+        _ if !text.chars().all(is_text) => "found bytes that are no text".to_owned(),
+        None => format!("found `{text}`"),
+        Some(_) => format!("found `{}…`", text.chars().take(MOST_SHOWN).collect::<String>()),
+    }
+}
+
+/// A line of an STL, in the order that its lines have.
+pub fn of_stl(bytes: &[u8], number: usize) -> String {
+    let (mut last, mut corners) = (String::new(), 0);
+    let before = bytes.split(|byte| *byte == b'\n').take(number.saturating_sub(1));
+    for line in before {
+        let line = String::from_utf8_lossy(line).to_lowercase();
+        let Some(word) = line.split_whitespace().next() else { continue };
+        corners = if word == "vertex" { corners + 1 } else { 0 };
+        word.clone_into(&mut last);
+    }
+    let wanted = match last.as_str() {
+        "solid" | "endfacet" => "`facet normal` with three finite numbers, or `endsolid`",
+        "facet" => "`outer loop`",
+        "vertex" if corners >= 3 => "`endloop`",
+        "outer" | "vertex" => "`vertex` with three finite numbers",
+        "endloop" => "`endfacet`",
+        _ => "`solid`",
+    };
+    let found = line(bytes, number).map_or("found its end".to_owned(), |line| found(&line));
+    format!("expected {wanted}, {found}")
+}
+
+/// A line of the head of a PLY.
+pub fn of_ply_head(bytes: &[u8], number: usize) -> String {
+    let Some(text) = line(bytes, number) else {
+        return "the file ends before `end_header`".to_owned();
+    };
+    let head = bytes.split(|byte| *byte == b'\n').take(number.saturating_sub(1));
+    let is_before =
+        |word: &str| head.clone().any(|line| line.trim_ascii_start().starts_with(word.as_bytes()));
+    let wanted = match text.split_whitespace().next().unwrap_or("") {
+        _ if number == 1 => "`ply`",
+        "end_header" if is_before("format") => return "its `format` has no version".to_owned(),
+        "end_header" => return "its head has no `format`".to_owned(),
+        "format" if is_before("format") => return "its head has a second `format`".to_owned(),
+        "format" => {
+            "`format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`"
+        }
+        "element" => "`element` with a name and how many there are",
+        "property" if !is_before("element") => {
+            return "this `property` is of no `element`: one comes before it".to_owned();
+        }
+        "property" => {
+            "`property` with a type and a name, or `property list` with two types and a name (types \
+             are char, uchar, short, ushort, int, uint, float, double)"
+        }
+        _ => "`element`, `property`, `comment` or `end_header`",
+    };
+    format!("expected {wanted}, {}", found(&text))
+}
+
+/// A line of an element of a PLY as text.
+pub fn of_ply_element(element: &ElementDef, bytes: &[u8], number: usize, nth: usize) -> String {
+    let ElementDef { name, count, .. } = element;
+    let Some(text) = line(bytes, number) else {
+        return format!("the file ends before {name} {nth} of {count}");
+    };
+    let parts = element.properties.iter().map(|(name, property)| match property.data_type {
+        PropertyType::Scalar(_) => name.clone(),
+        PropertyType::List(..) => format!("how many {name} follow, {name}"),
+    });
+    let parts: Vec<String> = parts.collect();
+    format!("{name} {nth}: expected numbers for {}; {}", parts.join(", "), found(&text))
+}
