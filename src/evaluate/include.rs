@@ -80,7 +80,7 @@ impl Evaluator<'_> {
                     }
                     Err(error) => {
                         let slashed = name.replace('\\', "/");
-                        let diagnostic = missing_file(&name, span, error);
+                        let diagnostic = missing_file(&name, span, error, |_| true);
                         let diagnostic = if slashed == name {
                             diagnostic
                         } else if diagnostic.fixes.is_empty()
@@ -251,10 +251,18 @@ fn is_the_same_but_misspelt(name: &str, like: &str) -> bool {
     let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let letters = stem.chars().filter(|c| c.is_alphabetic()).count();
-    like == format!("{name}.inc") || (digits(name) == digits(like) && letters >= 4)
+    let ending = like.strip_prefix(name).unwrap_or("");
+    let is_ended = ending == ".inc" || ending.starts_with('.') && mesh_file::is_named(ending);
+    is_ended || (digits(name) == digits(like) && letters >= 4)
 }
 
-pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnostic {
+/// What is said of a file that cannot be had; `fits` tells by its name whether another may be meant.
+pub(super) fn missing_file(
+    name: &str,
+    span: Span,
+    error: FileError,
+    fits: impl Fn(&str) -> bool,
+) -> Diagnostic {
     match error {
         FileError::NotFound { searched, similar } => {
             let mut diagnostic =
@@ -265,7 +273,7 @@ pub(super) fn missing_file(name: &str, span: Span, error: FileError) -> Diagnost
             let same = || standard_includes().find(|include| *include == stem);
             let standard = || same().or_else(|| closest(stem, standard_includes()));
             let standard = || standard().map(|near| format!("{near}.inc"));
-            if let Some(similar) = similar.into_iter().next().or_else(standard) {
+            if let Some(similar) = similar.into_iter().chain(standard()).find(|name| fits(name)) {
                 diagnostic = diagnostic.help(format!("did you mean `{similar}`?"));
                 if is_the_same_but_misspelt(name, &similar) {
                     diagnostic = diagnostic.fix(span, format!("\"{similar}\""));

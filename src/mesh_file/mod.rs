@@ -101,21 +101,19 @@ enum Format {
 }
 
 impl Format {
-    const ALL: [(&'static str, Self); 5] = [
-        ("ply", Self::Ply),
-        ("obj", Self::Obj),
-        ("stl", Self::Stl),
-        ("gltf", Self::Gltf),
-        ("glb", Self::Gltf),
-    ];
+    /// In the order of [`ENDINGS`].
+    const ALL: [Self; 5] = [Self::Ply, Self::Obj, Self::Stl, Self::Gltf, Self::Gltf];
 
     /// By the end of a file's name.
     fn of(name: &str) -> Option<Self> {
         let extension = name.rsplit_once('.')?.1;
-        let known = Self::ALL.iter().find(|(known, _)| extension.eq_ignore_ascii_case(known));
-        known.map(|(_, format)| *format)
+        let known = ENDINGS.iter().position(|known| extension.eq_ignore_ascii_case(known));
+        known.map(|at| Self::ALL[at])
     }
 }
+
+/// How the names of meshes end.
+pub const ENDINGS: [&str; 5] = ["ply", "obj", "stl", "gltf", "glb"];
 
 /// Whether a file's name ends as that of a mesh.
 pub fn is_named(name: &str) -> bool {
@@ -134,7 +132,7 @@ pub fn read(name: &str, bytes: &[u8], beside: &mut Beside, most: u64) -> Result<
         Some(Format::Stl) => stl::read(bytes, &mut builder)?,
         Some(Format::Gltf) => gltf2::read(bytes, &mut builder, beside)?,
         None => {
-            let known = Format::ALL.map(|(extension, _)| format!("`.{extension}`")).join(", ");
+            let known = ENDINGS.map(|ending| format!("`.{ending}`")).join(", ");
             return Err(Fault::new(format!("its name tells no format of meshes: {known}")));
         }
     }

@@ -66,6 +66,19 @@ fn sixteen(component: u16) -> f64 {
     f64::from(component) / f64::from(u16::MAX)
 }
 
+/// What a file certainly is by its first bytes, and the word for it.
+pub fn kind_told(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    match image::guess_format(bytes).ok()? {
+        ImageFormat::Png => Some(("PNG", "png")),
+        ImageFormat::Gif => Some(("GIF", "gif")),
+        ImageFormat::Jpeg => Some(("JPEG", "jpeg")),
+        ImageFormat::Tiff => Some(("TIFF", "tiff")),
+        ImageFormat::OpenExr => Some(("OpenEXR picture", "exr")),
+        ImageFormat::Hdr => Some(("Radiance picture", "hdr")),
+        _ => None,
+    }
+}
+
 /// Reads a picture; one of type `tga` tells so by nothing but the word for it.
 ///
 /// # Errors

@@ -15,7 +15,7 @@ use super::super::include::missing_file;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::named::NamedFile;
+use super::named::{NamedFile, is_of_picture};
 use crate::function::Outside;
 
 /// The words for types of pictures, and the endings of their files.
@@ -103,11 +103,19 @@ impl Evaluator<'_> {
         let found = match self.read_named(&file, endings) {
             Ok(found) => found,
             Err(error) => {
-                let diagnostic = missing_file(name, *span, error);
+                let diagnostic = missing_file(name, *span, error, is_of_picture);
                 return Err(self.report(here, diagnostic));
             }
         };
-        let is_tga = matches!(kind, Some((Word::Tga, _)));
+        let mut is_tga = matches!(kind, Some((Word::Tga, _)));
+        match (heights::kind_told(&found.bytes), &said) {
+            (Some(told), Some((word, _))) if is_tga => {
+                return Err(self.is_no_tga(&file, word, told));
+            }
+            // By its name alone.
+            (None, None) => is_tga = name.to_ascii_lowercase().ends_with(".tga"),
+            _ => {}
+        }
         match heights::read(&found.bytes, is_tga, gamma) {
             Ok(heights) => Ok((file.name, heights)),
             Err(reason) => {
@@ -117,6 +125,18 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
         }
+    }
+
+    /// `tga "hills.png"`: its first bytes are those of another kind.
+    fn is_no_tga(&mut self, file: &NamedFile, tga: &Token, told: (&str, &str)) -> Reported {
+        let ((kind, word), NamedFile { name, here, span }) = (told, file);
+        let message = format!("`{name}` is no TGA: by its first bytes it is a {kind}");
+        let told = Diagnostic::new(Code::UnreadableFile, message)
+            .at(*span, "this file")
+            .also(tga.span, "read as this")
+            .help(format!("write `{word}` instead of `tga`"))
+            .fix(tga.span, word);
+        self.report(here, told)
     }
 
     /// `function { x*y }`, `function 100 { x*y }`: how many heights there are is missing, behind those `before`.

@@ -2,8 +2,32 @@
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Here, Outcome};
+use super::super::{Evaluator, Here, Outcome, Reported};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::mesh_file;
 use crate::source::{FileError, Found, Source, Span};
+use crate::syntax::ast::{ExpressionId, ExpressionKind};
+
+const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
+const PICTURES: [&str; 16] = [
+    "png", "gif", "jpg", "jpeg", "tga", "tif", "tiff", "bmp", "ppm", "pgm", "hdr", "exr", "iff",
+    "pot", "sys", "qoi",
+];
+
+fn ends_with(name: &str, endings: &[&str]) -> bool {
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
+    ending.is_some_and(|ending| endings.contains(&ending.as_str()))
+}
+
+/// Whether a file's name is that of a font.
+pub(super) fn is_of_font(name: &str) -> bool {
+    ends_with(name, &FONTS)
+}
+
+/// Whether a file's name is that of a picture.
+pub(super) fn is_of_picture(name: &str) -> bool {
+    ends_with(name, &PICTURES)
+}
 
 /// The name of a file, and where it is written.
 pub(super) struct NamedFile {
@@ -18,6 +42,9 @@ impl Evaluator<'_> {
         self.skip_commas();
         if let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned() {
             self.next();
+            if let Some(reported) = self.unquoted(&here, id) {
+                return Err(reported);
+            }
             let name = self.path(&here, id)?;
             return Ok(NamedFile { name, here, span });
         }
@@ -26,6 +53,32 @@ impl Evaluator<'_> {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
         };
         Ok(NamedFile { name: name.to_string(), here: given.here, span: given.span })
+    }
+
+    /// `t.ply`, `models/tree.ply`: the name of a file without its quotes, which reads as part of something or as a
+    /// quotient; told.
+    pub(super) fn unquoted(&mut self, here: &Here, id: ExpressionId) -> Option<Reported> {
+        let expression = here.unit.expression(id);
+        if expression.kind == ExpressionKind::String {
+            return None;
+        }
+        let start = expression.span;
+        if let Some(reported) = self.lacks_quotes(here, id) {
+            return Some(reported);
+        }
+        let text = self.sources.get(start.file).text.get(start.start as usize..)?;
+        let is_of_path = |c: char| c.is_alphanumeric() || "_-./\\".contains(c);
+        let path = &text[..text.find(|c| !is_of_path(c)).unwrap_or(text.len())];
+        if !(is_of_font(path) || is_of_picture(path) || mesh_file::is_named(path)) {
+            return None;
+        }
+        let (span, right) =
+            (Span { end: start.start + path.len() as u32, ..start }, format!("\"{path}\""));
+        let told = Diagnostic::new(Code::WrongType, "the name of a file stands in quotes")
+            .at(span, "expected a string")
+            .help(format!("write `{right}`"))
+            .fix(span, right);
+        Some(self.report(here, told))
     }
 
     /// The file of this name; if there is none and the name has no ending, of the name with one of these, as

@@ -16,7 +16,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
 use super::Given;
-use super::named::NamedFile;
+use super::named::{NamedFile, is_of_font};
 
 /// Fonts that were read, by their names and the files that named them.
 pub(in crate::evaluate) type Fonts = HashMap<(String, FileId), Arc<[u8]>>;
@@ -206,7 +206,7 @@ impl Evaluator<'_> {
             }
             Err(error) => {
                 let fonts: Vec<String> = POV_RAYS.iter().map(|font| format!("`{font}`")).collect();
-                let diagnostic = missing_file(name, *span, error).help(format!(
+                let diagnostic = missing_file(name, *span, error, is_of_font).help(format!(
                     "with POV-Ray come {}; without `ttf \"…\"` it is the font that is built in",
                     fonts.join(", ")
                 ));

@@ -98,7 +98,7 @@ impl Evaluator<'_> {
             Ok(found) => found,
             Err(_) if self.unwritten.contains(path) => return Err(Reported),
             Err(error) => {
-                let told = Rc::new(missing_file(path, span, error));
+                let told = Rc::new(missing_file(path, span, error, |_| true));
                 self.remembered.missing.insert(span, (path.to_owned(), told.clone()));
                 return Err(self.report_again(here, &told));
             }

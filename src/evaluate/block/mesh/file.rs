@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::mesh_file::{self, Fault, Model};
 use crate::scene::mesh::Triangles;
 use crate::scene::{Modifier, ModifierKind, Pigment, PigmentId, PigmentKind, Solid, Texture};
-use crate::source::{FileError, FileId, Site, Source, Span};
+use crate::source::{FileError, FileId, Files, Site, Source, Span};
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
@@ -56,6 +56,9 @@ impl Evaluator<'_> {
         self.next();
         let TokenKind::Expression(id) = value.kind else { return Err(Reported) };
         let (here, span) = (&value.here, value.span);
+        if let Some(reported) = self.unquoted(here, id) {
+            return Err(reported);
+        }
         // Paths keep their backslashes.
         let name = match here.unit.expression(id).kind {
             ExpressionKind::String => self.whole_string(span).ok_or(Reported)?,
@@ -90,8 +93,8 @@ impl Evaluator<'_> {
     ) -> Result<Rc<Read>, Option<Diagnostic>> {
         let files = self.files;
         let from = self.sources.get(span.file).name.clone();
-        let missing = |error| Some(missing_file(name, span, error));
-        let found = files.read(name, &from).map_err(missing)?;
+        let found = files.read(name, &from);
+        let found = found.map_err(|error| Some(missing_mesh(files, &from, name, span, error)))?;
         if let Some(read) = self.meshes.found.get(&found.name) {
             return Ok(read.clone());
         }
@@ -188,6 +191,32 @@ impl Evaluator<'_> {
         let finish = self.scene.textures[self.default_texture.index()].finish;
         let texture = self.add_texture(Texture { pigment, finish, transforms: Vec::new() });
         Some(Modifier { kind: ModifierKind::Texture(texture), site })
+    }
+}
+
+/// A mesh that is not there, though one of another ending may be.
+fn missing_mesh(
+    files: &dyn Files,
+    from: &str,
+    name: &str,
+    span: Span,
+    error: FileError,
+) -> Diagnostic {
+    let stem = if mesh_file::is_named(name) { name.rsplit_once('.') } else { None };
+    let stem = stem.map_or(name, |(stem, _)| stem);
+    let others = mesh_file::ENDINGS.iter().map(|ending| format!("{stem}.{ending}"));
+    let mut there = others.filter(|other| files.read(other, from).is_ok());
+    match (error, there.next(), there.next()) {
+        (FileError::NotFound { searched, .. }, Some(one), None) => {
+            let error = FileError::NotFound { searched, similar: vec![one] };
+            missing_file(name, span, error, |_| true)
+        }
+        (FileError::NotFound { searched, .. }, Some(one), Some(other)) => {
+            let error = FileError::NotFound { searched, similar: Vec::new() };
+            let told = missing_file(name, span, error, |_| false);
+            told.help(format!("did you mean `{one}`, or `{other}`?"))
+        }
+        (error, ..) => missing_file(name, span, error, mesh_file::is_named),
     }
 }
 

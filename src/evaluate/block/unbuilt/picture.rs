@@ -8,6 +8,7 @@ use crate::vocabulary::{Family, Word};
 use super::super::super::Evaluator;
 use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
+use super::super::named::is_of_picture;
 
 /// The endings that may be left out of a picture's name.
 const ENDINGS: &[&str] =
@@ -69,7 +70,7 @@ impl Evaluator<'_> {
         }
         let Ok(file) = self.named_file(token, "the name of a picture's file") else { return };
         if let Err(error @ FileError::NotFound { .. }) = self.read_named(&file, ENDINGS) {
-            let diagnostic = missing_file(&file.name, file.span, error);
+            let diagnostic = missing_file(&file.name, file.span, error, is_of_picture);
             self.report(&file.here, diagnostic);
         }
     }
