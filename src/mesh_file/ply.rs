@@ -1,5 +1,5 @@
-//! PLY: elements with properties, as text or in binary of either order; the only file but `said.rs` that
-//! names `ply_rs_bw`.
+//! PLY: elements with properties, as text or in binary of either order; the only file that names
+//! `ply_rs_bw`.
 //!
 //! Read are the `vertex` elements (x y z, nx ny nz, red green blue alpha, s t) and the `face` elements
 //! (vertex_indices, red green blue alpha). Colours of whole numbers are display values.
@@ -169,11 +169,9 @@ fn elements<E: PropertyAccess>(
         let read = parser.read_payload_for_element(reader, element, header);
         let read = read.map_err(|error| {
             let line = error.line().unwrap_or_else(|| reader.line());
+            let what = format!("{} {}", element.name, line.saturating_sub(first));
             let bytes = *reader.get_ref().get_ref();
-            Fault::line(
-                line,
-                said::of_ply_element(element, bytes, line, line.saturating_sub(first)),
-            )
+            Fault::line(line, said::of_numbers(&what, &names_of(element), bytes, line))
         })?;
         // A line each.
         return Ok(read
@@ -204,6 +202,15 @@ fn elements<E: PropertyAccess>(
         read.push((Place::Byte(at), one));
     }
     Ok(read)
+}
+
+/// Of the numbers of an element, in their order.
+fn names_of(element: &ElementDef) -> String {
+    let names = element.properties.iter().map(|(name, property)| match property.data_type {
+        PropertyType::Scalar(_) => name.clone(),
+        PropertyType::List(..) => format!("how many {name} follow, {name}"),
+    });
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// An element of which nothing is kept.

@@ -3,8 +3,6 @@
 //! The crates that read these files tell in words of their own that a line is wrong, not what it should have
 //! been; that follows from the lines before it.
 
-use ply_rs_bw::ply::{ElementDef, PropertyType};
-
 /// How much of a line is shown.
 const MOST_SHOWN: usize = 40;
 
@@ -78,16 +76,10 @@ pub fn of_ply_head(bytes: &[u8], number: usize) -> String {
     format!("expected {wanted}, {}", found(&text))
 }
 
-/// A line of an element of a PLY as text.
-pub fn of_ply_element(element: &ElementDef, bytes: &[u8], number: usize, nth: usize) -> String {
-    let ElementDef { name, count, .. } = element;
-    let Some(text) = line(bytes, number) else {
-        return format!("the file ends before {name} {nth} of {count}");
-    };
-    let parts = element.properties.iter().map(|(name, property)| match property.data_type {
-        PropertyType::Scalar(_) => name.clone(),
-        PropertyType::List(..) => format!("how many {name} follow, {name}"),
-    });
-    let parts: Vec<String> = parts.collect();
-    format!("{name} {nth}: expected numbers for {}; {}", parts.join(", "), found(&text))
+/// A line that holds numbers of these names; `what` it is, as `vertex 2`.
+pub fn of_numbers(what: &str, names: &str, bytes: &[u8], number: usize) -> String {
+    match line(bytes, number) {
+        Some(text) => format!("{what}: expected numbers for {names}; {}", found(&text)),
+        None => format!("the file ends before {what}"),
+    }
 }

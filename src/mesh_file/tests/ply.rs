@@ -151,7 +151,7 @@ fn each_fault_of_a_ply_has_its_line() {
             7,
             "`vertex_indices` of its `face` is no list of whole numbers",
         ),
-        (format!("{head}{three}{faces}{places}"), 13, "the file ends before face 0 of 1"),
+        (format!("{head}{three}{faces}{places}"), 13, "the file ends before face 0"),
     ] {
         let (place, reason) = fault("a.ply", &text);
         assert_eq!(place, Some(Place::Line(line)), "{text}: {reason}");
