@@ -141,7 +141,7 @@ codes! {
     NegativeSize "negative-size" sure "a radius is negative; its absolute value is used";
     DegenerateShape "degenerate-shape" lint "a shape is flat or has nothing inside";
     DegenerateTriangle "degenerate-triangle" sure "the corners of a triangle lie in a line";
-    NothingLeft "nothing-left" sure "nothing is left of an intersection or a difference";
+    NothingLeft "nothing-left" sure "nothing is left of an intersection, a difference, or an object that is clipped";
     TakesNothing "takes-nothing" lint "what a difference takes away does not reach what it takes it from";
     OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";

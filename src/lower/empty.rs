@@ -1,4 +1,5 @@
-//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away; and
+//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away, an object
+//! that what clips it does not meet; and
 //! parts that take nothing away, such as those that are only a surface.
 //!
 //! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
@@ -16,7 +17,7 @@ use crate::math::elementary::{cos, sin};
 use crate::scene::Operation;
 use crate::shape::body::Local;
 use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
-use crate::source::Site;
+use crate::source::{Site, Span};
 use crate::world::Object;
 
 /// What is thinner than this, relative, is not there: it may all be rounding.
@@ -108,20 +109,29 @@ impl Lowering<'_, '_> {
         // As its author sees them.
         let parts = building.known.drain(first..).map(|part| part.turned(inverse));
         let parts: Vec<Known> = parts.collect();
+        if making == Making::Clip && !inverse {
+            let told = clipped_away(&parts, site);
+            self.note_emptied((site.span, true), told, site);
+        }
         if let Making::Operation(operation @ (Operation::Intersection | Operation::Difference)) =
             making
         {
             let told = self.nothing_left(operation, &parts, site);
-            self.emptied
-                .entry(site.span)
-                .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
-                .or_insert(told.map(|told| (told, site)));
+            self.note_emptied((site.span, false), told, site);
             let told = |code| self.reporter.diagnostics.tells(code);
             if operation == Operation::Difference && told(Code::TakesNothing) {
                 self.note_idle(&parts);
             }
         }
         self.note_known(whole(making, &parts, inverse, site).turned(inverse));
+    }
+
+    /// Notes what is told of an operation, or of a clipped object, if it is told of each that is made there.
+    fn note_emptied(&mut self, place: (Span, bool), told: Option<Diagnostic>, site: Site) {
+        self.emptied
+            .entry(place)
+            .and_modify(|known| *known = known.take().filter(|_| told.is_some()))
+            .or_insert(told.map(|told| (told, site)));
     }
 
     /// Says that nothing is left of an operation, where that is certain, and not for a part that is nothing.
@@ -329,6 +339,25 @@ fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
         Making::Clip => (shared(|part| part.inside), Bounds::EVERYWHERE),
     };
     Known { site, inside, outside, object: None }
+}
+
+/// Says that nothing is left of an object, the first of the parts, in what clips it, where that is certain.
+fn clipped_away(parts: &[Known], site: Site) -> Option<Diagnostic> {
+    if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
+        return None;
+    }
+    let Gap { touching, parts: apart } = gap(parts)?;
+    let why = match (apart.contains(&0), touching) {
+        (true, false) => "it does not reach into what clips it",
+        (true, true) => "it only touches what clips it",
+        (false, _) => "what clips it does not meet",
+    };
+    let told = Diagnostic::new(Code::NothingLeft, format!("this object is clipped away: {why}"))
+        .at(site.span, "nothing is left of it")
+        .help("`clipped_by` keeps what lies inside of its shapes");
+    let clips = apart.into_iter().filter(|part| *part > 0).map(|part| parts[part].site.span);
+    let clips = clips.filter(|clip| *clip != site.span);
+    Some(clips.fold(told, |told, clip| told.also(clip, "it is clipped by this")))
 }
 
 /// Two of some parts that are apart, or else that only touch; `None` where boxes around all have a box in common.

@@ -4,6 +4,8 @@
 //! nothing about the whole; after one of the camera all but what it sees; of a scene that was read with
 //! mistakes, what nothing that is missing could change.
 
+use std::cmp::Ordering;
+
 use super::{Fault, Lowering};
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic, Severity};
@@ -155,22 +157,41 @@ impl Lowering<'_, '_> {
         self.reporter.diagnostics.push(told);
     }
 
-    /// Says so where there is nothing of an isosurface; `false` where that is proven.
-    pub(super) fn is_somewhere(&mut self, body: &Body, site: Site) -> bool {
-        let Body::Isosurface(surface) = body else { return true };
-        let Some(nowhere) = surface.nowhere() else { return true };
-        let label = match nowhere {
-            Nowhere::Above => format!(
-                "in all of its container its function is above its threshold, {}",
-                surface.threshold
-            ),
-            Nowhere::NoNumber(places) => {
-                format!("its function is no number at any of {places} places in its container")
+    /// Says so where there is nothing of a shape of this word, or nothing to be seen; `false` where that it is
+    /// nothing is proven.
+    pub(super) fn is_somewhere(&mut self, body: &Body, word: &str, site: Site) -> bool {
+        let nothing = format!("there is nothing of this {word}");
+        let (message, label, is_proven) = match body {
+            Body::Isosurface(surface) => match surface.nowhere() {
+                None => return true,
+                Some(Nowhere::Above) => {
+                    let threshold = surface.threshold;
+                    let label = "in all of its container its function is above its threshold, ";
+                    (nothing, format!("{label}{threshold}"), true)
+                }
+                Some(Nowhere::NoNumber(places)) => {
+                    let label = "its function is no number at any of ";
+                    (nothing, format!("{label}{places} places in its container"), false)
+                }
+            },
+            Body::Algebraic(surface) => match surface.everywhere() {
+                Some(Ordering::Greater) => {
+                    let label = "its polynomial is above 0 everywhere, and inside it is below";
+                    (nothing, label.to_owned(), true)
+                }
+                Some(Ordering::Less) => {
+                    let label = "its polynomial is below 0 everywhere: all of space is inside";
+                    (format!("this {word} has no surface"), label.to_owned(), false)
+                }
+                _ => return true,
+            },
+            Body::Parametric(surface) if surface.is_outside() => {
+                (nothing, "all of its points lie outside of its container".to_owned(), true)
             }
+            _ => return true,
         };
-        let fault = Fault::new(Code::DegenerateShape, "there is nothing of this isosurface");
-        self.reporter.fault(fault.label(label), site);
-        nowhere != Nowhere::Above
+        self.reporter.fault(Fault::new(Code::DegenerateShape, message).label(label), site);
+        !is_proven
     }
 
     /// The last object of a scene that places none but lights.

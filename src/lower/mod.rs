@@ -131,7 +131,7 @@ struct Lowering<'s, 'd> {
     /// The colour of the first light that is black.
     black: Option<Site>,
     /// Of each operation of which nothing may be left, by its place: what is to be said, if nothing is of any.
-    emptied: BTreeMap<Span, Option<(Diagnostic, Site)>>,
+    emptied: BTreeMap<(Span, bool), Option<(Diagnostic, Site)>>,
     /// Likewise, of each part of a difference that may take nothing away.
     idle: BTreeMap<Span, Option<(Diagnostic, Site)>>,
     /// The solid made of others that is under way.

@@ -344,22 +344,14 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::superellipsoid(exponents), here, site)
             }
             Solid::Isosurface { ref function, ref container, threshold, accuracy, open } => {
-                let made = self.shared(id, |lowering| {
-                    let made = body::isosurface(function, **container, threshold, accuracy, open)?;
-                    Ok(lowering.is_somewhere(&made.0, site).then_some(made))
-                })?;
-                match made {
-                    Some((body, frame)) => self.place_body(body, &frame, here, site),
-                    None => self.place_nowhere(
-                        here,
-                        site,
-                        ("isosurface", "nowhere is it below its threshold"),
-                    ),
-                }
+                let make = || body::isosurface(function, **container, threshold, accuracy, open);
+                let nowhere = ("isosurface", "nowhere is it below its threshold");
+                self.place_if_somewhere(id, make, here, site, nowhere)
             }
             Solid::Parametric { ref functions, corners, ref container } => {
-                let make = || body::parametric(functions, corners, **container).map(Some);
-                self.place_stored(id, make, here, site)
+                let make = || body::parametric(functions, corners, **container);
+                let nowhere = ("parametric", "all of it is outside of its container");
+                self.place_if_somewhere(id, make, here, site, nowhere)
             }
             // A tube about a point is a ball.
             Solid::Torus { major: 0.0, minor } => {
@@ -377,8 +369,10 @@ impl<'s> Lowering<'s, '_> {
             Solid::Sor { ref points, open } => {
                 self.place_stored(id, || outline::sor(points, open), here, site)
             }
-            Solid::Polynomial { degree, ref terms, .. } => {
-                self.place_made(body::polynomial(degree, terms)?, here, site)
+            Solid::Polynomial { degree, ref terms, form } => {
+                let make = || body::polynomial(degree, terms);
+                let nowhere = (form.name(), "nowhere is its polynomial below 0");
+                self.place_if_somewhere(id, make, here, site, nowhere)
             }
         }
     }

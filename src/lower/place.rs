@@ -41,6 +41,25 @@ impl Lowering<'_, '_> {
         }
     }
 
+    /// Likewise, of what may be nowhere, which is told.
+    pub(super) fn place_if_somewhere(
+        &mut self,
+        id: ObjectId,
+        make: impl FnOnce() -> Result<(Body, Affine), Fault>,
+        here: &Inherited,
+        site: Site,
+        nowhere: (&'static str, &'static str),
+    ) -> Result<(), Fault> {
+        let made = self.shared(id, |lowering| {
+            let made = make()?;
+            Ok(lowering.is_somewhere(&made.0, nowhere.0, site).then_some(made))
+        })?;
+        match made {
+            Some((body, frame)) => self.place_body(body, &frame, here, site),
+            None => self.place_nowhere(here, site, nowhere),
+        }
+    }
+
     /// What a solid became when it was first used, or becomes now.
     pub(super) fn shared(
         &mut self,

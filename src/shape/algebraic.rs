@@ -11,6 +11,7 @@ mod clipped;
 mod closed;
 mod ends;
 mod net;
+mod nowhere;
 
 use std::fmt::Write;
 use std::sync::OnceLock;

@@ -3,6 +3,7 @@
 
 use super::SURFACE;
 use crate::math::Vector;
+use crate::math::interval::Interval;
 use crate::shape::U;
 use crate::shape::body::{Height, LocalRay, Met};
 use crate::shape::slab::Slab;
@@ -33,6 +34,16 @@ impl Container {
                     Some((enter.later(first), leave.earlier(last)))
                 })
             }
+        }
+    }
+
+    /// Whether a box certainly lies outside.
+    pub(in crate::shape) fn misses(&self, other: &[Interval; 3]) -> bool {
+        let outside = |distance: f64, reach: f64| distance > reach * (1.0 + 16.0 * U);
+        let nearest = other.map(|along| along.low.max(-along.high).max(0.0));
+        match *self {
+            Self::Box(half) => (0..3).any(|axis| outside(nearest[axis], half[axis])),
+            Self::Sphere(radius) => outside(Vector::from_array(nearest).length(), radius),
         }
     }
 

@@ -135,6 +135,12 @@ impl Parametric {
         body
     }
 
+    /// Whether certainly nothing of it lies in its container.
+    pub fn is_outside(&self) -> bool {
+        let finest = self.boxes.len().saturating_sub(1 << (2 * DEPTH));
+        self.boxes[finest..].iter().all(|part| self.container.misses(part))
+    }
+
     fn surface(&self) -> Surface<'_> {
         let runs = self.functions.each_ref().map(|f| RefCell::new(f.function().run()));
         Surface { body: self, runs }

@@ -1,0 +1,62 @@
+//! Polynomials without a surface: above 0 everywhere, or below it, as their terms prove.
+//!
+//! One of even powers with factors of one sign, and a constant of that sign, has this sign everywhere. Of a
+//! quadric, squares are split off, one for each of x, y and z, until a constant is left.
+
+use std::cmp::Ordering;
+
+use super::Algebraic;
+use crate::math::interval::Interval;
+use crate::math::terms::exponents;
+
+impl Algebraic {
+    /// What the polynomial is beside 0 everywhere, where that is proven.
+    pub fn everywhere(&self) -> Option<Ordering> {
+        let negated: Vec<f64> = self.terms.iter().map(|term| -term).collect();
+        let is_above = |terms: &[f64]| {
+            let last = terms.last().is_some_and(|constant| *constant > 0.0);
+            last && (has_even_powers(self.degree, terms) || has_squares(terms))
+        };
+        match (is_above(&self.terms), is_above(&negated)) {
+            (true, _) => Some(Ordering::Greater),
+            (_, true) => Some(Ordering::Less),
+            _ => None,
+        }
+    }
+}
+
+/// Whether no term is below 0 anywhere.
+fn has_even_powers(degree: usize, terms: &[f64]) -> bool {
+    exponents(degree).zip(terms).all(|(powers, term)| {
+        *term == 0.0 || *term > 0.0 && powers.iter().all(|power| power % 2 == 0)
+    })
+}
+
+/// Whether a quadric is a sum of squares and of a number above 0.
+fn has_squares(terms: &[f64]) -> bool {
+    let &[xx, xy, xz, x, yy, yz, y, zz, z, one] = terms else { return false };
+    // Twice the polynomial is (x y z 1) times this times (x y z 1).
+    let rows =
+        [[2.0 * xx, xy, xz, x], [xy, 2.0 * yy, yz, y], [xz, yz, 2.0 * zz, z], [x, y, z, 2.0 * one]];
+    let mut rows = rows.map(|row| row.map(Interval::point));
+    let is_zero = |entry: Interval| entry.single() == Some(0.0);
+    for pivot in 0..3 {
+        let square = rows[pivot];
+        if square[pivot].low <= 0.0 {
+            // It does not occur, or nothing is known.
+            if square[pivot..].iter().all(|entry| is_zero(*entry)) {
+                continue;
+            }
+            return false;
+        }
+        for (i, row) in rows.iter_mut().enumerate().skip(pivot + 1) {
+            let share = square[i] / square[pivot];
+            for (entry, factor) in row.iter_mut().zip(square).skip(pivot + 1) {
+                if !is_zero(square[i]) && !is_zero(factor) {
+                    *entry = *entry - share * factor;
+                }
+            }
+        }
+    }
+    rows[3][3].low > 0.0
+}
