@@ -151,7 +151,7 @@ codes! {
     MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
     NeverRuns "never-runs" sure "a loop counts away from its end, so it has no turn, or a case is never chosen as it is meant";
     CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";
-    FractionalIndex "fractional-index" lint "the index of an array is not whole; its fraction is dropped";
+    FractionalIndex "fractional-index" lint "an index or a count is not whole; its fraction is dropped";
     ShortFile "short-file" sure "a file of values ends in the middle of what `#read` reads together";
     ReplacedPigment "replaced-pigment" lint "an object or a texture has two pigments; the last one is used";
     RepeatedTime "repeated-time" sure "a spline has two values for one time, and one of them does not count";

@@ -176,7 +176,9 @@ impl Evaluator<'_> {
             if let Value::Poison(_) = size {
                 return Ok(size);
             }
-            let size = self.as_number(&here, span, &size, "the size of the array")?.trunc();
+            let size = self.as_number(&here, span, &size, "the size of the array")?;
+            self.lint_count(&here, span, size);
+            let size = size.trunc();
             if !(1.0..=f64::from(u32::MAX)).contains(&size) {
                 let message = format!("an array cannot have {size} elements");
                 let diagnostic = Diagnostic::new(Code::OutOfRange, message)

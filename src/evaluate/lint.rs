@@ -215,6 +215,17 @@ impl Evaluator<'_> {
         }
     }
 
+    /// How many there are, typed with a fraction.
+    pub(super) fn lint_count(&mut self, here: &Here, span: Span, count: f64) {
+        let text = self.sources.text(span).trim_matches(['[', ']']);
+        if count.fract() != 0.0 && is_literal(text) {
+            let message = format!("the number {count} is not whole: its fraction is dropped");
+            let diagnostic = Diagnostic::new(Code::FractionalIndex, message)
+                .at(span, format!("this is taken for {}", count.trunc()));
+            self.report(here, diagnostic);
+        }
+    }
+
     /// A second pigment in the block of an object, or of a texture.
     pub(super) fn lint_replaced(&mut self, token: &Token, first: Site, of: &str) {
         // A loop whose `#end` is missing runs over what stands behind it.

@@ -64,7 +64,7 @@ vocabulary! {
         Sphere "sphere" statement built "`sphere { <centre>, radius }`: a ball";
         SphereSweep "sphere_sweep" statement built "`sphere_sweep { linear_spline count, <centre>, radius, … }`: a sphere moved along a spline";
         Superellipsoid "superellipsoid" statement built "`superellipsoid { <e, n> }`: a box with rounded edges, by two exponents";
-        Text "text" statement built "`text { ttf \"file\" \"string\" thickness, offset }`: letters of a font as a solid; without `ttf`, of the font that is built in";
+        Text "text" statement built "`text { ttf \"file\" \"string\" thickness, offset }`: letters of a font as a solid, from z = 0 to the thickness, which may be below 0; without `ttf`, of the font that is built in";
         Torus "torus" statement built "`torus { major, minor }`: a ring about the y axis";
         Triangle "triangle" statement built "`triangle { <a>, <b>, <c> }`: a flat triangle";
     }

@@ -45,6 +45,12 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
+    /// How many entries follow: no more than memory could hold, for what is not there is told as missing.
+    pub(super) fn counted(&mut self, count: &Given<f64>) -> usize {
+        self.lint_count(&count.here, count.span, count.value);
+        count.value as u32 as usize
+    }
+
     /// The plain numbers and vectors from `first` on, up to a word or the end of their block; `None` where anything
     /// else stands among them: what directives make cannot be counted here.
     fn entries_from(&self, first: Span) -> Option<&str> {

@@ -172,6 +172,7 @@ impl Evaluator<'_> {
                 return Err(reported);
             }
             let given = self.number_after(word, &format!("how many heights {name}"))?;
+            self.lint_count(&given.here, given.span, given.value);
             let count = given.value.trunc();
             before = Some(given.span);
             if (2.0..=MOST).contains(&count) {

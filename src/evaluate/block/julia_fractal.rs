@@ -122,6 +122,7 @@ impl Evaluator<'_> {
     fn iterations(&mut self, item: &Token) -> Outcome<u32> {
         const MOST: f64 = u32::MAX as f64;
         let given = self.number_after(item, "a whole number")?;
+        self.lint_count(&given.here, given.span, given.value);
         match given.value.trunc() {
             count if (1.0..=MOST).contains(&count) => Ok(count as u32),
             _ => Err(self.out_of_range(&given, Word::MaxIteration, "1 or more")),

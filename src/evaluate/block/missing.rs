@@ -55,8 +55,9 @@ impl Evaluator<'_> {
             Some((count, found)) if found > 0 && count.file == after.span.file => {
                 let text = self.sources.text(count).to_owned();
                 let help = format!("if these are all, write `{found}` instead of `{text}`");
+                let follow = if found == 1 { "follows" } else { "follow" };
                 diagnostic
-                    .also(count, format!("{text} are announced, and {found} follow"))
+                    .also(count, format!("{text} are announced, and {found} {follow}"))
                     .help(help)
             }
             _ => diagnostic,

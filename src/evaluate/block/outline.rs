@@ -356,7 +356,7 @@ impl Evaluator<'_> {
             Spline::Cubic if word == Word::Prism => 6,
             Spline::Cubic | Spline::Bezier => 4,
         };
-        let wanted = count.value as u32 as usize;
+        let wanted = self.counted(&count);
         let name = if word == Word::Sor { "" } else { spline.word().name() };
         let needs = match () {
             () if spline == Spline::Bezier && !wanted.is_multiple_of(4) => {

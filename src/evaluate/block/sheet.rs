@@ -37,8 +37,7 @@ impl Evaluator<'_> {
                 .at(count.span, format!("expected 3 or more, found {}", count.value));
             return Err(self.report(&count.here, diagnostic));
         }
-        // A count beyond all memory is told by what is missing.
-        let wanted = count.value as u32;
+        let wanted = self.counted(&count);
         let mut polygon = Polygon::default();
         let mut line: Vec<Vector> = Vec::new();
         let mut places: Vec<(Vector, Span)> = Vec::new();

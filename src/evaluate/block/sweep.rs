@@ -42,8 +42,7 @@ impl Evaluator<'_> {
                 .also(word.span, "for this");
             return Err(self.report(&count.here, diagnostic));
         }
-        // No more than memory could hold; those that are not there are told as missing.
-        let wanted = count.value as u32 as usize;
+        let wanted = self.counted(&count);
         let mut sweep = Sweep { kind, spheres: Vec::new() };
         while sweep.spheres.len() < wanted {
             let nth = sweep.spheres.len() + 1;

@@ -128,7 +128,7 @@ impl Evaluator<'_> {
         self.block(list, Word::TextureList, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
             let listed = evaluator.listed_textures()?;
-            if listed.len() == count.value as usize {
+            if listed.len() == evaluator.counted(&count) {
                 return Ok((listed, true));
             }
             let found = listed.len();
@@ -158,7 +158,7 @@ impl Evaluator<'_> {
     ) -> Outcome<(Vec<Painted>, bool)> {
         self.block(list, Word::FaceIndices, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
-            let wanted = count.value as u32 as usize;
+            let wanted = evaluator.counted(&count);
             let mut faces: Vec<([f64; 3], Vec<u32>)> = Vec::new();
             // The faces are read on for mistakes of their own.
             let mut told = false;

@@ -236,8 +236,7 @@ impl Evaluator<'_> {
                 return Err(reported);
             }
             let count = evaluator.number_after(list, "how many there are")?;
-            // No more than memory could hold; a count that is none is told by what is missing.
-            let wanted = count.value as u32 as usize;
+            let wanted = evaluator.counted(&count);
             *announced = wanted;
             let what = entry_of(word);
             if let Some(reported) = evaluator.bare_entries(what, width, &count) {
