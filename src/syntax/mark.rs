@@ -180,8 +180,12 @@ impl<'a> Nest<'a> {
             return;
         }
         let text = self.slice(span);
-        let message = format!("`{text}` stands only inside parentheses");
+        // Those of a call are not its own.
+        let is_argument = matches!(self.top().kind, FrameKind::Call(_));
+        let own = if is_argument { " of its own" } else { "" };
+        let message = format!("`{text}` stands only inside parentheses{own}");
         let help = match text {
+            "=" if is_argument => "put the whole comparison in parentheses: `(a = b)`",
             "=" => {
                 "each name has a `#declare` of its own; a comparison stands in parentheses: `(a = b)`"
             }

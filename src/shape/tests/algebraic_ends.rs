@@ -1,5 +1,7 @@
 //! Where polynomial surfaces end, against surfaces whose ends are known.
 
+use std::cmp::Ordering;
+
 use super::algebraic::{Terms, product, squares, surface, torus};
 use super::*;
 use crate::math::terms::exponents;
@@ -164,4 +166,46 @@ fn each_turned_surface_is_as_wide_as_its_ball_at_most() {
     let ball = surface(4, &product(&squares(1.0, 1.0, 1.0, -1.0), &squares(1.0, 1.0, 1.0, 2.0)));
     let (low, high) = ball.extent(Vector::ONE.normalize());
     assert!(low <= -1.0 && 1.0 <= high && high - low < 2.3, "{low} {high}");
+}
+
+#[test]
+fn a_quadric_without_a_surface_is_told_and_no_other() {
+    let mut random = Random(211);
+    for case in 0..tries() {
+        let mut terms = Terms::new();
+        for _ in 0..3 {
+            let mut form = Terms::new();
+            for powers in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]] {
+                form.push((random.number(-1.0, 1.0), powers));
+            }
+            terms.extend(product(&form, &form));
+        }
+        // The squares are all 0 in one point, and grow from there.
+        let constant = random.number(-1.0, 1.0);
+        terms.push((constant, [0, 0, 0]));
+        let [above, below] = [&terms, &negated(&terms)].map(|terms| surface(2, terms).everywhere());
+        if constant > 1e-6 {
+            assert_eq!(above, Some(Ordering::Greater), "{case}: {terms:?}");
+            assert_eq!(below, Some(Ordering::Less), "{case}: {terms:?}");
+        } else if constant < 0.0 {
+            assert_eq!([above, below], [None; 2], "{case}: {terms:?}");
+        }
+    }
+}
+
+#[test]
+fn a_polynomial_of_even_powers_and_one_sign_has_no_surface() {
+    let mut terms = rounded_box(4, [1.0, 0.0, 2.0]);
+    assert_eq!(surface(4, &terms).everywhere(), None);
+    terms[3].0 = 1.0;
+    assert_eq!(surface(4, &terms).everywhere(), Some(Ordering::Greater));
+    assert_eq!(surface(4, &negated(&terms)).everywhere(), Some(Ordering::Less));
+    // A point, a line and a plane are there.
+    terms[3].0 = 0.0;
+    assert_eq!(surface(4, &terms).everywhere(), None);
+    terms[3] = (1.0, [1, 0, 0]);
+    assert_eq!(surface(4, &terms).everywhere(), None);
+    let slabs = vec![(1.0, [2, 0, 0]), (1.0, [0, 0, 0])];
+    assert_eq!(surface(2, &slabs).everywhere(), Some(Ordering::Greater));
+    assert_eq!(surface(2, &slabs[..1].to_vec()).everywhere(), None);
 }

@@ -12,6 +12,10 @@ use crate::shape::isosurface::Container;
 
 /// Of radius ½ around the origin.
 fn ball() -> Parametric {
+    ball_in(Container::Box(Vector::ONE), Vector::ZERO)
+}
+
+fn ball_in(container: Container, centre: Vector) -> Parametric {
     let x = function(|f, [u, v, _]| {
         let (sine, cosine) = (f.one(Unary::Sin, v), f.one(Unary::Cos, u));
         let (half, product) = (f.number(0.5), f.two(Binary::Multiply, sine, cosine));
@@ -27,7 +31,7 @@ fn ball() -> Parametric {
         f.two(Binary::Multiply, half, cosine)
     });
     let corners = [[0.0, 0.0], [2.0 * PI, PI]];
-    Parametric::new([x, y, z], corners, Container::Box(Vector::ONE), Vector::ZERO, 1.0)
+    Parametric::new([x, y, z], corners, container, centre, 1.0)
 }
 
 fn met(surface: &Parametric, ray: &LocalRay) -> Vec<Met> {
@@ -226,4 +230,23 @@ fn a_line_through_a_crease_or_along_a_turning_point_meets_the_surface_once() {
     );
     let all = met_in(1000, &wave, &toward(beside, Vector::X));
     assert!(all.len() == 1 && all[0].t.abs() <= all[0].error, "{all:?}");
+}
+
+#[test]
+fn a_surface_is_told_to_be_outside_of_its_container_where_it_is() {
+    let cube = |half: f64| Container::Box(Vector::splat(half));
+    for (container, at, is_outside) in [
+        (cube(0.4), 1.0, true),
+        (cube(0.4), 0.8, false),
+        (Container::Sphere(0.5), 1.2, true),
+        (Container::Sphere(0.5), 0.99, false),
+        // All around it.
+        (cube(0.2), 0.0, true),
+        (Container::Sphere(0.4), 0.0, true),
+        (cube(0.3), 0.0, false),
+        (Container::Sphere(0.51), 0.0, false),
+    ] {
+        let surface = ball_in(container, at * Vector::X);
+        assert_eq!(surface.is_outside(), is_outside, "{container:?} at {at}");
+    }
 }
