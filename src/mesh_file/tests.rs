@@ -166,7 +166,7 @@ proptest! {
         which in 0..5usize,
         bytes in prop::collection::vec(any::<u8>(), 0..200),
     ) {
-        let name = format!("a.{}", Format::ALL[which].0);
+        let name = format!("a.{}", ENDINGS[which]);
         let _ = read(&name, &bytes, &mut |_| Ok(bytes.clone()), MOST);
     }
 }
