@@ -146,7 +146,7 @@ fn each_fault_of_a_ply_has_its_line() {
         (format!("{head}format binary_big_endian 1.0\n"), 3, "a second `format`"),
         (
             format!(
-                "{head}{three}element face 1\nproperty list uchar float vertex_indices\nend_header\n"
+                "{head}{three}element face 1\nproperty list uchar float vertex_indices\nend_header\n{places}3 0 1 2\n"
             ),
             7,
             "`vertex_indices` of its `face` is no list of whole numbers",
