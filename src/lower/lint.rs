@@ -176,7 +176,7 @@ impl Lowering<'_, '_> {
             },
             Body::Algebraic(surface) => match surface.everywhere() {
                 Some(Ordering::Greater) => {
-                    let label = "its polynomial is above 0 everywhere, and inside it is below";
+                    let label = "its polynomial is above 0 everywhere, so that nothing is inside";
                     (nothing, label.to_owned(), true)
                 }
                 Some(Ordering::Less) => {

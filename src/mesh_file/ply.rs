@@ -208,7 +208,7 @@ fn elements<E: PropertyAccess>(
 fn names_of(element: &ElementDef) -> String {
     let names = element.properties.iter().map(|(name, property)| match property.data_type {
         PropertyType::Scalar(_) => name.clone(),
-        PropertyType::List(..) => format!("how many {name} follow, {name}"),
+        PropertyType::List(..) => format!("how many {name}, and these"),
     });
     names.collect::<Vec<_>>().join(", ")
 }

@@ -79,7 +79,7 @@ pub fn of_ply_head(bytes: &[u8], number: usize) -> String {
 /// A line that holds numbers of these names; `what` it is, as `vertex 2`.
 pub fn of_numbers(what: &str, names: &str, bytes: &[u8], number: usize) -> String {
     match line(bytes, number) {
-        Some(text) => format!("{what}: expected numbers for {names}; {}", found(&text)),
+        Some(text) => format!("{what}: expected numbers, {names}; {}", found(&text)),
         None => format!("the file ends before {what}"),
     }
 }

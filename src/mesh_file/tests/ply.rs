@@ -114,12 +114,12 @@ fn each_fault_of_a_ply_has_its_line() {
         (
             format!("{head}{three}{faces}{places}3 0 1\n"),
             13,
-            "face 0: expected numbers for how many vertex_indices follow, vertex_indices; found `3 0 1`",
+            "face 0: expected numbers, how many vertex_indices, and these; found `3 0 1`",
         ),
         (
             format!("{head}{three}{faces}0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n"),
             11,
-            "vertex 1: expected numbers for x, y, z; found `1 0 x`",
+            "vertex 1: expected numbers, x, y, z; found `1 0 x`",
         ),
         (
             format!("{head}{three}{faces}0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2\n"),
