@@ -185,6 +185,12 @@ impl Lowering<'_, '_> {
                 }
                 _ => return true,
             },
+            Body::JuliaFractal(fractal) if fractal.is_beyond() => {
+                let (distance, radius) = (fractal.distance.abs(), fractal.radius());
+                let label =
+                    format!("its slice is {distance} from 0, and all of it within {radius:.3}");
+                (nothing, label, true)
+            }
             Body::Parametric(surface) if surface.is_outside() => {
                 (nothing, "all of its points lie outside of its container".to_owned(), true)
             }

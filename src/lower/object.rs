@@ -338,7 +338,9 @@ impl<'s> Lowering<'s, '_> {
                 }
             }
             Solid::JuliaFractal(ref fractal) => {
-                self.place_made(body::julia_fractal(fractal), here, site)
+                let nowhere = ("julia_fractal", "its slice is beyond all of it");
+                let make = || Ok(body::julia_fractal(fractal));
+                self.place_if_somewhere(id, make, here, site, nowhere)
             }
             Solid::Superellipsoid { exponents } => {
                 self.place_made(body::superellipsoid(exponents), here, site)

@@ -64,6 +64,11 @@ impl JuliaFractal {
         }
     }
 
+    /// Whether certainly nothing of it is seen: its hyperplane lies beyond the ball.
+    pub fn is_beyond(&self) -> bool {
+        self.distance.abs() > self.radius() * (1.0 + 16.0 * U)
+    }
+
     /// The way in four dimensions of one in the hyperplane.
     fn way(&self, step: Vector, blur: f64) -> Ball<4> {
         let [a, b, c, d] = self.normal;

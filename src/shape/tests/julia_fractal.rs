@@ -169,3 +169,17 @@ fn without_a_parameter_quaternions_whose_squares_stay_are_a_ball() {
         assert!(leave.leaving && !enter.leaving);
     }
 }
+
+#[test]
+fn a_slice_that_is_told_to_be_beyond_a_fractal_is_met_by_no_line() {
+    let mut random = Random(83);
+    for distance in [0.0, 1.7, 2.0 + 1e-12, 9.0] {
+        for _ in 0..tries_in(50) {
+            let body = JuliaFractal { distance, ..any_quaternion(&mut random, 3) };
+            assert_eq!(body.is_beyond(), distance > body.radius(), "{body:?}");
+            let mut all = Crossings::new();
+            body.crossings(&super::isosurface::line(&mut random), &mut all);
+            assert!(all.is_empty() || !body.is_beyond(), "{body:?} {all:?}");
+        }
+    }
+}
