@@ -25,6 +25,8 @@ mod held;
 mod kernels;
 #[path = "hard/language.rs"]
 mod language;
+#[path = "hard/level.rs"]
+mod level;
 #[path = "hard/lights.rs"]
 mod lights;
 #[path = "hard/merged.rs"]

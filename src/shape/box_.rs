@@ -210,10 +210,10 @@ pub struct Slabs<R: Real = f64> {
 /// A line through three slabs; `None` when it misses their common part.
 ///
 /// With f = S − C, a = N·f, v = N·D a slab is entered at (−l·sgn v − a)/v and left at
-/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it) is in it or misses. The
-/// box is entered where the last slab is, left where the first is; where these are closer than
-/// their errors, at an edge, the line counts as through: boxes that share a face leave no gap
-/// between them. An edge belongs to the first of its faces.
+/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it over its way through the
+/// others) is in it or misses. The box is entered where the last slab is, left where the first is;
+/// where these are closer than their errors, at an edge, the line counts as through: boxes that
+/// share a face leave no gap between them. An edge belongs to the first of its faces.
 ///
 /// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the face that was meant, as C was
 /// rounded: faces that two boxes share are one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference

@@ -178,6 +178,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/prism/ends.rs", "2.0 * end.error", "so that a bound of 0 grows"),
     ("shape/box_.rs", "let blur", "relative: of the distance"),
     ("shape/box_.rs", "STEEP", "a slope"),
+    ("shape/plane.rs", "NEARLY_ALONG", "a slope"),
     ("shape/box_.rs", "LEVEL", "a slope"),
     ("shape/mod.rs", "const U", "the roundoff itself"),
     ("shape/mesh/pierce.rs", "i32::from(turn > off", "relative, and what underflows"),

@@ -1,0 +1,82 @@
+//! Cameras that look level along a face: their rays lie in it, as far as rounding tells.
+
+use crate::held::rendered;
+
+/// Solids on y = −1, from above.
+const ABOVE: [&str; 5] = [
+    "box { <-2, -1, -2>, <2, -0.5, 2> }",
+    "cylinder { -y, -0.5*y, 2 }",
+    "prism { -1, -0.5, 4, <-2, -2>, <-2, 2>, <2, 2>, <2, -2> }",
+    "sor { 4, <2, -1.5>, <2, -1>, <2, -0.5>, <2, 0> }",
+    "lathe { linear_spline 4, <0, -1>, <2, -1>, <2, -0.5>, <0, -0.5> }",
+];
+
+/// From below.
+const BELOW: [&str; 2] = ["plane { y, -1 }", "box { <-3, -2, -3>, <3, -1, 3> }"];
+
+const MAPS: [&str; 6] = [
+    "rotate 30*z",
+    "rotate <90, 0, 37>",
+    "rotate <45, 0, 90> translate <7, 7, 1/3>",
+    "rotate <37, 61, 33> scale 3",
+    "rotate <61.3, 0, 45> scale 3 translate 3000",
+    "rotate 30*x scale 1e-6",
+];
+
+/// The row of a picture that looks along y = −1, between the two beside it: where there is something.
+fn rows(things: &str, map: &str) -> [Vec<bool>; 3] {
+    let film = rendered(
+        &format!(
+            "#declare Way = function {{ transform {{ {map} }} }}
+             #declare Middle = Way(0, 0, 0);
+             camera {{ orthographic location Way(8, -1, 0) direction Way(-1, 0, 0) - Middle
+                      right Way(0, 0, -8.25) - Middle up Way(0, 6.25, 0) - Middle }}
+             background {{ rgb <1, 0, 0> }}
+             {things} pigment {{ rgb <0, 1, 0> }} finish {{ emission 1 }} {map} }}"
+        ),
+        (33, 25),
+    );
+    [11, 12, 13].map(|y| (0..33).map(|x| film.radiance[film.index(x, y)].green > 0.5).collect())
+}
+
+#[test]
+fn a_camera_that_looks_along_the_face_of_two_solids_sees_nothing_of_both_and_no_gap() {
+    for map in MAPS {
+        for above in ABOVE {
+            for below in BELOW {
+                let both = format!("intersection {{ {above} {below}");
+                assert!(!rows(&both, map)[1].contains(&true), "{both} {map}");
+                let all = ["difference { box { -3, 3 }", "union {"];
+                let is_endless = below == BELOW[0];
+                for all in all.into_iter().take(if is_endless { 1 } else { 2 }) {
+                    let all = format!("{all} {above} {below}");
+                    let [before, row, next] = rows(&all, map);
+                    assert!(row == before || row == next, "{all} {map}\n{row:?}");
+                }
+            }
+        }
+    }
+}
+
+/// The middle plane, z = 0, is a face of what is taken away.
+#[test]
+fn a_face_that_a_ray_goes_along_by_the_least_slope_takes_no_other_face_away() {
+    for slope in ["0", "1e-16", "-1e-16", "1e-17", "-1e-17", "-3e-19", "1e-30", "-1e-30"] {
+        for hole in ["<1.5, 1.5, 0>", "<1.5, 1.5, 1e-18>"] {
+            let film = rendered(
+                &format!(
+                    "camera {{ orthographic location <8, 0, 0> direction <-1, 0, {slope}>
+                              right -4.125*z up 3.125*y }}
+                     difference {{ box {{ <-2, -1, -2>, <2, 0.5, 2> }}
+                                  box {{ <-1.5, -0.5, -1.5>, {hole} }}
+                                  pigment {{ gradient x scale 8 translate -4*x }}
+                                  finish {{ emission 1 }} }}"
+                ),
+                (33, 25),
+            );
+            // Where the box is whole on either side of the plane, its near face is at x = 2.
+            let near = film.radiance[film.index(16, 12)].red;
+            assert!((near - 0.75).abs() < 1e-6, "{slope} {hole}: {near}");
+        }
+    }
+}
