@@ -361,7 +361,7 @@ impl<R: Real> Line<R> {
 #[derive(Clone, Copy)]
 struct Along<R: Real> {
     axes: [bool; 3],
-    /// The middle of that way.
+    /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
     middle: R,
 }
 
@@ -385,7 +385,7 @@ impl<R: Real> Along<R> {
                 number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
             is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
         });
-        Self { axes, middle: number(0.5) * (enter + leave) }
+        Self { axes, middle: number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO)) }
     }
 }
 
