@@ -1,9 +1,13 @@
 //! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. The normals need not be at right
 //! angles: then it is a parallelepiped.
 
+mod slabs;
+
 use super::slab::falls_inside;
-use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
-use crate::math::{Real, UnitVector, Vector, Vector3};
+use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
+use crate::math::{UnitVector, Vector, Vector3};
+use slabs::{Along, Line, STEEP, through, through_along};
+pub use slabs::{Slabs, slabs};
 
 /// **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are independent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,15 +51,27 @@ impl Box_ {
 
     #[inline(always)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
-        let slabs = slabs(self.centre, self.directions(), self.half_widths, ray)?;
-        Some(Chord { enter: slabs.enter, leave: slabs.leave })
+        Some(slabs(self.centre, self.directions(), self.half_widths, ray)?.chord())
     }
 
     /// As of a part of a whole: a line in a face, as far as rounding tells, that of two solids which touch there
     /// is the other's, misses it.
     #[inline(always)]
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
-        self.chord(ray).filter(|_| !self.yields(ray))
+        let (slabs, is_flat) =
+            through(self.centre, self.directions(), self.half_widths, ray, None)?;
+        match is_flat {
+            true => self.chord_along(ray),
+            false => Some(slabs.chord()).filter(|_| !self.yields(ray)),
+        }
+    }
+
+    /// Of a line that goes nearly along a face.
+    #[cold]
+    #[inline(never)]
+    fn chord_along(&self, ray: &Ray) -> Option<Chord> {
+        let chord = through_along(self.centre, self.directions(), self.half_widths, ray)?.chord();
+        (!self.yields_face(ray)).then_some(chord)
     }
 
     #[inline(always)]
@@ -84,9 +100,20 @@ impl Box_ {
     /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
-        let face = match slabs(self.centre, self.directions(), self.half_widths, ray) {
-            Some(slabs) if leaving => slabs.leave_face,
-            Some(slabs) => slabs.enter_face,
+        let (centre, directions, half_widths) = (self.centre, self.directions(), self.half_widths);
+        let end = |slabs: Slabs| match leaving {
+            true => (slabs.leave.t, slabs.leave_face),
+            false => (slabs.enter.t, slabs.enter_face),
+        };
+        let face = match through(centre, directions, half_widths, ray, None) {
+            Some((slabs, false)) => end(slabs).1,
+            // As it was met: by itself, or as a part.
+            Some((slabs, true)) => {
+                let all = [Some(slabs), through_along(centre, directions, half_widths, ray)];
+                let off = |(met, _): &(f64, u32)| (met - t).abs();
+                let all = all.into_iter().flatten().map(end);
+                all.min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |(_, face)| face)
+            }
             None => 0, // Not a crossing of this box.
         };
         self.surface_of_face(face, ray, t)
@@ -194,215 +221,5 @@ impl Box_ {
 
     pub fn contains(&self, point: Vector) -> bool {
         self.signed_distance(point) > 0.0
-    }
-}
-
-/// The part of a line inside all three slabs, and the faces where it enters and leaves.
-#[derive(Debug, Clone, Copy)]
-pub struct Slabs<R: Real = f64> {
-    pub enter: Crossing<R>,
-    pub leave: Crossing<R>,
-    /// As in [`SurfacePoint::face`].
-    pub enter_face: u32,
-    pub leave_face: u32,
-}
-
-/// A line through three slabs; `None` when it misses their common part.
-///
-/// With f = S − C, a = N·f, v = N·D a slab is entered at (−l·sgn v − a)/v and left at
-/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it over its way through the
-/// others) is in it or misses. The box is entered where the last slab is, left where the first is;
-/// where these are closer than their errors, at an edge, the line counts as through: boxes that
-/// share a face leave no gap between them. An edge belongs to the first of its faces.
-///
-/// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the face that was meant, as C was
-/// rounded: faces that two boxes share are one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference
-/// and the product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l + 2·|N|·|C|) + 10u·|t|) / |v|. The last
-/// entry lies between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
-///
-/// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
-#[inline(always)]
-pub fn slabs<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Slabs<R>> {
-    let (found, is_flat) = through(centre, normals, half_widths, ray, None)?;
-    if is_flat { through_along(centre, normals, half_widths, ray) } else { Some(found) }
-}
-
-/// Of a line that may go along a slab, which cannot be told from its speed alone.
-#[cold]
-#[inline(never)]
-fn through_along<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Slabs<R>> {
-    let along = Along::of(centre, normals, half_widths, ray);
-    Some(through(centre, normals, half_widths, ray, Some(along))?.0)
-}
-
-/// The line's part in all slabs, and whether it is nearly along one that it is not known to go along.
-#[inline(always)]
-fn through<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-    along: Option<Along<R>>,
-) -> Option<(Slabs<R>, bool)> {
-    let number = R::from_f64;
-    let start = ray.origin - centre;
-    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
-    let mut enter =
-        End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
-    let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
-    let mut is_flat = false;
-    for axis in 0..3 {
-        let half_width = half_widths[axis];
-        let Line { place, speed, place_error } =
-            Line::from(start, reach, centre, normals[axis], half_width, ray.direction);
-        let mut speed_error = number(10.0) * R::UNIT_ROUNDOFF;
-        if speed.abs() <= number(STEEP) {
-            // A normal along an axis has an exact speed, however small.
-            speed_error = speed_error * normals[axis].abs_dot(ray.direction);
-            let middle = match along {
-                Some(along) if along.axes[axis] => Some(along.middle),
-                _ if is_level(speed, speed_error) => Some(R::ZERO),
-                _ => None,
-            };
-            if let Some(middle) = middle {
-                if (place + speed * middle).abs() - half_width > place_error {
-                    return None;
-                }
-                continue;
-            }
-            is_flat = true;
-        }
-        let reciprocal = R::ONE / speed;
-        let rising = speed > R::ZERO;
-        let side = if rising { half_width } else { -half_width };
-        let error = |t: R| (place_error + speed_error * t.abs()) * reciprocal.abs();
-        let (first, second) =
-            (2 * axis as u32 + u32::from(rising), 2 * axis as u32 + u32::from(!rising));
-
-        let near = (-side - place) * reciprocal;
-        let near_error = error(near);
-        enter.least = enter.least.max(near - near_error);
-        enter.most = enter.most.max(near + near_error);
-        if near > enter.t {
-            (enter.t, enter.face) = (near, first);
-        }
-        let far = (side - place) * reciprocal;
-        let far_error = error(far);
-        leave.least = leave.least.min(far - far_error);
-        leave.most = leave.most.min(far + far_error);
-        if far < leave.t {
-            (leave.t, leave.face) = (far, second);
-        }
-    }
-    // Past all numbers when the ray moves along every slab.
-    let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
-    if !met {
-        return None;
-    }
-    leave.t = leave.t.max(enter.t);
-    let slabs = Slabs {
-        enter: enter.crossing(),
-        leave: leave.crossing(),
-        enter_face: enter.face,
-        leave_face: leave.face,
-    };
-    Some((slabs, is_flat))
-}
-
-/// Whether a speed cannot be told from 0, or has no reciprocal.
-#[inline(always)]
-fn is_level<R: Real>(speed: R, speed_error: R) -> bool {
-    speed.abs() <= R::from_f64(4.0) * speed_error || speed.abs() <= R::from_f64(LEVEL)
-}
-
-/// A line as a slab sees it: a, v, and how far a may be off.
-#[derive(Clone, Copy)]
-struct Line<R: Real> {
-    place: R,
-    speed: R,
-    place_error: R,
-}
-
-impl<R: Real> Line<R> {
-    fn of(centre: R::Vector, normal: R::Vector, half_width: R, ray: &Ray<R>) -> Self {
-        let start = ray.origin - centre;
-        let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
-        Self::from(start, reach, centre, normal, half_width, ray.direction)
-    }
-
-    #[inline(always)]
-    fn from(
-        start: R::Vector,
-        reach: R,
-        centre: R::Vector,
-        normal: R::Vector,
-        half_width: R,
-        direction: R::Vector,
-    ) -> Self {
-        let number = R::from_f64;
-        let far = number(2.0) * normal.abs_dot(centre);
-        let place_error = R::UNIT_ROUNDOFF * (number(6.0) * reach + number(3.0) * half_width + far);
-        Self { place: normal.dot(start), speed: normal.dot(direction), place_error }
-    }
-}
-
-/// The slabs that a line goes along: over all of its way through the others it comes no farther from their
-/// planes than a few times what these may be off.
-#[derive(Clone, Copy)]
-struct Along<R: Real> {
-    axes: [bool; 3],
-    /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
-    middle: R,
-}
-
-impl<R: Real> Along<R> {
-    #[cold]
-    #[inline(never)]
-    fn of(centre: R::Vector, normals: [R::Vector; 3], half_widths: [R; 3], ray: &Ray<R>) -> Self {
-        let number = R::from_f64;
-        let lines = [0, 1, 2].map(|axis| Line::of(centre, normals[axis], half_widths[axis], ray));
-        let (mut enter, mut leave) = (R::NEG_INFINITY, R::INFINITY);
-        for (line, half_width) in lines.iter().zip(half_widths) {
-            if line.speed.abs() > number(STEEP) {
-                let (middle, way) = (-line.place / line.speed, half_width / line.speed.abs());
-                (enter, leave) = (enter.max(middle - way), leave.min(middle + way));
-            }
-        }
-        let far = enter.abs().max(leave.abs());
-        let axes = [0, 1, 2].map(|axis| {
-            let Line { speed, place_error, .. } = lines[axis];
-            let speed_error =
-                number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
-            is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
-        });
-        Self { axes, middle: number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO)) }
-    }
-}
-
-/// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
-const STEEP: f64 = 1.0 / 1_048_576.0;
-/// Slower than this a ray is along the slab: the speed has no reciprocal.
-const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
-
-struct End<R: Real> {
-    t: R,
-    least: R,
-    most: R,
-    face: u32,
-}
-
-impl<R: Real> End<R> {
-    fn crossing(&self) -> Crossing<R> {
-        Crossing { t: self.t, error: (self.t - self.least).max(self.most - self.t) }
     }
 }

@@ -70,7 +70,7 @@ fn a_face_that_a_ray_goes_along_by_the_least_slope_takes_no_other_face_away() {
                      difference {{ box {{ <-2, -1, -2>, <2, 0.5, 2> }}
                                   box {{ <-1.5, -0.5, -1.5>, {hole} }}
                                   pigment {{ gradient x scale 8 translate -4*x }}
-                                  finish {{ emission 1 }} }}"
+                                  finish {{ ambient 0 emission 1 }} }}"
                 ),
                 (33, 25),
             );

@@ -1,0 +1,256 @@
+//! Slabs: the part of a line between three pairs of parallel planes.
+//!
+//! **In:** a line, three normals and half widths. **Out:** where it enters the last and leaves the first, each
+//! with a bound on its error. **Invariant:** a line that cannot be told from one in a face of two boxes is in one
+//! of them at least.
+
+use super::{Chord, Ray};
+use crate::math::{Real, Vector3};
+use crate::shape::Crossing;
+
+/// The part of a line inside all three slabs, and the faces where it enters and leaves.
+#[derive(Debug, Clone, Copy)]
+pub struct Slabs<R: Real = f64> {
+    pub enter: Crossing<R>,
+    pub leave: Crossing<R>,
+    /// As in [`SurfacePoint::face`].
+    pub enter_face: u32,
+    pub leave_face: u32,
+}
+
+impl Slabs {
+    pub(super) fn chord(self) -> Chord {
+        Chord { enter: self.enter, leave: self.leave }
+    }
+}
+
+/// A line through three slabs; `None` when it misses their common part.
+///
+/// With f = S − C, a = N·f, v = N·D a slab is entered at (−l·sgn v − a)/v and left at
+/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it over its way through the
+/// others) is in it or misses. The box is entered where the last slab is, left where the first is;
+/// where these are closer than their errors, at an edge, the line counts as through: boxes that
+/// share a face leave no gap between them. An edge belongs to the first of its faces.
+///
+/// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the face that was meant, as C was
+/// rounded: faces that two boxes share are one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference
+/// and the product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l + 2·|N|·|C|) + 10u·|t|) / |v|. The last
+/// entry lies between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
+///
+/// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
+#[inline(always)]
+pub fn slabs<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Option<Slabs<R>> {
+    let (found, is_flat) = through(centre, normals, half_widths, ray, None)?;
+    if is_flat { Some(decided(found, centre, normals, half_widths, ray)) } else { Some(found) }
+}
+
+/// Of a line that goes nearly along a slab: where it would be in that one from before it enters the others until
+/// it has left them, it is, whatever rounding might have made of the slab's ends.
+#[cold]
+#[inline(never)]
+fn decided<R: Real>(
+    found: Slabs<R>,
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Slabs<R> {
+    let others = through_along(centre, normals, half_widths, ray);
+    let is_same = |one: Crossing<R>, other: Crossing<R>| one.t == other.t;
+    Slabs {
+        enter: match others {
+            Some(others) if is_same(found.enter, others.enter) => others.enter,
+            _ => found.enter,
+        },
+        leave: match others {
+            Some(others) if is_same(found.leave, others.leave) => others.leave,
+            _ => found.leave,
+        },
+        ..found
+    }
+}
+
+/// As a line that goes along those slabs which it cannot be told to leave on its way through the others.
+#[cold]
+#[inline(never)]
+pub(super) fn through_along<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Option<Slabs<R>> {
+    let along = Along::of(centre, normals, half_widths, ray);
+    Some(through(centre, normals, half_widths, ray, Some(along))?.0)
+}
+
+/// The line's part in all slabs, and whether it is nearly along one that it is not known to go along.
+#[inline(always)]
+pub(super) fn through<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+    along: Option<Along<R>>,
+) -> Option<(Slabs<R>, bool)> {
+    let number = R::from_f64;
+    let start = ray.origin - centre;
+    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+    let mut enter =
+        End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
+    let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
+    let mut is_flat = false;
+    for axis in 0..3 {
+        let half_width = half_widths[axis];
+        let Line { place, speed, place_error } =
+            Line::from(start, reach, centre, normals[axis], half_width, ray.direction);
+        let mut speed_error = number(10.0) * R::UNIT_ROUNDOFF;
+        if speed.abs() <= number(STEEP) {
+            // A normal along an axis has an exact speed, however small.
+            speed_error = speed_error * normals[axis].abs_dot(ray.direction);
+            let middle = match along {
+                Some(along) if along.axes[axis] => Some(along.middle),
+                _ if is_level(speed, speed_error) => Some(R::ZERO),
+                _ => None,
+            };
+            if let Some(middle) = middle {
+                if (place + speed * middle).abs() - half_width > place_error {
+                    return None;
+                }
+                continue;
+            }
+            is_flat = true;
+        }
+        let reciprocal = R::ONE / speed;
+        let rising = speed > R::ZERO;
+        let side = if rising { half_width } else { -half_width };
+        let error = |t: R| (place_error + speed_error * t.abs()) * reciprocal.abs();
+        let (first, second) =
+            (2 * axis as u32 + u32::from(rising), 2 * axis as u32 + u32::from(!rising));
+
+        let near = (-side - place) * reciprocal;
+        let near_error = error(near);
+        enter.least = enter.least.max(near - near_error);
+        enter.most = enter.most.max(near + near_error);
+        if near > enter.t {
+            (enter.t, enter.face) = (near, first);
+        }
+        let far = (side - place) * reciprocal;
+        let far_error = error(far);
+        leave.least = leave.least.min(far - far_error);
+        leave.most = leave.most.min(far + far_error);
+        if far < leave.t {
+            (leave.t, leave.face) = (far, second);
+        }
+    }
+    // Past all numbers when the ray moves along every slab.
+    let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
+    if !met {
+        return None;
+    }
+    leave.t = leave.t.max(enter.t);
+    let slabs = Slabs {
+        enter: enter.crossing(),
+        leave: leave.crossing(),
+        enter_face: enter.face,
+        leave_face: leave.face,
+    };
+    Some((slabs, is_flat))
+}
+
+/// Whether a speed cannot be told from 0, or has no reciprocal.
+#[inline(always)]
+fn is_level<R: Real>(speed: R, speed_error: R) -> bool {
+    speed.abs() <= R::from_f64(4.0) * speed_error || speed.abs() <= R::from_f64(LEVEL)
+}
+
+/// A line as a slab sees it: a, v, and how far a may be off.
+#[derive(Clone, Copy)]
+pub(super) struct Line<R: Real> {
+    pub place: R,
+    pub speed: R,
+    pub place_error: R,
+}
+
+impl<R: Real> Line<R> {
+    pub fn of(centre: R::Vector, normal: R::Vector, half_width: R, ray: &Ray<R>) -> Self {
+        let start = ray.origin - centre;
+        let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+        Self::from(start, reach, centre, normal, half_width, ray.direction)
+    }
+
+    #[inline(always)]
+    fn from(
+        start: R::Vector,
+        reach: R,
+        centre: R::Vector,
+        normal: R::Vector,
+        half_width: R,
+        direction: R::Vector,
+    ) -> Self {
+        let number = R::from_f64;
+        let far = number(2.0) * normal.abs_dot(centre);
+        let place_error = R::UNIT_ROUNDOFF * (number(6.0) * reach + number(3.0) * half_width + far);
+        Self { place: normal.dot(start), speed: normal.dot(direction), place_error }
+    }
+}
+
+/// The slabs that a line goes along: over all of its way through the others it comes no farther from their
+/// planes than a few times what these may be off.
+#[derive(Clone, Copy)]
+pub(super) struct Along<R: Real> {
+    pub axes: [bool; 3],
+    /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
+    pub middle: R,
+}
+
+impl<R: Real> Along<R> {
+    #[cold]
+    #[inline(never)]
+    pub fn of(
+        centre: R::Vector,
+        normals: [R::Vector; 3],
+        half_widths: [R; 3],
+        ray: &Ray<R>,
+    ) -> Self {
+        let number = R::from_f64;
+        let lines = [0, 1, 2].map(|axis| Line::of(centre, normals[axis], half_widths[axis], ray));
+        let (mut enter, mut leave) = (R::NEG_INFINITY, R::INFINITY);
+        for (line, half_width) in lines.iter().zip(half_widths) {
+            if line.speed.abs() > number(STEEP) {
+                let (middle, way) = (-line.place / line.speed, half_width / line.speed.abs());
+                (enter, leave) = (enter.max(middle - way), leave.min(middle + way));
+            }
+        }
+        let far = enter.abs().max(leave.abs());
+        let axes = [0, 1, 2].map(|axis| {
+            let Line { speed, place_error, .. } = lines[axis];
+            let speed_error =
+                number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
+            is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
+        });
+        Self { axes, middle: number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO)) }
+    }
+}
+
+/// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
+pub(super) const STEEP: f64 = 1.0 / 1_048_576.0;
+/// Slower than this a ray is along the slab: the speed has no reciprocal.
+const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
+
+struct End<R: Real> {
+    t: R,
+    least: R,
+    most: R,
+    face: u32,
+}
+
+impl<R: Real> End<R> {
+    fn crossing(&self) -> Crossing<R> {
+        Crossing { t: self.t, error: (self.t - self.least).max(self.most - self.t) }
+    }
+}
