@@ -186,6 +186,7 @@ impl Evaluator<'_> {
         if radius.value < 0.0 {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
+        self.skip_commas();
         let open = self.take_word(Word::Open).is_some();
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
     }
@@ -243,6 +244,7 @@ impl Evaluator<'_> {
                 self.lint_negative_radius(&radius.here, radius.span, radius.value);
             }
         }
+        self.skip_commas();
         let open = self.take_word(Word::Open).is_some();
         Ok(Solid::Cone { ends: [base.value, cap.value], radii, open })
     }
