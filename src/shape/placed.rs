@@ -73,12 +73,14 @@ impl Placed {
         self.body.part_at(&seen.line, seen.place(t, 0.0), leaving).unwrap_or_else(found)
     }
 
-    /// The crossing at `t`, or the nearest to it.
+    /// The crossing at `t`, or the nearest to it; where there is none, that of a part of a solid.
     pub fn crossing_at(&self, ray: &Ray, t: f64, leaving: bool) -> Option<Met> {
         let off = |met: &Met| (met.t - t).abs();
         let same = |met: &Met| met.leaving == leaving;
-        let all = self.crossings(ray);
-        all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)))
+        let nearest = |all: Crossings| {
+            all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        nearest(self.crossings(ray)).or_else(|| nearest(self.crossings_of_part(ray)))
     }
 
     /// The point of the surface where `ray` crosses it at `t`: the height of what is at t is taken off

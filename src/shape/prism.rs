@@ -17,7 +17,7 @@ use super::cylinder::{BASE, CAP, between};
 use crate::math::Vector;
 use ends::{after, before, entered, high, low, reversed};
 use ruled::{Ruled, WALLS, Wall, part_of};
-use wall::beside;
+use wall::{beside, tip};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prism {
@@ -39,8 +39,9 @@ const STEEP: f64 = 1.0 / 1024.0;
 const GRAZING: f64 = 1e-6;
 
 impl Prism {
-    /// Parts of the line between walls, in order; and whether it lies in a wall, as far as rounding tells.
-    fn spans(&self, ray: &LocalRay) -> (Spans, bool) {
+    /// Parts of the line between walls, in order; and if it lies in a wall, as far as rounding tells, how far it
+    /// has to be moved at least.
+    fn spans(&self, ray: &LocalRay) -> (Spans, Option<f64>) {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
         if !self.conic
             && tilt < STEEP
@@ -48,9 +49,8 @@ impl Prism {
         {
             return upright;
         }
-        let apex_off = ray.blur_at(2.0) + 32.0 * U;
-        if self.conic && ray.nearest.length() <= 16.0 * apex_off {
-            return (self.through_apex(ray, apex_off), false);
+        if self.conic && ray.nearest.length() <= tip(ray) {
+            return self.through_apex(ray);
         }
         let ruled = Ruled::new(ray, self.conic);
         let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
@@ -64,7 +64,7 @@ impl Prism {
         let mut spans = Spans::new();
         if !self.conic {
             pair(&walls, &mut spans);
-            return (spans, ruled.in_wall.get());
+            return (spans, ruled.beside.get());
         }
         // The body is in two parts, one to each side of the origin's plane; in it nothing is.
         let speed = ray.direction.z;
@@ -82,7 +82,7 @@ impl Prism {
             }
             pair(&walls, &mut spans);
         }
-        (spans, ruled.in_wall.get())
+        (spans, ruled.beside.get())
     }
 
     /// The normal of a wall, by that of its outline.
@@ -92,7 +92,7 @@ impl Prism {
 
     /// Of a line that goes nearly straight up, where all of it between the ends is on one side of the walls;
     /// or, as far as rounding tells, goes straight up: then what cannot be told is outside.
-    fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<(Spans, bool)> {
+    fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<(Spans, Option<f64>)> {
         let error = ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U;
         let told = self.outline.is_inside([ray.nearest.x, ray.nearest.y], error);
         let inside = if tilt <= 2.0 * ray.turn { told.unwrap_or(false) } else { told? };
@@ -100,29 +100,31 @@ impl Prism {
         if inside {
             pair(&[Wall::beyond(f64::NEG_INFINITY), Wall::beyond(f64::INFINITY)], &mut spans);
         }
-        Some((spans, told.is_none()))
+        Some((spans, told.is_none().then_some(0.0)))
     }
 
     /// Of a line through the origin, as good as: it comes from inside and goes on inside, or never is.
     ///
     /// **Error:** at the height z it is `off`/z from its place in the outline, which is less than that is
-    /// clear of the outline.
-    fn through_apex(&self, ray: &LocalRay, off: f64) -> Spans {
+    /// clear of the outline. Where that is so nowhere in the body, it lies in a wall.
+    fn through_apex(&self, ray: &LocalRay) -> (Spans, Option<f64>) {
         let (n, d) = (ray.nearest, ray.direction);
         let mut spans = Spans::new();
         let place = [d.x / d.z, d.y / d.z];
         // No outline goes farther than 1.
-        let near = place[0].abs().max(place[1].abs()) <= 2.0;
-        if !(near && self.outline.contains(place)) {
-            return spans;
+        if !(place[0].abs().max(place[1].abs()) <= 2.0) {
+            return (spans, None);
         }
-        let height = 3.0 * (n.length() + off) / self.outline.clearance(place);
-        let apex = Wall { error: height / d.z.abs(), ..Wall::beyond(-n.z / d.z) };
-        if apex.error.is_finite() {
+        let off = n.length() + tip(ray) / 16.0;
+        let height = 3.0 * off / self.outline.clearance(place);
+        // No body is higher than 1.
+        let is_told = height < 1.0;
+        if is_told && self.outline.contains(place) {
+            let apex = Wall { error: height / d.z.abs(), ..Wall::beyond(-n.z / d.z) };
             pair(&[Wall::beyond(f64::NEG_INFINITY), apex], &mut spans);
             pair(&[apex, Wall::beyond(f64::INFINITY)], &mut spans);
         }
-        spans
+        (spans, (!is_told).then_some(0.0))
     }
 }
 
@@ -209,11 +211,13 @@ impl Local for Prism {
             _ => met,
         };
         let mut before: Option<f64> = None;
-        let (mut spans, is_in_wall) = self.spans(ray);
+        let (mut spans, in_wall) = self.spans(ray);
         let mut line = *ray;
-        if is_in_wall && ray.in_world.is_some() {
+        if let Some(least) = in_wall
+            && ray.in_world.is_some()
+        {
             // Of two that share the wall, the one on whose side the line is taken to be has it.
-            line = beside(ray, self.conic);
+            line = beside(ray, self.conic, least);
             (spans, _) = self.spans(&line);
         }
         let off = (line.nearest - ray.nearest).length();
@@ -252,8 +256,11 @@ impl Local for Prism {
                 let piece = self.outline.piece_at(place, error)?;
                 let (at, normal) = self.outline.pieces[piece].nearest(place);
                 let slope = self.normal(at, normal).dot(ray.direction);
+                let gap = [place[0] - at[0], place[1] - at[1]];
+                // A line in a wall is crossed where it is taken to be.
+                let is_there = gap[0] * gap[0] + gap[1] * gap[1] <= 4.0 * error * error;
                 // As the place, so the normal may be off: the more, the sharper the bend.
-                (slope.abs() > 2.0 * GRAZING.max(error.sqrt()))
+                (is_there && slope.abs() > 2.0 * GRAZING.max(error.sqrt()))
                     .then(|| part_of(piece, (slope > 0.0) == leaving))
             }
             [true, true] => None,

@@ -35,6 +35,10 @@ fn mix(a: Point, b: Point, u: f64) -> Point {
     [(1.0 - u) * a[0] + u * b[0], (1.0 - u) * a[1] + u * b[1]]
 }
 
+fn way(from: Point, to: Point) -> Point {
+    [to[0] - from[0], to[1] - from[1]]
+}
+
 impl Piece {
     pub fn line(from: Point, to: Point) -> Self {
         Self { points: [from, to, to, to], degree: 1, seen: true }
@@ -163,28 +167,37 @@ impl Piece {
         4.0 * U * self.points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 
+    /// The way of the line, its longer coordinate 1 or −1, that its points lie on as far as rounding tells; `None`
+    /// if they lie on none.
+    fn line_way(&self) -> Option<Point> {
+        let ways = self.points().iter().map(|point| way(self.first(), *point));
+        let size = |[x, y]: &Point| x.abs().max(y.abs());
+        let farthest = ways.clone().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let [a, b] = farthest.map(|c| c / size(&farthest));
+        let off = self.rounding();
+        let mut is_beside = ways.map(|[x, y]| (x * b - y * a).abs() <= off);
+        is_beside.all(|is_beside| is_beside).then_some([a, b])
+    }
+
     /// Its points lie in their order on the way from the first to the last, as far as rounding tells.
     fn is_row(&self) -> bool {
-        let way = |from: Point, to: Point| [to[0] - from[0], to[1] - from[1]];
-        let whole = way(self.first(), self.last());
-        let size = whole[0].abs().max(whole[1].abs());
-        let [a, b] = whole.map(|c| c / size);
-        let off = self.rounding();
-        let is_beside = |point: &Point| {
-            let [x, y] = way(self.first(), *point);
-            (x * b - y * a).abs() <= off
-        };
+        let Some([a, b]) = self.line_way() else { return false };
         let is_onward = |pair: &[Point]| {
             let [x, y] = way(pair[0], pair[1]);
             x * a + y * b >= 0.0
         };
-        self.points().iter().all(is_beside) && self.points().windows(2).all(is_onward)
+        self.points().windows(2).all(is_onward)
+    }
+
+    /// The line from its first point to its last.
+    fn straight(self) -> Self {
+        Self { seen: self.seen, ..Self::line(self.first(), self.last()) }
     }
 
     /// A line, if it is one; level at its ends, where rounding does not tell that it turns beside them.
     fn plain(self) -> Self {
         if self.is_row() {
-            return Self { seen: self.seen, ..Self::line(self.first(), self.last()) };
+            return self.straight();
         }
         let (mut plain, off) = (self, self.rounding());
         for end in [0, self.degree] {
@@ -212,6 +225,10 @@ impl Piece {
             parts.push(before);
         }
         parts.push(rest);
+        // What goes back upon itself is straight all the same, between its turns.
+        if whole.line_way().is_some() {
+            parts.iter_mut().for_each(|part: &mut Self| *part = part.straight());
+        }
         parts.retain(|part: &mut Self| !part.is_nothing());
         parts
     }

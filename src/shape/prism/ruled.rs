@@ -13,6 +13,9 @@ use crate::shape::U;
 use crate::shape::body::{LocalRay, Met};
 use crate::shape::curve::{Change, Hull, Piece, Point, Side};
 
+use super::GRAZING;
+use super::wall::aside;
+
 /// The part of the first piece's outside; one more is that side seen from within, and so on.
 pub(super) const WALLS: u32 = 3;
 
@@ -48,8 +51,9 @@ impl Wall {
 pub(super) struct Ruled<'a> {
     ray: &'a LocalRay<'a>,
     conic: bool,
-    /// The line has been found to lie in a wall, as far as rounding tells.
-    pub in_wall: Cell<bool>,
+    /// If the line has been found to lie in a wall, as far as rounding tells: how far it has to be moved, the way
+    /// that all are, to be told from that.
+    pub beside: Cell<Option<f64>>,
     /// The coefficients of x, y and 1.
     side: [f64; 3],
     /// Of walls straight up: how steep the ray is to their lines.
@@ -63,21 +67,21 @@ impl<'a> Ruled<'a> {
     /// which the ray passes. No g is longer than √2, no r than |n| + 1.
     pub fn new(ray: &'a LocalRay<'a>, conic: bool) -> Self {
         let LocalRay { nearest: n, direction: d, blur, turn, .. } = *ray;
-        let in_wall = Cell::new(false);
+        let beside = Cell::new(None);
         if conic {
             let normal = d.cross(n);
             let size = n.length();
             // As of a place, and so much that what is told there is no parallel.
             let error = 2.0 * blur + (4.0 * turn + 64.0 * U) * size;
             let side = [normal.x, normal.y, normal.z];
-            return Self { ray, conic, in_wall, side, sine: f64::NAN, error };
+            return Self { ray, conic, beside, side, sine: f64::NAN, error };
         }
         let sine = (d.x * d.x + d.y * d.y).sqrt();
         let size = n.length() + 1.0;
         let error = 1.2 * (blur * sine + turn * size) + 32.0 * U * sine * (size + 1.0);
         let error = if turn <= 0.5 * sine { error } else { f64::INFINITY };
         let side = [d.y, -d.x, n.y * d.x - n.x * d.y];
-        Self { ray, conic, in_wall, side, sine, error }
+        Self { ray, conic, beside, side, sine, error }
     }
 
     /// The way of the wall's line through a place of the outline.
@@ -199,8 +203,21 @@ impl Side for Ruled<'_> {
 
     const IS_LINEAR: bool = true;
 
-    fn holds(&self, _: &Piece) {
-        self.in_wall.set(true);
+    #[cold]
+    fn holds(&self, piece: &Piece) {
+        let turned = self.ray.direction.cross(aside(self.ray));
+        let ends = [piece.first(), piece.last()];
+        // Where the wall's line goes the ray's way, moving leaves it so; the less of the wall is near to that as
+        // the ray sees it, the better.
+        let margin = if ends.iter().any(|end| self.is_along(*end)) { 4096.0 } else { 64.0 };
+        let least = |end: &Point| {
+            let way = self.way(*end);
+            let steep = self.ray.direction.cross(way).length();
+            let least = margin * self.value(*end).1 / turned.dot(way).abs().max(GRAZING * steep);
+            if least.is_finite() && !self.is_along(*end) { least } else { 0.0 }
+        };
+        let [first, last] = ends.each_ref().map(least);
+        self.beside.set(Some(first.max(last).max(self.beside.get().unwrap_or(0.0))));
     }
 
     /// A polynomial changes its sign no more often than its Bézier coefficients.

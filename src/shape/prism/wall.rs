@@ -5,15 +5,29 @@ use crate::shape::U;
 use crate::shape::body::LocalRay;
 use crate::shape::slab::nudge;
 
-/// The line, moved so far that rounding tells it from the wall: the way that all lines are, whatever they lie in.
+/// No nearer to the tip, a line is not told from one through it.
+pub(super) fn tip(ray: &LocalRay) -> f64 {
+    16.0 * (ray.blur_at(2.0) + 32.0 * U)
+}
+
+/// The way that all lines are off, whatever they lie in: of length 1, and across this one.
 #[cold]
-pub(super) fn beside<'a>(ray: &LocalRay<'a>, conic: bool) -> LocalRay<'a> {
-    let LocalRay { nearest, direction, blur, turn, .. } = *ray;
+pub(super) fn aside(ray: &LocalRay) -> Vector {
     let way = nudge(ray);
-    let aside = (way - direction * way.dot(direction)).normalize_or(Vector::ZERO);
+    (way - ray.direction * way.dot(ray.direction)).normalize_or(Vector::ZERO)
+}
+
+/// The line, moved so far that rounding tells it from the wall, and from one through the tip; by `least` or more.
+#[cold]
+pub(super) fn beside<'a>(ray: &LocalRay<'a>, conic: bool, least: f64) -> LocalRay<'a> {
+    let LocalRay { nearest, direction, blur, turn, .. } = *ray;
+    let aside = aside(ray);
     // The nearer to straight up it goes, the less a turn leaves of where it goes.
     let across = direction.x * direction.x + direction.y * direction.y;
     let sine = if conic { 1.0 } else { across.max(turn).sqrt() };
-    let far = 64.0 * (blur + turn / sine + 4.0 * U * (1.0 + nearest.length()));
+    let mut far = least.max(64.0 * (blur + turn / sine + 4.0 * U * (1.0 + nearest.length())));
+    if conic && (nearest + aside * far).length() <= 2.0 * tip(ray) {
+        far += 4.0 * tip(ray);
+    }
     LocalRay { nearest: nearest + aside * far, in_world: None, ..*ray }
 }
