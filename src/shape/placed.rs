@@ -77,9 +77,8 @@ impl Placed {
     pub fn crossing_at(&self, ray: &Ray, t: f64, leaving: bool) -> Option<Met> {
         let off = |met: &Met| (met.t - t).abs();
         let same = |met: &Met| met.leaving == leaving;
-        let nearest = |all: Crossings| {
-            all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)))
-        };
+        let nearest =
+            |all: Crossings| all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)));
         nearest(self.crossings(ray)).or_else(|| nearest(self.crossings_of_part(ray)))
     }
 

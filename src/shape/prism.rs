@@ -17,7 +17,7 @@ use super::cylinder::{BASE, CAP, between};
 use crate::math::Vector;
 use ends::{after, before, entered, high, low, reversed};
 use ruled::{Ruled, WALLS, Wall, part_of};
-use wall::{beside, tip};
+use wall::{aside, beside, tip};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prism {
@@ -112,19 +112,40 @@ impl Prism {
         let mut spans = Spans::new();
         let place = [d.x / d.z, d.y / d.z];
         // No outline goes farther than 1.
-        if !(place[0].abs().max(place[1].abs()) <= 2.0) {
+        let is_near = place[0].abs().max(place[1].abs()) <= 2.0;
+        if !is_near {
             return (spans, None);
         }
-        let off = n.length() + tip(ray) / 16.0;
-        let height = 3.0 * off / self.outline.clearance(place);
+        let off = 3.0 * (n.length() + tip(ray) / 16.0);
         // No body is higher than 1.
-        let is_told = height < 1.0;
-        if is_told && self.outline.contains(place) {
+        let Some(is_inside) = self.outline.is_inside(place, off) else {
+            return (spans, Some(self.beside_walls(ray, place)));
+        };
+        if is_inside {
+            let height = off / self.outline.clearance(place).max(off);
             let apex = Wall { error: height / d.z.abs(), ..Wall::beyond(-n.z / d.z) };
             pair(&[Wall::beyond(f64::NEG_INFINITY), apex], &mut spans);
             pair(&[apex, Wall::beyond(f64::INFINITY)], &mut spans);
         }
-        (spans, (!is_told).then_some(0.0))
+        (spans, None)
+    }
+
+    /// How far a line through the origin has to be moved to be told from the walls that it lies in, which are all
+    /// that a place of the outline is on.
+    #[cold]
+    fn beside_walls(&self, ray: &LocalRay, place: Point) -> f64 {
+        let aside = aside(ray);
+        let [x, y] = [aside.x - place[0] * aside.z, aside.y - place[1] * aside.z];
+        let far = 4.0 * tip(ray);
+        let mut least = far;
+        self.outline.near(place, far, |number| {
+            let ([a, b], normal) = self.outline.pieces[number].nearest(place);
+            if (a - place[0]).abs().max((b - place[1]).abs()) <= far {
+                let steep = (x * normal[0] + y * normal[1]).abs();
+                least = least.max(far / steep.max(GRAZING));
+            }
+        });
+        least
     }
 }
 

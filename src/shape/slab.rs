@@ -10,8 +10,8 @@ use super::U;
 use super::body::{InWorld, LocalRay, Met};
 use crate::math::Vector;
 
-/// 1, √2 and √3: at right angles to no way that scenes have.
-const NUDGE: Vector = Vector::new(1.0, std::f64::consts::SQRT_2, 1.732_050_807_568_877_2);
+/// 1, ∛3 and ∛5: at right angles to no way that scenes have, not even to one turned by 30°, as 1 and √3 are.
+pub(super) const NUDGE: Vector = Vector::new(1.0, 1.442_249_570_307_408_3, 1.709_975_946_676_697);
 
 /// Whether what is moved a little from a plane comes to the side that `normal`, a way of the world, points away
 /// from.

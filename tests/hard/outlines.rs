@@ -1,5 +1,7 @@
 //! Prisms whose outlines are met where they hardly tell: along a wall, where pieces join, beside their points.
 
+use std::ops::Range;
+
 use crate::held::rendered;
 
 const PIXELS: (u32, u32) = (41, 31);
@@ -174,4 +176,151 @@ fn an_open_end_that_is_grazed_in_a_whole_is_nothing() {
         "{camera} intersection {{ {prism} box {{ -3, 3 }} pigment {{ rgb x }} finish {{ emission 1 }} }}"
     ));
     assert!(lit(&picture).contains(&true));
+}
+
+/// What of a row of pixels is seen, and where: no farther than 8 from the origin.
+fn column(
+    camera: &str,
+    things: &str,
+    size: (u32, u32),
+    (x, ys): (u32, Range<u32>),
+) -> Vec<[i32; 3]> {
+    let film = rendered(
+        &format!(
+            "camera {{ {camera} }} #default {{ pigment {{ gradient <1, 0.7, -0.4> colour_map {{ [0 rgb x] [1 rgb x + y] }}
+            scale 16 translate -8.3 }} finish {{ emission 1 }} }} {things}"
+        ),
+        size,
+    );
+    let thousandths = |c: f64| (c * 1e3).round() as i32;
+    ys.map(|y| film.radiance[film.index(x, y)])
+        .map(|c| [c.red, c.green, c.blue].map(thousandths))
+        .collect()
+}
+
+#[test]
+fn a_ray_in_a_wall_sees_what_one_a_little_beside_it_sees() {
+    let rows: [(&str, &str, (u32, u32), (u32, Range<u32>)); 7] = [
+        // Through the tip, where two share a wall.
+        (
+            "orthographic location <3.118389338327481, -3.118389338327481, 1.0914362684146184>
+             direction <-0.6863982230545802, 0.6863982230545802, -0.24023937806910306> right
+             <1.09015640160275, 0, -3.1147325760078575> up <1.6196567465621277,
+             1.8180646980159882, 0.5668798612967446>",
+            "merge { prism { linear_spline conic_sweep -1, 1, 5 <-1, -0.5>, <1.5, -0.5>, <1, 0.5>,
+             <-1, 0>, <-1, -0.5> } prism { bezier_spline conic_sweep 0.5, 1, 12 <-1, 0>, <-1.1375,
+             0.012499999999999997>, <-1.2625, -0.1125>, <-1.25, -0.25>, <-1.25, -0.25>, <-1.1875,
+             -0.3125>, <-1.0625, -0.4375>, <-1, -0.5>, <-1, -0.5>, <-1, -0.5>, <-1, 0>, <-1, 0> }
+             }",
+            (33, 25),
+            (16, 12..13),
+        ),
+        // Where the wall ends, with another at a sharp angle.
+        (
+            "location <1.4494897427831783, -1.9494897427831783, 3.3989794855663567> direction
+             <-2.4494897427831783, 2.4494897427831783, -4.898979485566357> right
+             <2.9516097302997224, 0, -1.4758048651498612> up <0.45643546458763845,
+             2.282177322938192, 0.9128709291752769>",
+            "merge { prism { linear_spline linear_sweep -1, 0, 4 <-1, -1.5>, <0.5, -0.5>, <0,
+             0.5>, <-1, -1.5> } prism { linear_spline linear_sweep -1, 0, 4 <0, 0.5>, <-2.5, 0.5>,
+             <-1, -1.5>, <0, 0.5> } }",
+            (33, 25),
+            (16, 20..25),
+        ),
+        (
+            "orthographic location <3, -3.5, -5.5> direction <-0.3333333333333333,
+             0.6666666666666666, 0.6666666666666666> right <-3.6895121628746534, 0,
+             -1.8447560814373267> up <0.9316949906249125, 2.3292374765622808, -1.863389981249825>",
+            "union { difference { prism { bezier_spline linear_sweep -1, 0, 16 <-1, 0.5>, <-1.2,
+             -0.175>, <-0.7, -0.925>, <0, -1>, <0, -1>, <0.125, -0.375>, <0.375, 0.875>, <0.5,
+             1.5>, <0.5, 1.5>, <0.5, 1.5>, <-0.5, 1.5>, <-0.5, 1.5>, <-0.5, 1.5>, <-0.625, 1.25>,
+             <-0.875, 0.75>, <-1, 0.5> } prism { linear_spline linear_sweep -1, 0, 4 <0.5, 1.5>,
+             <0, 2>, <-0.5, 1.5>, <0.5, 1.5> } } prism { linear_spline linear_sweep 0, 1, 6 <-1.5,
+             -1>, <-1, -1>, <1, -1.5>, <0.5, -0.5>, <0.5, 0.5>, <-1.5, -1> } }",
+            (25, 19),
+            (12, 12..16),
+        ),
+        // In an end.
+        (
+            "orthographic location <0.71650635094611, -0.7410254037844385, -6> direction
+             <-5.3028761936245346e-17, -3.0616169978683824e-17, 1> right <-4.124999999999999,
+             7.144709581221619, -3.093254551740081e-32> up <5.412658773652742, 3.125,
+             3.827021247335479e-16>",
+            "union { intersection { prism { bezier_spline linear_sweep -0.5, 0.5, 12 <-0.5, -1>,
+             <-0.125, -1.125>, <0.625, -1.375>, <1, -1.5>, <1, -1.5>, <1, -1.5>, <0, 1>, <0, 1>,
+             <0, 1>, <-0.125, 0.5>, <-0.375, -0.5>, <-0.5, -1> } prism { bezier_spline
+             linear_sweep -1, 0, 16 <0, -1>, <0, -1>, <1, 0>, <1, 0>, <1, 0>, <1.05, 0.55>, <0.55,
+             1.05>, <0, 1>, <0, 1>, <-0.1, 1.425>, <-0.6, 1.675>, <-1, 1.5>, <-1, 1.5>, <-0.75,
+             0.875>, <-0.25, -0.375>, <0, -1> } } prism { bezier_spline linear_sweep -1, 0, 12
+             <0.5, -0.5>, <0.375, -0.125>, <0.125, 0.625>, <0, 1>, <0, 1>, <0, 1>, <-1, 1>, <-1,
+             1>, <-1, 1>, <-0.625, 0.625>, <0.125, -0.125>, <0.5, -0.5> } rotate <90, 90, 30>}",
+            (33, 25),
+            (18, 15..16),
+        ),
+        (
+            "orthographic location <13.589796713911007, 0.16116251292672956, 3013.196938456699>
+             direction <-1.7151946081735097, 0.24105488190974614, -2.4494897427831783> right
+             <1.7222671243808099, 12.254567350676933, -5.358103097957115e-16> up
+             <-7.5801608655880734, 1.0653221352281503, 5.412658773652742>",
+            "merge { intersection { prism { linear_spline linear_sweep 0, 1, 5 <1, -1.5>, <0.5,
+             0>, <1, 0.5>, <-1, 1>, <1, -1.5> } prism { linear_spline linear_sweep -0.5, 0.5, 4
+             <0.5, -1>, <0.5, 1>, <0, 1>, <0.5, -1> } } prism { linear_spline linear_sweep -1, 0,
+             4 <0.5, 0>, <1.25, -0.25>, <1, 0.5>, <0.5, 0> } rotate <90, 0, 37> scale 3 translate
+             <0, 1, 3000> }",
+            (33, 25),
+            (16, 3..6),
+        ),
+        // Along the line through the wall's end.
+        (
+            "orthographic location <-2.666666666666667, 2.666666666666667, -1.3333333333333335>
+             direction <0.6666666666666667, -0.6666666666666667, 0.33333333333333337> right
+             <-1.3975424859373686, 0, 2.7950849718747373> up <1.4161763857498668,
+             1.7702204821873333, 0.7080881928749334>",
+            "prism { linear_spline conic_sweep 0.5, 2, 7 <0.5, 1>, <-1, -1>, <-0.5, 1>, <0.5, 0>,
+             <1, 1>, <-1, -0.5>, <0.5, 1> open }",
+            (25, 19),
+            (13, 7..8),
+        ),
+        // The wall goes up, down and up again.
+        (
+            "orthographic location <0, 0, -4> direction <0, 0, 1> right <-3.125, 0, 0> up <0,
+             2.375, 0>",
+            "prism { bezier_spline linear_sweep -0.5, 0.5, 12 <0, 0.5>, <0, 0.5>, <-1, 0.5>, <-1,
+             0.5>, <-1, 0.5>, <1, -1>, <0.5, -1>, <0, 0>, <0, 0>, <0, 0.5>, <0, -0.5>, <0, 0.5> }",
+            (25, 19),
+            (12, 6..13),
+        ),
+    ];
+    for (camera, things, size, pixels) in rows {
+        let here = column(camera, things, size, pixels.clone());
+        // The way that all lines are off, whatever they lie in.
+        let camera = format!("{camera} translate 1e-7*<1, pow(3, 1/3), pow(5, 1/3)>");
+        let beside = column(&camera, things, size, pixels);
+        assert!(lit(&beside).iter().all(|lit| *lit), "{things}");
+        assert_eq!(differing(&here, &beside), 0, "{things} {here:?} {beside:?}");
+    }
+}
+
+#[test]
+fn from_the_tip_nothing_shows_between_two_that_share_a_wall() {
+    let prisms = [-1, 1].map(|side| {
+        format!(
+            "prism {{ conic_sweep linear_spline 0, 1, 5
+            <{side}, -1>, <0, -1>, <0, 1>, <{side}, 1>, <{side}, -1> TURNED }}"
+        )
+    });
+    for turned in
+        ["", "rotate 30*y", "matrix <1, 0, 0.5, 0, 1, 0, 0, 0, 1, 0, 0, 0>", "scale <3, 2, 0.7>"]
+    {
+        let things = prisms.concat().replace("TURNED", turned);
+        for whole in [format!("union {{ {things} }}"), format!("merge {{ {things} }}")] {
+            let way = match turned.strip_prefix("rotate ") {
+                Some(angle) => format!("rotate {angle}"),
+                None => String::new(),
+            };
+            let camera = format!("location 0 direction y right 2.5*x up 0.6*z {way}");
+            let middle = column(&camera, &whole, (25, 19), (12, 0..19));
+            assert!(lit(&middle).iter().all(|lit| *lit), "{whole}");
+        }
+    }
 }

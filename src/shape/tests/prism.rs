@@ -10,8 +10,10 @@ use super::sor::any_sor;
 use super::*;
 use crate::math::random::tries_in;
 use crate::shape::Superellipsoid;
-use crate::shape::body::{Height, Local, Met};
+use crate::shape::body::{Crossings, Height, Local, Met};
+use crate::shape::curve::{Outline, Piece};
 use crate::shape::exact::Triple;
+use crate::shape::slab::NUDGE;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Prism(Prism { outline, conic, heights: [low, high], .. }) = body else {
@@ -107,6 +109,99 @@ fn a_prism_is_crossed_where_a_ray_meets_its_edges_goes_along_its_walls_or_throug
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");
+}
+
+/// Corners on a grid, so that much is in line with much.
+fn on_a_grid(random: &mut Random) -> Outline {
+    let grid = [-0.5, -0.25, 0.0, 0.25, 0.5];
+    let corners: Vec<[f64; 2]> =
+        (0..3 + random.below(4)).map(|_| [0; 2].map(|_| grid[random.below(grid.len())])).collect();
+    let closed = corners.iter().cycle().take(corners.len() + 1);
+    let closed: Vec<[f64; 2]> = closed.copied().collect();
+    let mut outline = Outline::default();
+    outline.add(closed.windows(2).map(|pair| Piece::line(pair[0], pair[1])));
+    outline
+}
+
+/// A line in the plane of a wall: through a place of it, or beside it; along its lines, or across.
+fn in_a_wall(random: &mut Random, prism: &Prism) -> Option<(Vector, Vector)> {
+    let piece = prism.outline.pieces.get(random.below(prism.outline.pieces.len().max(1)))?;
+    let ([a, b], [c, d]) = (piece.first(), piece.last());
+    let (along, share) = ([-1.0, 0.0, 0.5, 1.0][random.below(4)], random.below(5) as f64 / 4.0);
+    let up = [-1.0, 0.0, 1.0][random.below(3)];
+    let across = Vector::new(c - a, d - b, 0.0);
+    let (corner, line) = match prism.conic {
+        true => (Vector::ZERO, Vector::new(a, b, 1.0) + across * share),
+        false => (Vector::new(a, b, 0.0) + across * share, Vector::Z),
+    };
+    let through = corner + line * [0.0, 0.5, 0.75, 1.0][random.below(4)];
+    let way = UnitVector::from_direction(line * up + across * along)?.get();
+    Some((through, way))
+}
+
+/// Without parts that are nothing, and ways that are none between parts.
+fn without_nothings(all: Crossings) -> Crossings {
+    let mut kept = Crossings::new();
+    for met in all {
+        match kept.last() {
+            Some(last) if met.t - last.t < 1e-5 => drop(kept.pop()),
+            _ => kept.push(met),
+        }
+    }
+    kept
+}
+
+#[test]
+fn a_line_in_a_wall_is_crossed_as_one_a_little_to_its_side() {
+    let mut random = Random(95);
+    let mut held = 0;
+    for _ in 0..tries_in(20) {
+        let conic = random.below(2) == 0;
+        let heights = match conic {
+            true => [[0.0, 1.0], [0.5, 1.0], [-1.0, 1.0]][random.below(3)],
+            false => [-1.0, 1.0],
+        };
+        let prism = Prism { outline: on_a_grid(&mut random), conic, heights, open: false };
+        let Some((through, way)) = in_a_wall(&mut random, &prism) else { continue };
+        // What lies in an end as well is not asked of walls alone.
+        if way.z == 0.0 && heights.contains(&through.z) {
+            continue;
+        }
+        let matrix = [Matrix::IDENTITY, random.matrix()][random.below(2)];
+        let placement = Placement {
+            centre: random.point(3.0) * random.below(2) as f64,
+            world_from_local: matrix,
+            local_from_world: matrix.inverse(),
+        };
+        let body = std::sync::Arc::new(Body::Prism(prism));
+        let placed = Placed { body, placement, root_tolerance: 0.0, exact: None };
+        let origin = placement.world_point(through - way * [0.0, 3.0, 8.0][random.below(3)]);
+        let Some(direction) = UnitVector::from_direction(matrix * way) else { continue };
+        let ray = Ray { origin, direction: direction.get() };
+        let beside = |far: f64| {
+            let origin = origin + NUDGE * far;
+            placed.crossings(&Ray { origin, ..ray })
+        };
+        let is_same = |one: &Crossings, other: &Crossings| {
+            let near = |a: &Met, b: &Met| a.t == b.t || (a.t - b.t).abs() <= 1e-3;
+            one.len() == other.len() && one.iter().zip(other).all(|(a, b)| near(a, b))
+        };
+        let (near, far) = (beside(1e-7), beside(1e-6));
+        // What is so short depends on how far beside it is.
+        let is_short = |pair: &[Met]| pair[1].t - pair[0].t < 0.03;
+        if [&near, &far].iter().any(|met| met.windows(2).any(is_short)) || !is_same(&near, &far) {
+            continue;
+        }
+        let found = without_nothings(placed.crossings(&ray));
+        assert!(is_same(&found, &near), "{ray:?} {found:?} {near:?} {placed:?}");
+        for met in found.iter().filter(|met| met.t.is_finite()) {
+            let off = placed.surface(&ray, met.t, met.leaving).point - ray.origin;
+            let across = off - ray.direction * off.dot(ray.direction);
+            assert!(across.length() < 1e-4, "{ray:?} {met:?} {across:?} {placed:?}");
+        }
+        held += usize::from(!is_same(&near, &beside(-1e-7)));
+    }
+    assert!(held > tries_in(200), "{held}");
 }
 
 /// Also what is not there to be seen, of which its owner may be asked.
