@@ -139,6 +139,11 @@ fn in_a_wall(random: &mut Random, prism: &Prism) -> Option<(Vector, Vector)> {
     Some((through, way))
 }
 
+/// The line a little to the side that all are taken to be on.
+fn moved(ray: &Ray, far: f64) -> Ray {
+    Ray { origin: ray.origin + NUDGE * far, direction: ray.direction }
+}
+
 /// Without parts that are nothing, and ways that are none between parts.
 fn without_nothings(all: Crossings) -> Crossings {
     let mut kept = Crossings::new();
@@ -178,10 +183,7 @@ fn a_line_in_a_wall_is_crossed_as_one_a_little_to_its_side() {
         let origin = placement.world_point(through - way * [0.0, 3.0, 8.0][random.below(3)]);
         let Some(direction) = UnitVector::from_direction(matrix * way) else { continue };
         let ray = Ray { origin, direction: direction.get() };
-        let beside = |far: f64| {
-            let origin = origin + NUDGE * far;
-            placed.crossings(&Ray { origin, ..ray })
-        };
+        let beside = |far: f64| placed.crossings(&moved(&ray, far));
         let is_same = |one: &Crossings, other: &Crossings| {
             let near = |a: &Met, b: &Met| a.t == b.t || (a.t - b.t).abs() <= 1e-3;
             one.len() == other.len() && one.iter().zip(other).all(|(a, b)| near(a, b))
