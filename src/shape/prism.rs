@@ -35,7 +35,8 @@ pub struct Prism {
 /// time only, any would do.
 const STEEP: f64 = 1.0 / 1024.0;
 
-/// A line that is less steep to a wall may go its way or against it, as far as a look at the place tells.
+/// A line that is less steep to a wall may go its way or against it, as far as a look at the place tells; nor is
+/// one in a wall moved any farther where that moves it from there more slowly.
 const GRAZING: f64 = 1e-6;
 
 impl Prism {

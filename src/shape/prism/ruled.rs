@@ -209,11 +209,12 @@ impl Side for Ruled<'_> {
         let ends = [piece.first(), piece.last()];
         // Where the wall's line goes the ray's way, moving leaves it so; the less of the wall is near to that as
         // the ray sees it, the better.
-        let margin = if ends.iter().any(|end| self.is_along(*end)) { 4096.0 } else { 64.0 };
+        let margin = if ends.iter().any(|end| self.is_along(*end)) { 64.0 } else { 1.0 };
         let least = |end: &Point| {
             let way = self.way(*end);
             let steep = self.ray.direction.cross(way).length();
-            let least = margin * self.value(*end).1 / turned.dot(way).abs().max(GRAZING * steep);
+            let least =
+                64.0 * margin * self.value(*end).1 / turned.dot(way).abs().max(GRAZING * steep);
             if least.is_finite() && !self.is_along(*end) { least } else { 0.0 }
         };
         let [first, last] = ends.each_ref().map(least);
