@@ -95,9 +95,12 @@ impl Geometry {
         })?
     }
 
-    /// What rays so far beside meet at about the same distance, where what was hit goes on behind that: beside the
-    /// edge of a face that coincides with another it does not.
+    /// What rays so far beside meet at about the same distance, where what was hit goes on right behind that: beside
+    /// the edge of a face that coincides with another it does not. Where one of them meets both, as on such a face,
+    /// nothing is told.
     fn around(&self, ray: &Ray, hit: &Hit, [far, size]: [f64; 2]) -> Around {
+        // What bends away is so near behind, and what has a tip unless it is a needle's.
+        let behind = (size / 64.0).max(far / 4.0);
         let (aside, across) = ray.direction.any_orthonormal_pair();
         let mut seen = Around::Nothing;
         for [a, b] in WAYS {
@@ -107,12 +110,15 @@ impl Geometry {
                 return Around::Different;
             };
             if first.contested || second.contested {
-                continue;
+                return Around::Nothing;
             }
             let is_here = (0.5 * (first.t + second.t) - hit.t).abs() <= far;
             let is_same = |known: &Hit| known.object == first.object;
             let is_one = first.object == second.object && first.leaving == second.leaving;
-            let goes_on = || [&one, &other].iter().all(|ray| self.goes_on(ray, hit, size));
+            let goes_on = || {
+                let both = [(&one, first.t), (&other, second.t)];
+                both.into_iter().all(|(ray, from)| self.goes_on(ray, hit, from, from + behind))
+            };
             seen = match seen {
                 Around::Nothing if is_here && is_one && goes_on() => Around::Same(first),
                 Around::Same(known) if is_here && is_one && is_same(&known) && goes_on() => seen,
@@ -122,13 +128,13 @@ impl Geometry {
         seen
     }
 
-    /// Whether a ray beside meets what was hit, within `size` of where that was.
-    fn goes_on(&self, beside: &Ray, hit: &Hit, size: f64) -> bool {
-        let is_near = |met: &Met| (met.t - hit.t).abs() <= size;
+    /// Whether a ray beside meets what was hit between two places.
+    fn goes_on(&self, beside: &Ray, hit: &Hit, from: f64, limit: f64) -> bool {
+        let is_near = |met: &Met| from <= met.t && met.t <= limit;
         let meets = |leaf: &Entry| {
             leaf.object == hit.object && self.crossings(&leaf.solid, beside).iter().any(is_near)
         };
-        let (limit, mut found) = (hit.t + size, false);
+        let mut found = false;
         let look = |place: usize, _: &mut Uncounted| {
             let entry = &self.entries[place];
             found |= match entry.solid {

@@ -4,6 +4,7 @@
 
 use super::{Hit, PLAIN, edge, not_plain};
 use crate::math::Vector;
+use crate::shape::body::Met;
 use crate::shape::{Chord, Ray, Shape, SurfacePoint};
 use crate::world::World;
 
@@ -49,18 +50,19 @@ pub fn shading_normal<const KINDS: bool>(
 pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
     let shape = world.objects[hit.object as usize].shape;
     shape.compiled();
-    let chord = match shape {
-        Shape::Sphere(i) => world.spheres[i as usize].chord(ray),
-        Shape::Plane(i) => world.planes[i as usize].chord(ray),
-        Shape::Box(i) => world.boxes[i as usize].chord(ray),
-        Shape::Ellipsoid(i) => world.ellipsoids[i as usize].chord(ray),
+    let (chord, is_flat) = match shape {
+        Shape::Sphere(i) => (world.spheres[i as usize].chord(ray), false),
+        Shape::Plane(i) => (world.planes[i as usize].chord(ray), true),
+        Shape::Box(i) => (world.boxes[i as usize].chord(ray), true),
+        Shape::Ellipsoid(i) => (world.ellipsoids[i as usize].chord(ray), false),
         Shape::Placed(i) => {
             let met = world.placed[i as usize].crossing_at(ray, hit.t, hit.leaving);
-            return met.map_or(Vector::ZERO, |met| surface.spread(ray, hit.t, &met.crossing()));
+            let spread = |met: Met| surface.spread(ray, hit.t, &met.crossing(), false);
+            return met.map_or(Vector::ZERO, spread);
         }
     };
     // In single precision a ray may meet what it truly misses.
     chord.map_or(Vector::ZERO, |Chord { enter, leave }| {
-        surface.spread(ray, hit.t, if hit.leaving { &leave } else { &enter })
+        surface.spread(ray, hit.t, if hit.leaving { &leave } else { &enter }, is_flat)
     })
 }

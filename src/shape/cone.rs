@@ -89,6 +89,8 @@ impl Local for Cone {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((first, last)) = ends(ray) else { return };
         let seen = |met: Met| match met.part {
+            // An end of no width is the tip of its side.
+            CAP if self.open && self.cap == 0.0 => Met { part: SIDE, ..met },
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };

@@ -39,7 +39,7 @@ struct Wall {
 
 impl Wall {
     fn new(change: &Change, along: bool, (s, error): (f64, f64)) -> Self {
-        Self { s, error, piece: change.path.piece(change.v), along, begins: 0.0 }
+        Self { s, error, piece: change.piece, along, begins: 0.0 }
     }
 }
 

@@ -203,13 +203,15 @@ impl SurfacePoint {
     /// cross the surface; `crossing` is the kernel's.
     ///
     /// Along the ray it is the crossing's error, twice, as start and direction are no better than
-    /// that; and 4u·t/|N·D|, as the camera's or a mirror's vectors may nearly have cancelled in a
-    /// component: a direction is then off by its length's roundoffs, and not by its component's. The
-    /// rest is what rounding start, direction and point adds, and putting the point onto the surface.
-    pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing) -> Vector {
+    /// that; of a flat face 4u·t/|N·D| more, as the camera's or a mirror's vectors may nearly have cancelled
+    /// in a component: a direction is then off by its length's roundoffs, and not by its component's. The
+    /// bounds of others count that, and that they bend away: along them |N·D| may be nothing. The rest is what
+    /// rounding start, direction and point adds, and putting the point onto the surface.
+    pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing, is_flat: bool) -> Vector {
+        let turned = 4.0 * U * t / self.normal.dot(ray.direction).abs();
         let along = (t - crossing.t).abs()
             + 2.0 * crossing.error
-            + 4.0 * U * t / self.normal.dot(ray.direction).abs();
+            + if is_flat { turned } else { 0.0 };
         let across = ray.origin.abs() * (4.0 * U) + Vector::splat(8.0 * U * t);
         ray.direction.abs() * along + across + self.normal.abs() * self.error
     }

@@ -22,39 +22,22 @@ pub struct Placed {
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
-        self.found(ray, self.edges_moved(), |seen, found| self.body.crossings(&seen.line, found))
-    }
-
-    /// The same of a part of a solid: their errors count that its centre was rounded, so that faces that
-    /// two parts share are one, however far off they stand.
-    pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
-        self.found(ray, self.moved(), |seen, found| self.body.crossings(&seen.line, found))
-    }
-
-    /// How far it stands from where it was meant, as its centre was rounded.
-    fn moved(&self) -> f64 {
-        let Placement { centre, local_from_world, .. } = self.placement;
-        U * (local_from_world.abs() * centre.abs()).length()
-    }
-
-    /// The same, of sheets alone: their edges are others', too, and nothing may show between.
-    fn edges_moved(&self) -> f64 {
-        if self.exact.is_none() && self.body.is_sheet() { self.moved() } else { 0.0 }
+        self.found(ray, |seen, found| self.body.crossings(&seen.line, found))
     }
 
     /// In order, those ahead of the ray's start and not beyond `limit`, at least the first that is seen.
     #[inline(never)]
     pub fn first_crossings(&self, ray: &Ray, limit: f64) -> Crossings {
-        self.found(ray, self.edges_moved(), |seen, found| {
+        self.found(ray, |seen, found| {
             let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
             self.body.first_crossings(&seen.line, between, found);
         })
     }
 
     #[inline(always)]
-    fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
+    fn found(&self, ray: &Ray, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
-        let seen = Seen::new(self, ray, moved);
+        let seen = Seen::new(self, ray);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;
@@ -68,7 +51,7 @@ impl Placed {
 
     /// The part of the surface that the ray crosses at `t`.
     fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
-        let seen = Seen::new(self, ray, 0.0);
+        let seen = Seen::new(self, ray);
         let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
         self.body.part_at(&seen.line, seen.place(t, 0.0), leaving).unwrap_or_else(found)
     }

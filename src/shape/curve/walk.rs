@@ -124,6 +124,8 @@ pub struct Change<'a> {
     pub path: Path<'a>,
     /// About where.
     pub v: f64,
+    /// The number of the piece that is met there; at a joint, of that which the line is steeper to.
+    pub piece: usize,
     /// Between these, certainly.
     pub low: f64,
     pub high: f64,
@@ -187,6 +189,29 @@ fn nearest_told(sample: impl Fn(f64) -> Sample, told: f64, other: f64, outside: 
     told
 }
 
+/// At the joint that is nearest to a change that may lie there: whether the neighbour of the piece that it was found
+/// on is crossed the same way, and more steeply; and where that is. Along a wall that it touches a line is met nowhere
+/// in particular; across the next it is.
+#[cold]
+fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usize)> {
+    let Change { v, low, high, rising, .. } = *change;
+    let is_within = |joint: &f64| low < *joint && *joint < high;
+    let joints = [v.floor(), v.floor() + 1.0].into_iter().filter(is_within);
+    let joint = joints.min_by(|a, b| (a - v).abs().total_cmp(&(b - v).abs()))?;
+    let count = path.pieces.len();
+    let after = path.locate(joint).0;
+    let before = (after + count - 1) % count;
+    let steepness = |number: usize, u: f64| {
+        let piece = &path.pieces[number];
+        let [x, y] = piece.at(u).1;
+        let slope = side.sample(piece, u).slope / (x * x + y * y).sqrt();
+        if rising { slope } else { -slope }
+    };
+    let [own, other] = [(after, 0.0), (before, 1.0)].map(|(number, u)| (number, steepness(number, u)));
+    let [own, other] = if path.locate(v).0 == after { [own, other] } else { [other, own] };
+    (other.1 > own.1.max(0.0)).then_some((joint, path.first + other.0))
+}
+
 /// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
 pub fn walk<'a, S: Side>(
     path: Path<'a>,
@@ -220,7 +245,13 @@ pub fn walk<'a, S: Side>(
             low = nearest_told(sample, low, v, before.outside);
             high = nearest_told(sample, high, v, after.outside);
         }
-        Change { path, v, low, high, rising: after.outside }
+        let change = Change { path, v, piece: path.piece(v), low, high, rising: after.outside };
+        if low.floor() + 1.0 < high
+            && let Some((v, piece)) = steeper(&path, side, &change)
+        {
+            return Change { v, piece, ..change };
+        }
+        change
     };
     let (mut first, mut last): (Option<Certain>, Option<Certain>) = (None, None);
     let mut advance = |here: Certain| {

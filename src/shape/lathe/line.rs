@@ -230,9 +230,28 @@ impl<'a> Arm<'a> {
         cuts.chunks_exact(2).map(part).collect()
     }
 
+    /// By how far out it is or, where the arms begin, how high: whichever tells more.
+    pub fn wall(&self, change: &Change) -> (f64, f64) {
+        let (by_reach, by_height) = (self.by_reach(change), self.by_height(change));
+        if by_height.1 < by_reach.1 { by_height } else { by_reach }
+    }
+
+    /// **Error:** the reach of what the change lies within, B farther up and down; where the path begins at the
+    /// middle, that of the other arm too, which is as far below it as this is above, or as far above.
+    fn by_height(&self, change: &Change) -> (f64, f64) {
+        let Line { start, speed, off, .. } = *self.line;
+        let here = change.point()[1];
+        let from = |height: f64| change.places().map(|p| (p[1] - height).abs()).fold(0.0, f64::max);
+        let reach = match change.is_at_end() {
+            true => from(self.height) + (here - self.height).abs(),
+            false => from(here),
+        };
+        ((here - start) / speed, (1.25 * reach + 1.5 * off) / speed.abs())
+    }
+
     /// **Error:** the reach of what the change lies within, B farther out and in; where the path begins at the
     /// middle, that of the other arm too.
-    pub fn wall(&self, change: &Change) -> (f64, f64) {
+    fn by_reach(&self, change: &Change) -> (f64, f64) {
         let Line { across, off, .. } = *self.line;
         let here = self.reach(change.point()[0]);
         let least = change.places().map(|p| p[0]).fold(f64::INFINITY, f64::min);

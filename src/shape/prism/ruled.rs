@@ -154,7 +154,7 @@ impl<'a> Ruled<'a> {
     pub fn wall(&self, change: &Change) -> Wall {
         let point = change.point();
         let (s, way) = (self.place(point), self.way(point));
-        let piece = change.path.piece(change.v);
+        let piece = change.piece;
         // What is inside of one end of a wall along the ray is so as far as the body goes: on which side of the
         // body the two meet does not matter.
         if self.is_along(point) && change.places().all(|point| self.is_along(point)) {

@@ -91,6 +91,13 @@ impl Sor {
         [self.segments[0].low, self.segments[self.segments.len() - 1].high]
     }
 
+    /// An end of no width, as far as rounding tells, is no end: there the round has come to its tip.
+    fn is_tip(&self, end: u32) -> bool {
+        let [low, high] = self.heights();
+        let Square { value, error, .. } = self.square(if end == CAP { high } else { low });
+        value <= error
+    }
+
     /// F at a height; beyond the ends what it is there.
     fn square(&self, z: f64) -> Square {
         let number = self.segments.partition_point(|segment| segment.high < z);
@@ -119,6 +126,7 @@ impl Local for Sor {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((first, last)) = between(ray, self.heights()) else { return };
         let seen = |met: Met| match met.part {
+            CAP | BASE if self.open && self.is_tip(met.part) => Met { part: SIDE, ..met },
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };
