@@ -99,7 +99,7 @@ impl Lathe {
                         walk(path, &arm, ray.tolerance, |change| {
                             // What is above is to the left of a line that goes away from the axis.
                             let along = change.rising != (arm.way > 0.0);
-                            let begins = if change.is_at_end() { arm.way } else { 0.0 };
+                            let begins = if arm.may_begin_at(&change) { arm.way } else { 0.0 };
                             walls.push(Wall {
                                 begins,
                                 ..Wall::new(&change, along, arm.wall(&change))
@@ -121,11 +121,12 @@ impl Lathe {
     }
 }
 
-/// Drops what both arms cross right where they begin: the line may as well only touch it, as at a tip.
+/// Drops what both arms cross right where they begin, as far as rounding tells: the line may as well only touch it,
+/// as at a tip, or beside an upright wall.
 fn drop_touches(walls: &mut SmallVec<[Wall; 6]>) {
     let mut at = 0;
     while let Some([one, other]) = walls.get(at..at + 2) {
-        if one.begins * other.begins < 0.0 {
+        if one.begins * other.begins < 0.0 && other.s - one.s <= one.error + other.error {
             walls.drain(at..at + 2);
             at = at.saturating_sub(1);
         } else {

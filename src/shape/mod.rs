@@ -209,9 +209,8 @@ impl SurfacePoint {
     /// rounding start, direction and point adds, and putting the point onto the surface.
     pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing, is_flat: bool) -> Vector {
         let turned = 4.0 * U * t / self.normal.dot(ray.direction).abs();
-        let along = (t - crossing.t).abs()
-            + 2.0 * crossing.error
-            + if is_flat { turned } else { 0.0 };
+        let along =
+            (t - crossing.t).abs() + 2.0 * crossing.error + if is_flat { turned } else { 0.0 };
         let across = ray.origin.abs() * (4.0 * U) + Vector::splat(8.0 * U * t);
         ray.direction.abs() * along + across + self.normal.abs() * self.error
     }

@@ -228,7 +228,10 @@ impl Local for Prism {
         if begin > end || !self.may_be_near(ray, begin, end) {
             return;
         }
+        // An end of no width is the tip of the walls.
+        let is_tip = |end: u32| self.conic && self.heights[usize::from(end == CAP)] == 0.0;
         let seen = |met: Met| match met.part {
+            CAP | BASE if self.open && is_tip(met.part) => Met { part: part_of(0, true), ..met },
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };

@@ -1,4 +1,4 @@
-//! Prisms whose outlines are met where they hardly tell: along a wall, where pieces join, beside their points.
+//! Prisms and lathes whose outlines are met where they hardly tell: along a wall, where pieces join, beside their points.
 
 use std::ops::Range;
 
@@ -322,5 +322,38 @@ fn from_the_tip_nothing_shows_between_two_that_share_a_wall() {
             let middle = column(&camera, &whole, (25, 19), (12, 0..19));
             assert!(lit(&middle).iter().all(|lit| *lit), "{whole}");
         }
+
+/// Of a lathe with a gradient, what is seen where rays go right through a joint, and beside that.
+#[test]
+fn at_a_joint_of_a_lathe_a_pattern_goes_on() {
+    let paint = "pigment { gradient <1, 0.7, 0.4> color_map { [0 rgb <1, 0, 0>] [1 rgb <1, 1, 0>] }
+        scale 32 translate <-9.92, -8.64, -7.36> } finish { emission 1 }";
+    let through_its_corner = "camera { location <-5.656854249492381, 0.5, -5.65685424949238>
+            direction <5.656854249492381, 0, 5.65685424949238>
+            right <-5.833630944789016, 0, 5.833630944789017> up <0, 6.25, 0> }
+        difference { lathe { linear_spline 5 <2, -0.5>, <1, 0>, <0.5, 0>, <1, -0.5>, <2, -0.5> PAINT }
+            lathe { linear_spline 4 <0, 0>, <1, 0>, <1, 0.5>, <0, 0.5> PAINT } }";
+    let along_its_wall = "camera { orthographic
+            location <-3.8417879795455105, 7.01716930964471, 4.296776967065718e-16>
+            direction <0.4802234974431888, -0.8771461637055887, -5.370971208832148e-17>
+            right <1.5466272758700406e-32, 2.525834023241416e-16, -4.125>
+            up <-2.7410817615799647, -1.500698429509965, -9.189127640924194e-17> }
+        lathe { linear_spline 5 <2, 1>, <0, 1>, <0.5, 1>, <0.5, -1>, <2, 1> PAINT rotate <61.3, 90, 90> }";
+    let nearest_to_its_axis = "camera { location <3.0588908130484103, -3.2981543030055196, 2.401117487215944>
+            direction <-3.0588908130484103, 3.2981543030055196, -2.401117487215944>
+            right <2.857883832488648, 1.65, 0> up <-0.6002793718039859, 1.0397143707000325, 2.192865409263972> }
+        lathe { linear_spline 5 <0, 0.5>, <1, 1>, <0.5, -1>, <1.5, -0.5>, <0, -0.5> PAINT
+            rotate <61.3, 0, 30> }";
+    for (text, x, y, most) in [
+        (through_its_corner, 14, 14, 0.01),
+        (through_its_corner, 18, 14, 0.01),
+        (along_its_wall, 12, 12, 0.001),
+        (nearest_to_its_axis, 26, 17, 0.001),
+    ] {
+        let film = rendered(&text.replace("PAINT", paint), (33, 25));
+        let [here, before, behind] = [x, x - 1, x + 1].map(|x| film.radiance[film.index(x, y)]);
+        assert!(before.red > 0.5 && behind.red > 0.5, "{text}");
+        let middle = 0.5 * (before.green + behind.green);
+        assert!((here.green - middle).abs() < most, "{here:?} {before:?} {behind:?} {text}");
     }
 }

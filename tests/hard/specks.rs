@@ -115,3 +115,52 @@ fn the_first_of_two_coinciding_faces_is_seen_up_to_its_corner() {
         }
     }
 }
+
+#[test]
+fn the_first_of_two_coinciding_faces_is_seen_up_to_its_corner_by_who_looks_aslant() {
+    let first = "prism { -1, 0.5, 4, <-1, -0.5>, <0, -0.5>, <0, 0>, <-1, 0>";
+    let text = format!(
+        "camera {{ location <0.5, 5.5, 0.5> direction <-0.101, -1, -0.101> right -0.0126*x up 0.0096*z }}
+         {first} {GREEN} box {{ <-1, 0, -0.5>, <0.5, 0.5, 0.5> {RED}"
+    );
+    let film = rendered(&text, (33, 25));
+    for (x, y) in (0..25).flat_map(|y| (0..33).map(move |x| (x, y))) {
+        // The face is 5 from the camera.
+        let a = 0.5 - 5.0 * (0.101 + 0.0126 * ((f64::from(x) + 0.5) / 33.0 - 0.5));
+        let b = 0.5 - 5.0 * (0.101 + 0.0096 * ((f64::from(y) + 0.5) / 25.0 - 0.5));
+        let green = film.radiance[film.index(x, y)].green > 0.5;
+        assert_eq!(green, a < 0.0 && b < 0.0, "{x} {y}");
+    }
+}
+
+#[test]
+fn the_first_of_two_coinciding_faces_is_seen_a_thousand_sizes_from_the_origin() {
+    let solids = [
+        "prism { -0.5, 0.5, 4, <-1, -1>, <1, -1>, <1, 0.7>, <-1, 0.7>",
+        "box { <-1, -0.3, -1>, <1, 0.5, 0.7>",
+        "mesh { triangle { <-1, 0.5, -1>, <1, 0.5, -1>, <1, 0.5, 0.7> }
+                triangle { <-1, 0.5, -1>, <1, 0.5, 0.7>, <-1, 0.5, 0.7> }",
+        "cylinder { -0.7*y, 0.5*y, 1",
+        "sor { 4, <0.5, -2>, <0.8, -1>, <1, 0.5>, <0.9, 1>",
+    ];
+    for map in [
+        "rotate <30, 45, 30> scale 1e-6 translate <0, 1e-3, 1e-3>",
+        "rotate <45, 0, 37> scale 1e-6 translate <0, 1e-6/3, 1e-3>",
+        "rotate <0, 90, 61.3> scale 1e6 translate <1e9, 1e6/3, 7e6>",
+    ] {
+        for (first, second) in solids.iter().flat_map(|a| solids.map(|b| (a, b))) {
+            let film = rendered(
+                &format!(
+                    "#declare Way = function {{ transform {{ {map} }} }}
+                     #declare From = Way(0.1, 3, 0.3);
+                     camera {{ location From direction Way(0, 0.5, 0) - From
+                              right Way(1, 3, 0.3) - Way(0, 3, 0.3) up Way(0, 3, 1.3) - Way(0, 3, 0.3) }}
+                     {first} {map} {GREEN} {second} {map} {RED}"
+                ),
+                (9, 9),
+            );
+            let is_first = film.radiance.iter().all(|color| color.green > 0.5);
+            assert!(is_first, "{first} {second} {map}");
+        }
+    }
+}

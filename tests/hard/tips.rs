@@ -63,6 +63,28 @@ fn a_cone_seen_along_its_axis_is_whole_also_where_its_side_would_be_met_twice_as
 }
 
 #[test]
+fn the_tip_of_what_is_open_is_seen_along_its_axis() {
+    for tip in [
+        "sor { 4, <0.3, -1>, <0.7, -0.5>, <0, 0.5>, <0.2, 1> open",
+        "sor { 4, <0.3, -1>, <0, -0.5>, <0.7, 0.5>, <0.2, 1> open",
+        "sor { 4, <1e-6, -1>, <1, -0.5>, <0, -0.499>, <0.1, -0.25> open",
+        "cone { 0, 0.7, y, 0 open",
+        "prism { conic_sweep linear_spline 0, 1, 4, <-0.5, -0.5>, <0.6, -0.5>, <0.6, 0.5>, <-0.5, 0.5> open",
+    ] {
+        for way in ["y", "-y"] {
+            let camera = format!(
+                "camera {{ orthographic location -5*{way} direction {way} right 2.03125*x up 1.53125*z }}"
+            );
+            let red = "pigment { rgb <1, 0, 0> } finish { emission 1 }";
+            let film = rendered(&format!("{camera} {tip} {red} }}"), (65, 49));
+            for x in 30..=34 {
+                assert!(film.radiance[film.index(x, 24)].red > 0.5, "{tip} {way} {x}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_quadric_with_a_tip_is_seen_around_it_however_far_from_the_origin_it_stands() {
     let tips = ["<0, 0, 0>", "<1.5, 0.25, -3>", "<0.3, 0.7, -0.9>", "<1000.3, 700.7, -300.1>"];
     for tip in tips {

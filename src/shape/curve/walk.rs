@@ -207,7 +207,8 @@ fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usiz
         let slope = side.sample(piece, u).slope / (x * x + y * y).sqrt();
         if rising { slope } else { -slope }
     };
-    let [own, other] = [(after, 0.0), (before, 1.0)].map(|(number, u)| (number, steepness(number, u)));
+    let [own, other] =
+        [(after, 0.0), (before, 1.0)].map(|(number, u)| (number, steepness(number, u)));
     let [own, other] = if path.locate(v).0 == after { [own, other] } else { [other, own] };
     (other.1 > own.1.max(0.0)).then_some((joint, path.first + other.0))
 }

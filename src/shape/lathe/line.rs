@@ -230,6 +230,12 @@ impl<'a> Arm<'a> {
         cuts.chunks_exact(2).map(part).collect()
     }
 
+    /// Whether a change may lie right where the arms begin.
+    pub fn may_begin_at(&self, change: &Change) -> bool {
+        let is_near = |p: Point| p[0] - self.line.off <= self.miss;
+        change.is_at_end() || change.places().any(is_near)
+    }
+
     /// By how far out it is or, where the arms begin, how high: whichever tells more.
     pub fn wall(&self, change: &Change) -> (f64, f64) {
         let (by_reach, by_height) = (self.by_reach(change), self.by_height(change));

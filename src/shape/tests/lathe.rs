@@ -9,7 +9,7 @@ use super::placed::{
 };
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::body::{Crossings, Local, LocalRay};
+use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::curve::{Piece, Point};
 use crate::shape::exact::Triple;
 
@@ -137,4 +137,42 @@ fn a_line_in_a_level_end_of_a_lathe_is_in_one_of_two_that_touch_there() {
     assert!(above.len() == 2 && below.is_empty(), "{ends:?}");
     let half = (0.36_f64 - 0.01).sqrt();
     assert!(above.iter().all(|met| (met.t.abs() - half).abs() <= met.error && met.error < 1e-12));
+}
+
+fn met(corners: &[Point], nearest: Vector, direction: Vector) -> Crossings {
+    let pieces = corners.windows(2).map(|p| Piece::line(p[0], p[1]));
+    let lathe = Lathe::new([pieces.collect()]).expect("a lathe");
+    let mut found = Crossings::new();
+    lathe.crossings(&LocalRay::exact(nearest, direction.normalize()), &mut found);
+    found
+}
+
+#[test]
+fn a_line_that_may_as_well_only_touch_an_upright_wall_of_a_lathe_misses_it() {
+    let drum = [[0.0, -0.5], [1.0, -0.5], [0.75, -0.25], [0.75, 0.25], [0.0, 0.25]];
+    let past = |gap: f64, slope: f64| {
+        met(&drum, Vector::new(0.0, 0.75 + gap, 0.1), Vector::new(1.0, 0.0, slope)).len()
+    };
+    for slope in [0.0, 1e-17, 1e-9, 0.01, 0.1] {
+        let gaps = [0.0, U, -U, 4.0 * U, -4.0 * U, -1e-12];
+        assert_eq!(gaps.map(|gap| past(gap, slope)), [0, 0, 0, 0, 0, 2], "{slope}");
+    }
+}
+
+/// As exact as elsewhere, however thin.
+#[test]
+fn a_level_end_of_a_lathe_is_crossed_where_a_flat_line_is_nearest_to_the_axis() {
+    for half in [1e-6, 1e-9] {
+        let plate = [[0.0, -half], [0.7, -half], [0.7, half], [0.0, half]];
+        for gap in [0.0, 1e-3, 0.3] {
+            for at in [0.0, half, -half] {
+                let found = met(&plate, Vector::new(0.0, gap, at), Vector::new(1.0, 0.0, 0.01));
+                let told = |met: &Met, z: f64| {
+                    (met.t - 100.0 * (z - at)).abs() <= met.error + 1e-18 && met.error < 1e-12
+                };
+                let [enter, leave] = &found[..] else { panic!("{found:?} {half} {gap} {at}") };
+                assert!(told(enter, -half) && told(leave, half), "{found:?} {half} {gap} {at}");
+            }
+        }
+    }
 }
