@@ -190,8 +190,8 @@ fn nearest_told(sample: impl Fn(f64) -> Sample, told: f64, other: f64, outside: 
 }
 
 /// At the joint that is nearest to a change that may lie there: whether the neighbour of the piece that it was found
-/// on is crossed the same way, and more steeply; and where that is. Along a wall that it touches a line is met nowhere
-/// in particular; across the next it is.
+/// on is seen, and crossed the same way and more steeply; and where that is. Along a wall that it touches a line is
+/// met nowhere in particular; across the next it is.
 #[cold]
 fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usize)> {
     let Change { v, low, high, rising, .. } = *change;
@@ -210,7 +210,8 @@ fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usiz
     let [own, other] =
         [(after, 0.0), (before, 1.0)].map(|(number, u)| (number, steepness(number, u)));
     let [own, other] = if path.locate(v).0 == after { [own, other] } else { [other, own] };
-    (other.1 > own.1.max(0.0)).then_some((joint, path.first + other.0))
+    let is_better = path.pieces[other.0].seen && other.1 > own.1.max(0.0);
+    is_better.then_some((joint, path.first + other.0))
 }
 
 /// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
