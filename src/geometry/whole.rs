@@ -252,7 +252,7 @@ impl Geometry {
         if let Solid::Placed(i) = solid {
             solid.compiled();
             let placed = &self.placed[*i as usize];
-            let mut all = placed.crossings(ray);
+            let mut all = placed.crossings_of_part(ray);
             let inside = match all.first() {
                 Some(first) => first.leaving && !placed.body.is_sheet(),
                 None => placed.body.reach() == f64::INFINITY && placed.holds(ray),

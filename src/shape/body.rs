@@ -386,9 +386,9 @@ impl<'a> Seen<'a> {
     /// The ray in local space, slid to its closest approach there. With |L| the matrix of absolute
     /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
     /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
-    /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.) To 6·|f| in R comes the
-    /// centre C itself, which was rounded: faces that two bodies share are one, however far off they stand.
-    pub fn new(placed: &'a Placed, ray: &'a Ray) -> Self {
+    /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.) Both by
+    /// `moved` more: how far, in local space, the centre may be from where it was meant.
+    pub fn new(placed: &'a Placed, ray: &'a Ray, moved: f64) -> Self {
         let Placed { placement, root_tolerance: tolerance, .. } = *placed;
         let matrix = placement.local_from_world;
         let sizes = matrix.abs();
@@ -400,9 +400,9 @@ impl<'a> Seen<'a> {
         let start = origin.dot(direction);
         let nearest = origin - direction * start;
 
-        let reach = (sizes * (from_centre.abs() * 6.0 + placement.centre.abs())).length();
+        let reach = (sizes * from_centre.abs()).length();
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
-        let blur = U * reach + turn * start.abs();
+        let blur = U * 6.0 * reach + turn * start.abs() + moved;
         let start_error = blur + turn * nearest.length();
         let in_world = Some(InWorld { ray, placed });
         let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };

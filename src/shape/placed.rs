@@ -8,6 +8,9 @@ use super::{Bounds, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
 
+/// How far a body of size 1 rounds the height over its surface by, at least.
+const LEAST: f64 = 2.0 * U;
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     /// Stored once, however often it is placed.
@@ -22,47 +25,75 @@ pub struct Placed {
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
-        self.found(ray, |seen, found| self.body.crossings(&seen.line, found))
+        self.found(ray, self.edges_moved(), |seen, found| self.body.crossings(&seen.line, found))
+    }
+
+    /// The same of a part of a solid, whose line is blurred by as much as its centre was rounded: nothing is between
+    /// two parts that share a face, however far off they stand.
+    pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
+        self.found(ray, self.moved(), |seen, found| self.body.crossings(&seen.line, found))
+    }
+
+    /// How far it stands from where it was meant, as its centre was rounded.
+    fn moved(&self) -> f64 {
+        let Placement { centre, local_from_world, .. } = self.placement;
+        U * (local_from_world.abs() * centre.abs()).length()
+    }
+
+    /// The same, of sheets alone: their edges are others', too, and nothing may show between.
+    fn edges_moved(&self) -> f64 {
+        if self.exact.is_none() && self.body.is_sheet() { self.moved() } else { 0.0 }
     }
 
     /// In order, those ahead of the ray's start and not beyond `limit`, at least the first that is seen.
     #[inline(never)]
     pub fn first_crossings(&self, ray: &Ray, limit: f64) -> Crossings {
-        self.found(ray, |seen, found| {
+        self.found(ray, self.edges_moved(), |seen, found| {
             let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
             self.body.first_crossings(&seen.line, between, found);
         })
     }
 
+    /// **Error:** of what stands alone, too, as if the line were blurred by as much as the centre was rounded: of
+    /// faces that two share the first is seen, however far off they stand. But what the line meets is not told so: a
+    /// ray that starts on a surface keeps off it by less. A crossing's error is in proportion to the blur and to what
+    /// the body rounds by, which is no less than [`LEAST`]; where it only touches, less than in proportion.
     #[inline(always)]
-    fn found(&self, ray: &Ray, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
+    fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
-        let seen = Seen::new(self, ray);
+        let seen = Seen::new(self, ray, moved);
         let miss = seen.line.nearest.length();
         if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
             return found;
         }
         find(&seen, &mut found);
-        for met in &mut found {
-            *met = seen.met(*met);
+        if !found.is_empty() {
+            let more = 1.0 + (self.moved() - moved) / (seen.line.blur + LEAST);
+            for met in &mut found {
+                *met = seen.met(Met { error: met.error * more, ..*met });
+            }
         }
         found
     }
 
     /// The part of the surface that the ray crosses at `t`.
     fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
-        let seen = Seen::new(self, ray);
+        let seen = Seen::new(self, ray, 0.0);
         let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
         self.body.part_at(&seen.line, seen.place(t, 0.0), leaving).unwrap_or_else(found)
     }
 
-    /// The crossing at `t`, or the nearest to it; where there is none, that of a part of a solid.
+    /// The crossing at `t`, or the nearest to it. That of a part may be none of what stands alone.
     pub fn crossing_at(&self, ray: &Ray, t: f64, leaving: bool) -> Option<Met> {
         let off = |met: &Met| (met.t - t).abs();
         let same = |met: &Met| met.leaving == leaving;
         let nearest =
             |all: Crossings| all.into_iter().filter(same).min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest(self.crossings(ray)).or_else(|| nearest(self.crossings_of_part(ray)))
+        let alone = nearest(self.crossings(ray));
+        match alone {
+            Some(met) if off(&met) <= met.error => alone,
+            _ => nearest(alone.into_iter().chain(self.crossings_of_part(ray)).collect()),
+        }
     }
 
     /// The point of the surface where `ray` crosses it at `t`: the height of what is at t is taken off
