@@ -383,7 +383,7 @@ impl Geometry {
             }
             None => return None,
         };
-        (met.t <= limit).then_some((met.crossing(), met.leaving))
+        (met.t <= limit).then(|| (placed.shared(ray, &met), met.leaving))
     }
 }
 

@@ -4,12 +4,9 @@ use std::sync::Arc;
 
 use super::algebraic::HalfSpace;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
-use super::{Bounds, Plane, Ray, Rounding, SurfacePoint, U};
+use super::{Bounds, Crossing, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
-
-/// How far a body of size 1 rounds the height over its surface by, at least.
-const LEAST: f64 = 2.0 * U;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
@@ -54,10 +51,20 @@ impl Placed {
         })
     }
 
-    /// **Error:** of what stands alone, too, as if the line were blurred by as much as the centre was rounded: of
-    /// faces that two share the first is seen, however far off they stand. But what the line meets is not told so: a
-    /// ray that starts on a surface keeps off it by less. A crossing's error is in proportion to the blur and to what
-    /// the body rounds by, which is no less than [`LEAST`]; where it only touches, less than in proportion.
+    /// A crossing of what stands alone, its error as if the line were blurred by as much as the centre was rounded:
+    /// of faces that two share the first is seen, however far off they stand. But whether the line meets the body, and
+    /// ahead, is not told so: a ray that starts on a surface keeps off it by less.
+    ///
+    /// With f the ray's start as seen from the centre C, the error is in proportion to the line's blur, of at least
+    /// 6u·‖|L|·|f|‖, and to what a body of size 1 rounds by, of at least 2u; where it only touches, less than so.
+    pub fn shared(&self, ray: &Ray, met: &Met) -> Crossing {
+        let Placement { centre, local_from_world, .. } = self.placement;
+        let sizes = local_from_world.abs();
+        let blur = 6.0 * (sizes * (ray.origin - centre).abs()).length() + 2.0;
+        let more = 1.0 + (sizes * centre.abs()).length() / blur;
+        Crossing { t: met.t, error: met.error * more }
+    }
+
     #[inline(always)]
     fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
@@ -67,11 +74,8 @@ impl Placed {
             return found;
         }
         find(&seen, &mut found);
-        if !found.is_empty() {
-            let more = 1.0 + (self.moved() - moved) / (seen.line.blur + LEAST);
-            for met in &mut found {
-                *met = seen.met(Met { error: met.error * more, ..*met });
-            }
+        for met in &mut found {
+            *met = seen.met(*met);
         }
         found
     }
