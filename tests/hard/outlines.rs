@@ -322,6 +322,8 @@ fn from_the_tip_nothing_shows_between_two_that_share_a_wall() {
             let middle = column(&camera, &whole, (25, 19), (12, 0..19));
             assert!(lit(&middle).iter().all(|lit| *lit), "{whole}");
         }
+    }
+}
 
 /// Of a lathe with a gradient, what is seen where rays go right through a joint, and beside that.
 #[test]
