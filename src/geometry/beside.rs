@@ -117,7 +117,7 @@ impl Geometry {
             let is_one = first.object == second.object && first.leaving == second.leaving;
             let goes_on = || {
                 let both = [(&one, first.t), (&other, second.t)];
-                both.into_iter().all(|(ray, from)| self.goes_on(ray, hit, from, from + behind))
+                both.into_iter().all(|(ray, t)| self.goes_on(ray, hit, t, behind))
             };
             seen = match seen {
                 Around::Nothing if is_here && is_one && goes_on() => Around::Same(first),
@@ -128,13 +128,13 @@ impl Geometry {
         seen
     }
 
-    /// Whether a ray beside meets what was hit between two places.
-    fn goes_on(&self, beside: &Ray, hit: &Hit, from: f64, limit: f64) -> bool {
-        let is_near = |met: &Met| from <= met.t && met.t <= limit;
+    /// Whether a ray beside meets what was hit no farther than `far` from `t`: behind or, of what others cut, before.
+    fn goes_on(&self, beside: &Ray, hit: &Hit, t: f64, far: f64) -> bool {
+        let is_near = |met: &Met| (met.t - t).abs() <= far;
         let meets = |leaf: &Entry| {
             leaf.object == hit.object && self.crossings(&leaf.solid, beside).iter().any(is_near)
         };
-        let mut found = false;
+        let (limit, mut found) = (t + far, false);
         let look = |place: usize, _: &mut Uncounted| {
             let entry = &self.entries[place];
             found |= match entry.solid {
