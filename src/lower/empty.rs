@@ -1,6 +1,5 @@
 //! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away, an object
-//! that what clips it does not meet; and
-//! parts that take nothing away, such as those that are only a surface.
+//! that does not meet what clips it; and parts that take nothing away, such as those that are only a surface.
 //!
 //! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
 //! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
@@ -346,11 +345,11 @@ fn clipped_away(parts: &[Known], site: Site) -> Option<Diagnostic> {
     if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
         return None;
     }
-    let Gap { touching, parts: apart } = gap(parts)?;
-    let why = match (apart.contains(&0), touching) {
-        (true, false) => "it does not reach into what clips it",
-        (true, true) => "it only touches what clips it",
-        (false, _) => "what clips it does not meet",
+    // What lies in a face of what clips it is kept.
+    let Gap { parts: apart, .. } = gap(parts).filter(|gap| !gap.touching)?;
+    let why = match apart.contains(&0) {
+        true => "it does not reach into what clips it",
+        false => "what clips it does not meet",
     };
     let told = Diagnostic::new(Code::NothingLeft, format!("this object is clipped away: {why}"))
         .at(site.span, "nothing is left of it")

@@ -6,6 +6,7 @@
 //!
 //! **Source:** Khronos Group, "glTF 2.0 Specification".
 
+use gltf::binary::Error as BinaryError;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::material::AlphaMode;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -74,8 +75,13 @@ fn parts(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), Fault> {
         let fault = Fault::new(format!("it is binary glTF of version {version}, and 2 is read"));
         return Err(fault.at(Place::Byte(4)));
     }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|_| {
+    let glb = gltf::Glb::from_slice(bytes).map_err(|error| {
+        let is_kind = matches!(
+            error,
+            gltf::Error::Binary(BinaryError::ChunkType(_) | BinaryError::UnknownChunkType(_))
+        );
         let reason = match bytes.get(16..20) {
+            Some(b"JSON") if is_kind => "its second part is not `BIN`",
             Some(b"JSON") => "the file ends before its parts do",
             Some(_) => "its first part is not `JSON`",
             None => "the file ends in its head",

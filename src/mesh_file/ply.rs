@@ -44,7 +44,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     let mut has_faces = false;
     for element in header.elements.values() {
         check_count(element, &header, bytes.len() - reader.get_ref().position() as usize)
-            .and_then(|()| check_lists(element))
+            .and_then(|()| check_lists(element, &header))
             .map_err(|fault| fault.at(declared(&element.name)))?;
         match element.name.as_str() {
             "vertex" => {
@@ -138,20 +138,24 @@ fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(),
     }
 }
 
-/// What is counted, and what names vertices, are whole numbers.
-fn check_lists(element: &ElementDef) -> Result<(), Fault> {
+/// What names vertices are whole numbers, and so are counts; in a text they can be read as that, whatever their type.
+fn check_lists(element: &ElementDef, header: &Header) -> Result<(), Fault> {
     let is_whole = |scalar: &ScalarType| !matches!(scalar, ScalarType::Float | ScalarType::Double);
+    let is_text = header.encoding == Encoding::Ascii;
     for (name, property) in &element.properties {
         let is_index = element.name == "face" && INDICES.contains(&name.as_str());
-        let is_right = match &property.data_type {
-            PropertyType::Scalar(_) => !is_index,
-            PropertyType::List(count, entry) => is_whole(count) && (!is_index || is_whole(entry)),
-        };
-        if !is_right {
-            let element = &element.name;
-            return Err(Fault::new(format!(
-                "`{name}` of its `{element}` is no list of whole numbers"
-            )));
+        let of = &element.name;
+        match &property.data_type {
+            PropertyType::List(count, _) if !is_text && !is_whole(count) => {
+                let reason = format!("the count of `{name}` of its `{of}` is no whole number");
+                return Err(Fault::new(reason));
+            }
+            PropertyType::List(_, entry) if !is_index || is_whole(entry) => {}
+            PropertyType::Scalar(_) if !is_index => {}
+            _ => {
+                let reason = format!("`{name}` of its `{of}` is no list of whole numbers");
+                return Err(Fault::new(reason));
+            }
         }
     }
     Ok(())

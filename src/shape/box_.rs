@@ -58,9 +58,9 @@ impl Box_ {
     /// is the other's, misses it.
     #[inline(always)]
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
-        let (slabs, is_flat) =
+        let (slabs, is_nearly_along) =
             through(self.centre, self.directions(), self.half_widths, ray, None)?;
-        match is_flat {
+        match is_nearly_along {
             true => self.chord_along(ray),
             false => Some(slabs.chord()).filter(|_| !self.yields(ray)),
         }

@@ -62,6 +62,8 @@ impl Placed {
         let sizes = local_from_world.abs();
         let blur = 6.0 * (sizes * (ray.origin - centre).abs()).length() + 2.0;
         let more = 1.0 + (sizes * centre.abs()).length() / blur;
+        // Sizes and places may be beyond what squares can tell.
+        let more = if more.is_finite() { more } else { 1.0 };
         Crossing { t: met.t, error: met.error * more }
     }
 

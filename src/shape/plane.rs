@@ -34,7 +34,8 @@ impl Plane {
         let normal = self.normal.get();
         let size = ray.origin.abs().element_sum() + self.distance.abs();
         let error = inside_error(normal, self.distance, ray);
-        let is_along = 2.0 * size * speed.abs() <= 4.0 * error;
+        // Where nothing is rounded, a slope is one, however small.
+        let is_along = speed == 0.0 || 2.0 * size * speed.abs() < 4.0 * error;
         if is_along && self.signed_distance(ray.origin).abs() <= error {
             return falls_inside(normal).then_some(Chord::WHOLE);
         }

@@ -51,6 +51,7 @@ fn a_camera_that_looks_along_the_face_of_two_solids_sees_nothing_of_both_and_no_
                 for all in all.into_iter().take(if is_endless { 1 } else { 2 }) {
                     let all = format!("{all} {above} {below}");
                     let [before, row, next] = rows(&all, map);
+                    assert!(before.contains(&true) || next.contains(&true), "{all} {map}");
                     assert!(row == before || row == next, "{all} {map}\n{row:?}");
                 }
             }
@@ -78,5 +79,24 @@ fn a_face_that_a_ray_goes_along_by_the_least_slope_takes_no_other_face_away() {
             let near = film.radiance[film.index(16, 12)].red;
             assert!((near - 0.75).abs() < 1e-6, "{slope} {hole}: {near}");
         }
+    }
+}
+
+#[test]
+fn a_slope_is_a_slope_to_a_camera_at_0_in_a_plane_of_a_solid() {
+    for (plane, above) in [("plane { y, 0 }", false), ("plane { -y, 0 }", true)] {
+        let film = rendered(
+            &format!(
+                "camera {{ location 0 direction z right 2e-6*x up 1.8e-6*y }} background {{ rgb 0 }}
+                 intersection {{ {plane} box {{ <-1, -1, 1>, <1, 1, 2> }}
+                                pigment {{ rgb <0, 1, 0> }} finish {{ emission 1 }} }}"
+            ),
+            (3, 9),
+        );
+        // The slopes go from 8e-7 to −8e-7.
+        let rows = (0..9).map(|y| film.radiance[film.index(1, y)].green > 0.5);
+        let seen: Vec<bool> = rows.collect();
+        assert!(seen[..4].iter().all(|seen| *seen == above), "{plane}: {seen:?}");
+        assert!(seen[5..].iter().all(|seen| *seen != above), "{plane}: {seen:?}");
     }
 }

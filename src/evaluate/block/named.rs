@@ -1,4 +1,4 @@
-//! Files that a block names: fonts and pictures.
+//! Files that a block names: fonts, pictures and meshes.
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;

@@ -141,6 +141,11 @@ fn a_broken_gltf_is_told_and_where_it_can_be() {
     ] {
         assert_eq!(fault("a.glb", bytes).0, Some(Place::Byte(at)));
     }
+    let mut other = glb(&gltf(""), &gltf_bytes());
+    let second = other.windows(4).rposition(|four| four == b"BIN\0").expect("it has one");
+    other[second..second + 4].copy_from_slice(b"XYZW");
+    let (place, reason) = fault("a.glb", other);
+    assert_eq!((place, &*reason), (Some(Place::Byte(12)), "its second part is not `BIN`"));
     let stray =
         gltf_bytes().into_iter().enumerate().map(|(i, byte)| if i == 36 { 7 } else { byte });
     let (place, reason) = fault("a.glb", glb(&gltf(""), &stray.collect::<Vec<u8>>()));

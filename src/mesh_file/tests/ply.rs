@@ -32,6 +32,11 @@ fn a_ply_is_read_as_text_and_in_binary_of_either_order() {
     for big in [false, true] {
         assert_eq!(model("a.PLY", binary_ply(big)), read, "{big}");
     }
+    // In a text, a count may be of any type.
+    let weighed = text
+        .replace("end_header", "property list float float weights\nend_header")
+        .replace("4 0 1 2 3\n", "4 0 1 2 3 2 0.5 0.5\n");
+    assert_eq!(corners(&model("a.ply", weighed)), corners(&read));
 }
 
 #[test]

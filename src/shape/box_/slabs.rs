@@ -1,8 +1,7 @@
 //! Slabs: the part of a line between three pairs of parallel planes.
 //!
 //! **In:** a line, three normals and half widths. **Out:** where it enters the last and leaves the first, each
-//! with a bound on its error. **Invariant:** a line that cannot be told from one in a face of two boxes is in one
-//! of them at least.
+//! with a bound on its error. **Invariant:** what is left out is certainly missed.
 
 use super::{Chord, Ray};
 use crate::math::{Real, Vector3};
@@ -13,7 +12,7 @@ use crate::shape::Crossing;
 pub struct Slabs<R: Real = f64> {
     pub enter: Crossing<R>,
     pub leave: Crossing<R>,
-    /// As in [`SurfacePoint::face`].
+    /// As in [`SurfacePoint::face`](crate::shape::SurfacePoint::face).
     pub enter_face: u32,
     pub leave_face: u32,
 }
@@ -45,8 +44,12 @@ pub fn slabs<R: Real>(
     half_widths: [R; 3],
     ray: &Ray<R>,
 ) -> Option<Slabs<R>> {
-    let (found, is_flat) = through(centre, normals, half_widths, ray, None)?;
-    if is_flat { Some(decided(found, centre, normals, half_widths, ray)) } else { Some(found) }
+    let (found, is_nearly_along) = through(centre, normals, half_widths, ray, None)?;
+    if is_nearly_along {
+        Some(decided(found, centre, normals, half_widths, ray))
+    } else {
+        Some(found)
+    }
 }
 
 /// Of a line that goes nearly along a slab: where it would be in that one from before it enters the others until
@@ -103,7 +106,7 @@ pub(super) fn through<R: Real>(
     let mut enter =
         End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
     let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
-    let mut is_flat = false;
+    let mut is_nearly_along = false;
     for axis in 0..3 {
         let half_width = half_widths[axis];
         let Line { place, speed, place_error } =
@@ -123,7 +126,7 @@ pub(super) fn through<R: Real>(
                 }
                 continue;
             }
-            is_flat = true;
+            is_nearly_along = true;
         }
         let reciprocal = R::ONE / speed;
         let rising = speed > R::ZERO;
@@ -159,7 +162,7 @@ pub(super) fn through<R: Real>(
         enter_face: enter.face,
         leave_face: leave.face,
     };
-    Some((slabs, is_flat))
+    Some((slabs, is_nearly_along))
 }
 
 /// Whether a speed cannot be told from 0, or has no reciprocal.
@@ -233,7 +236,9 @@ impl<R: Real> Along<R> {
                 number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
             is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
         });
-        Self { axes, middle: number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO)) }
+        let middle = number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO));
+        // It has no end where the line is nearly along all three.
+        Self { axes, middle: if far < R::INFINITY { middle } else { R::ZERO } }
     }
 }
 
