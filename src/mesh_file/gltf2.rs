@@ -6,7 +6,6 @@
 //!
 //! **Source:** Khronos Group, "glTF 2.0 Specification".
 
-use gltf::binary::Error as BinaryError;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::material::AlphaMode;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -16,11 +15,8 @@ use gltf::json::{Index, Material, Node, Root};
 use super::build::{Builder, Corner};
 use super::json::Step::{Entry, Key};
 use super::json::Text;
-use super::{Beside, Fault, Place, data_uri};
+use super::{Beside, Fault, Place, data_uri, glb};
 use crate::math::{Matrix, Vector};
-
-/// A head of 12 bytes, and 8 before the document.
-const GLB_HEAD: usize = 20;
 
 /// What a file may require without being shown otherwise.
 const UNDERSTOOD: [&str; 3] =
@@ -30,8 +26,8 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
     let (text, held) = match bytes.strip_prefix(b"glTF") {
         None => (Text { bytes, start: None }, None),
         Some(_) => {
-            let (bytes, held) = parts(bytes)?;
-            (Text { bytes, start: Some(GLB_HEAD) }, held)
+            let (bytes, held) = glb::parts(bytes)?;
+            (Text { bytes, start: Some(glb::HEAD) }, held)
         }
     };
     let root: Root = gltf::json::deserialize::from_slice(text.bytes).map_err(|error| {
@@ -60,37 +56,6 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
     let buffers = buffers(&root, held, beside, text)?;
     let mut document = Document { root: &root, text, buffers, builder };
     document.nodes()
-}
-
-/// The document of a binary file, and its bytes.
-fn parts(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), Fault> {
-    let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
-    // The crate takes 12 from this number.
-    if length.is_none_or(|length| length < 12) {
-        return Err(Fault::new("its head tells no length").at(Place::Byte(8)));
-    }
-    let version =
-        bytes.get(4..8).and_then(|four| four.try_into().ok()).map_or(0, u32::from_le_bytes);
-    if version != 2 {
-        let fault = Fault::new(format!("it is binary glTF of version {version}, and 2 is read"));
-        return Err(fault.at(Place::Byte(4)));
-    }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|error| {
-        let is_kind = matches!(
-            error,
-            gltf::Error::Binary(BinaryError::ChunkType(_) | BinaryError::UnknownChunkType(_))
-        );
-        let reason = match bytes.get(16..20) {
-            Some(b"JSON") if is_kind => "its second part is not `BIN`",
-            Some(b"JSON") => "the file ends before its parts do",
-            Some(_) => "its first part is not `JSON`",
-            None => "the file ends in its head",
-        };
-        Fault::new(reason).at(Place::Byte(12))
-    })?;
-    let end = GLB_HEAD + glb.json.len();
-    let text = bytes.get(GLB_HEAD..end).unwrap_or_default();
-    Ok((text, glb.bin.map(|bytes| bytes.into_owned())))
 }
 
 /// The byte of a text at a line and a column, both from 1.

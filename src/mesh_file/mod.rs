@@ -7,6 +7,7 @@
 
 mod build;
 mod data_uri;
+mod glb;
 mod gltf2;
 mod json;
 mod material;

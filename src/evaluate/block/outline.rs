@@ -106,8 +106,7 @@ impl Evaluator<'_> {
                 .at(last.span, "expected a point beside the line through the others");
             self.nothing(token, &last.here, diagnostic)?;
         }
-        self.skip_commas();
-        let open = self.take_word(Word::Open).is_some();
+        let open = self.take_open();
         let points: Vec<Point> = values(&points);
         let solid = Solid::Prism {
             spline,
@@ -275,8 +274,7 @@ impl Evaluator<'_> {
                 .at(last.span, "expected a radius of more than 0");
             self.nothing(token, &last.here, diagnostic)?;
         }
-        self.skip_commas();
-        let open = self.take_word(Word::Open).is_some();
+        let open = self.take_open();
         let points: Vec<Point> = values(&points);
         Ok(Solid::Sor { points: points.into(), open })
     }

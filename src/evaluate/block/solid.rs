@@ -11,6 +11,12 @@ use super::habit::told_comma;
 use super::part::Given;
 
 impl Evaluator<'_> {
+    /// Whether `open` stands next, perhaps behind a comma.
+    pub(super) fn take_open(&mut self) -> bool {
+        self.skip_commas();
+        self.take_word(Word::Open).is_some()
+    }
+
     /// How to read the block of a solid; `None` for other words, and what is not built.
     pub(super) fn parts_of(word: Word) -> Option<fn(&mut Self, &Token) -> Outcome<Solid>> {
         Some(match word {
@@ -186,8 +192,7 @@ impl Evaluator<'_> {
         if radius.value < 0.0 {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
-        self.skip_commas();
-        let open = self.take_word(Word::Open).is_some();
+        let open = self.take_open();
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
     }
 
@@ -244,8 +249,7 @@ impl Evaluator<'_> {
                 self.lint_negative_radius(&radius.here, radius.span, radius.value);
             }
         }
-        self.skip_commas();
-        let open = self.take_word(Word::Open).is_some();
+        let open = self.take_open();
         Ok(Solid::Cone { ends: [base.value, cap.value], radii, open })
     }
 
