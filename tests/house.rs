@@ -131,7 +131,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("image", &["picture"]),
     ("ttf_parser", &["font/"]),
     ("png", &["picture"]),
-    ("gltf", &["mesh_file/gltf2.rs"]),
+    ("gltf", &["mesh_file/glb.rs", "mesh_file/gltf2.rs"]),
     ("ply_rs_bw", &["mesh_file/ply.rs"]),
     ("rayon", &["trace/"]),
     ("stl_io", &["mesh_file/stl.rs"]),
