@@ -198,9 +198,12 @@ fn column(
         .collect()
 }
 
+/// A camera, things, the picture's size, and which pixels of a column are looked at.
+type Row<'a> = (&'a str, &'a str, (u32, u32), (u32, Range<u32>));
+
 #[test]
 fn a_ray_in_a_wall_sees_what_one_a_little_beside_it_sees() {
-    let rows: [(&str, &str, (u32, u32), (u32, Range<u32>)); 7] = [
+    let rows: [Row; 7] = [
         // Through the tip, where two share a wall.
         (
             "orthographic location <3.118389338327481, -3.118389338327481, 1.0914362684146184>
