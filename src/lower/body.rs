@@ -317,8 +317,10 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     let placement = traceable(placement, &what)?;
     let exact = || Box::new(ExactPlacement::new(map.rows(), map.offset(), &placement));
     let has_edges = matches!(*body, Body::Mesh(_) | Body::HeightField(_));
-    let has_ends =
-        matches!(*body, Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_));
+    let has_ends = matches!(
+        *body,
+        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) | Body::Lathe(_)
+    );
     let has_faces = matches!(*body, Body::Isosurface(_));
     let exact = (has_edges || has_ends || has_faces).then(exact);
     Ok(Placed { body, placement, root_tolerance: 0.0, exact })

@@ -91,6 +91,19 @@ pub fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
     (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }
 
+/// How a line lies to a plane across a local axis, in lengths along that axis, as exact as its ray and the place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rise {
+    /// How far its start is up from the plane.
+    pub up: f64,
+    /// How much it rises for each length of the ray.
+    pub speed: f64,
+    /// How great the numbers may be of which `up` was made: the start's, along the plane's normal.
+    pub up_size: f64,
+    /// The same of `speed`.
+    pub speed_size: f64,
+}
+
 /// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
 /// world are so to the bit.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,10 +132,84 @@ impl ExactPlacement {
         Self { rows, centre, norm, condition: placement.condition(), is_mirrored }
     }
 
+    /// How a line of the world lies to the plane across a local axis where that coordinate is `end`.
+    pub fn rise(&self, axis: usize, end: f64, origin: Vector, direction: Vector) -> Rise {
+        let column = |index: usize| {
+            let [x, y, z] = self.rows.map(|row| row.components()[index % 3]);
+            DoubleVector::new(x, y, z)
+        };
+        let unit = |v: DoubleVector| v.normalized().unwrap_or(DoubleVector::ZERO);
+        let along = column(axis);
+        let normal = unit(unit(column(axis + 1)).cross(unit(column(axis + 2))));
+        let tall = normal.dot(along);
+        let from_plane = DoubleVector::from(origin) - self.centre - along * end.into();
+        let local = |v: DoubleVector| (normal.dot(v) / tall).round();
+        let steep = normal.round().abs() / tall.round().abs();
+        // Greater numbers may have cancelled; along an axis there are no others.
+        let size = |v: Vector| match normal.round().abs().max_element() == 1.0 {
+            true => steep.dot(v.abs()),
+            false => steep.element_sum() * v.abs().max_element(),
+        };
+        Rise {
+            up: local(from_plane),
+            speed: local(direction.into()),
+            up_size: size(origin),
+            speed_size: size(direction),
+        }
+    }
+
     /// The way from a point of the world to a local one, rounded once.
     pub fn way(&self, from: Vector, local: Vector) -> Vector {
         let local = DoubleVector::from(local);
         let [x, y, z] = self.rows.map(|row| row.dot(local));
         (DoubleVector::new(x, y, z) + (self.centre - DoubleVector::from(from))).round()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Random, tries};
+
+    fn space(axes: [DoubleVector; 3], centre: DoubleVector) -> ExactPlacement {
+        let [x, y, z] = axes.map(DoubleVector::components);
+        let rows = [0, 1, 2].map(|i| DoubleVector::new(x[i], y[i], z[i]));
+        let [x, y, z] = axes.map(DoubleVector::round);
+        let world_from_local = Matrix::from_cols(x, y, z);
+        let local_from_world = world_from_local.inverse();
+        let placement = Placement { centre: centre.round(), world_from_local, local_from_world };
+        ExactPlacement::new(rows, centre, &placement)
+    }
+
+    #[test]
+    fn a_ray_rises_alike_from_a_plane_that_two_spaces_share() {
+        let mut random = Random(1);
+        for _ in 0..tries() / 4 {
+            let double = DoubleVector::from;
+            let axes = random.matrix();
+            let [x, y, z] = [axes.x_axis, axes.y_axis, axes.z_axis];
+            let centre = random.point(1000.0);
+            // The plane at 1 of the one is that at −1 of the other.
+            let one = space([x, y, z].map(double), double(centre));
+            let quarter = double(y * 0.25);
+            let up = double(x * 0.5 - y) + double(z);
+            let middle = double(centre) + double(z) + up;
+            let other = space([double(x) + quarter, double(y) - double(x * 4.0), up], middle);
+
+            let little = random.number(-8.0, 8.0) * f64::EPSILON;
+            let mut along =
+                |slope| (x * random.number(-9.0, 9.0) + y * random.number(-9.0, 9.0)) + z * slope;
+            let (origin, way) = (centre + z + along(1000.0 * little), along(little));
+            let direction = way.normalize_or(x);
+            let rises =
+                [one.rise(2, 1.0, origin, direction), other.rise(2, -1.0, origin, direction)];
+            // How much higher the other is.
+            let [share, same] =
+                [rises[0].up_size / rises[1].up_size, rises[0].speed_size / rises[1].speed_size];
+            let is_one = |a: f64, b: f64| (a - share * b).abs() <= 1e-14 * a.abs() + 1e-25;
+            let [a, b] = rises;
+            assert!((share / same - 1.0).abs() < 1e-14, "{a:?} {b:?}");
+            assert!(is_one(a.up, b.up) && is_one(a.speed, b.speed), "{a:?} {b:?}");
+        }
     }
 }

@@ -40,77 +40,108 @@ impl Slab {
     /// Where the line enters and leaves.
     ///
     /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there. What is certainly met beyond
-    /// all of the body is met nowhere; for all that is known of a line so flat, its crossing might be anywhere
-    /// else beyond.
+    /// all of the body is met nowhere.
     pub fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
         let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
         let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
         let rounded = rounding(far, place);
         let flat_off = ray.blur_at(far) + rounded;
-        let beyond = |leaving| if leaving { f64::INFINITY } else { f64::NEG_INFINITY };
-        // Of two that touch the one is nudged inside, and has all that it may have; the other has nothing then, but
-        // surely whatever is left. A quarter, as a ray that starts from the surface keeps off by more.
-        let most = 0.25 * flat_off;
-        let steep = far * speed.abs();
-        let met = |end: f64, leaving| {
-            let (part, way) = if end == high { (cap, 1.0) } else { (base, -1.0) };
-            if steep <= most {
-                let gap = way * gap(ray, axis, end);
-                let falls_inside = way * nudge(ray)[axis] < 0.0;
-                let room = if falls_inside { -most } else { 0.5 * most };
-                if falls_inside || steep <= 0.25 * most {
-                    let whole = Met { t: beyond(leaving), error: 0.0, leaving, part };
-                    return (gap > room).then_some(whole);
-                }
-            }
+        if far * speed.abs() <= NEARLY_ALONG * flat_off {
+            return self.chord_along(ray);
+        }
+        let met = |end: f64, part, leaving| {
             let t = (end - place) / speed;
             if (t.abs() - far) * speed.abs() > flat_off {
-                return Some(Met { t: t * f64::INFINITY, error: 0.0, leaving, part });
+                return Met { t: t * f64::INFINITY, error: 0.0, leaving, part };
             }
             let off = ray.blur_at(t) + rounded;
-            Some(Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part })
+            Met { t, error: off / speed.abs() + 2.0 * U * t.abs(), leaving, part }
         };
-        let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };
-        Some((met(near, false)?, met(far, true)?))
+        Some(match speed > 0.0 {
+            true => (met(low, base, false), met(high, cap, true)),
+            false => (met(high, cap, false), met(low, base, true)),
+        })
+    }
+
+    /// Of a line that goes nearly along the planes.
+    #[cold]
+    #[inline(never)]
+    fn chord_along(&self, ray: &LocalRay) -> Option<(Met, Met)> {
+        let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
+        let beyond = |t, leaving, part| Met { t, error: 0.0, leaving, part };
+        let mut enter = beyond(f64::NEG_INFINITY, false, base);
+        let mut leave = beyond(f64::INFINITY, true, cap);
+        for (end, part, out) in [(low, base, -1.0), (high, cap, 1.0)] {
+            match Level::of(ray, axis, end, far) {
+                Level::In if out * nudge(ray)[axis] < 0.0 => {}
+                Level::Beside(side) if out * side < 0.0 => {}
+                Level::In | Level::Beside(_) => return None,
+                Level::Through { s: t, error, rise } => {
+                    let leaving = out * rise > 0.0;
+                    let met = Met { t, error, leaving, part };
+                    *(if leaving { &mut leave } else { &mut enter }) = met;
+                }
+            }
+        }
+        Some((enter, leave))
     }
 }
+
+/// A line is asked how it lies to a plane in the world where rounding may move its crossing by a
+/// sixty-fourth of the body.
+const NEARLY_ALONG: f64 = 64.0;
 
 /// How far a plane may be off as a line at `place` along its axis sees it.
 fn rounding(far: f64, place: f64) -> f64 {
     2.0 * U * (0.5 * far + place.abs())
 }
 
-/// From a line to a plane across an axis that it goes along, as the world has it: there all that touches it has
-/// the same.
-#[cold]
-fn gap(ray: &LocalRay, axis: usize, end: f64) -> f64 {
-    let seen = ray.in_world.and_then(|InWorld { ray, placed }| {
-        placed.exact.as_deref().map(|exact| (ray, &placed.placement, exact))
-    });
-    let Some((line, placement, exact)) = seen else { return end - ray.nearest[axis] };
-    let mut place = Vector::ZERO;
-    place[axis] = end;
-    let way = exact.way(line.origin, place);
-    let start = placement.local_point(line.origin).dot(ray.direction);
-    placement.local_direction(way)[axis] + ray.direction[axis] * start
+/// How a line that goes nearly along a plane lies to it, as the world has it: of two solids that touch there, both
+/// are told the same.
+pub(super) enum Level {
+    /// In the plane, as far as is known of a ray whose numbers were rounded.
+    In,
+    /// As far as the body goes, up from it or down, by the sign.
+    Beside(f64),
+    /// It goes through the plane, up or down.
+    Through { s: f64, error: f64, rise: f64 },
 }
 
-/// Which way along an axis, 1 or −1, a line is off a plane across it where a body has an end, no farther than 1 from
-/// the local origin: in the plane, as far as rounding tells, as a [`Slab`] there has it. `holds` tells whether the
-/// body is on the side of that way. `None` where the line does not go along.
-#[cold]
-pub(super) fn side(
-    ray: &LocalRay,
-    axis: usize,
-    end: f64,
-    holds: impl FnOnce(f64) -> bool,
-) -> Option<f64> {
-    let far = 2.0;
-    let most = 0.25 * (ray.blur_at(far) + rounding(far, ray.nearest[axis]));
-    if far * ray.direction[axis].abs() > most {
-        return None;
+/// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane.
+const MEANT: f64 = 16.0 * U;
+
+impl Level {
+    /// **Error:** the plane is taken as its local numbers have it, which a body may have rounded by u·far/2.
+    #[cold]
+    pub fn of(ray: &LocalRay, axis: usize, end: f64, far: f64) -> Self {
+        let in_world = ray.in_world.and_then(|InWorld { ray, placed }| {
+            placed.exact.as_deref().map(|exact| (ray, &placed.placement, exact))
+        });
+        let Some((line, placement, exact)) = in_world else {
+            let (up, speed) = (ray.nearest[axis] - end, ray.direction[axis]);
+            let off = ray.blur_at(far) + rounding(far, ray.nearest[axis]);
+            let is_in = up.abs() <= 0.25 * off && far * speed.abs() <= 0.25 * off;
+            return if is_in { Self::In } else { Self::off(up, speed, far, (0.0, off)) };
+        };
+        let rise = exact.rise(axis, end, line.origin, line.direction);
+        if rise.up.abs() <= MEANT * rise.up_size && rise.speed.abs() <= MEANT * rise.speed_size {
+            return Self::In;
+        }
+        let start = placement.local_point(line.origin).dot(ray.direction);
+        let step = placement.local_direction(line.direction).length();
+        Self::off(rise.up, rise.speed / step, far, (start, U * far))
     }
-    let way = nudge(ray)[axis].signum();
-    let room = if holds(way) { most } else { 0.5 * most };
-    Some(if way * gap(ray, axis, end) > room { -way } else { way })
+
+    /// Of a line that is `up` from the plane at `start`.
+    fn off(up: f64, speed: f64, far: f64, (start, off): (f64, f64)) -> Self {
+        if speed == 0.0 {
+            return Self::Beside(up);
+        }
+        let s = start - up / speed;
+        let error = off / speed.abs() + 4.0 * U * (start.abs() + s.abs());
+        match s.abs() - error > far {
+            true => Self::Beside(-s * speed),
+            false => Self::Through { s, error, rise: speed },
+        }
+    }
 }

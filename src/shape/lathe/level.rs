@@ -6,23 +6,29 @@ use crate::math::Vector;
 use crate::shape::U;
 use crate::shape::body::{Height, LocalRay};
 use crate::shape::curve::Outline;
-use crate::shape::slab::side;
+use crate::shape::slab::{Level, nudge};
 
 /// The line, so much above or below a level end that it goes along that rounding tells.
 pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Line {
-    if line.speed.abs() > line.off {
+    if line.speed.abs() > 2.0 * line.off {
         return line;
     }
-    let is_near = |height: f64| (height - line.start).abs() <= 8.0 * line.off;
     let far = 64.0 * line.off;
-    let side = outline.pieces.iter().find_map(|piece| {
-        let ([a, height], [b, _]) = (piece.first(), piece.last());
-        let is_level = piece.points().iter().all(|point| point[1] == height);
-        let holds = |way: f64| outline.contains([0.5 * (a + b), height + way * far]);
-        (is_level && is_near(height)).then(|| side(ray, 2, height, holds)).flatten()
+    let height = outline.pieces.iter().find_map(|piece| {
+        let [_, height] = piece.first();
+        if !piece.points().iter().all(|point| point[1] == height) {
+            return None;
+        }
+        match Level::of(ray, 2, height, 2.0) {
+            Level::In => Some(height + far.copysign(nudge(ray).z)),
+            Level::Beside(side) if (height - line.start).abs() <= 8.0 * line.off => {
+                Some(line.start + far.copysign(side))
+            }
+            _ => None,
+        }
     });
-    match side {
-        Some(side) => line.raised(side * far),
+    match height {
+        Some(height) => line.raised_to(height),
         None => line,
     }
 }

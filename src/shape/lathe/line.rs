@@ -44,9 +44,9 @@ impl Line {
         }
     }
 
-    /// The line so much higher.
-    pub fn raised(self, by: f64) -> Self {
-        Self { start: self.start + by, raised: by, ..self }
+    /// The line where it is so high.
+    pub fn raised_to(self, start: f64) -> Self {
+        Self { start, raised: start - self.start, ..self }
     }
 
     /// dz times where the line is at the height z, across the axis.
