@@ -6,7 +6,7 @@ mod slabs;
 use super::slab::falls_inside;
 use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
 use crate::math::{UnitVector, Vector, Vector3};
-use slabs::{Along, Line, STEEP, through, through_along};
+use slabs::{Along, Line, through, through_steeply};
 pub use slabs::{Slabs, slabs};
 
 /// **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are independent.
@@ -58,11 +58,12 @@ impl Box_ {
     /// is the other's, misses it.
     #[inline(always)]
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
-        let (slabs, is_nearly_along) =
-            through(self.centre, self.directions(), self.half_widths, ray, None)?;
-        match is_nearly_along {
-            true => self.chord_along(ray),
-            false => Some(slabs.chord()).filter(|_| !self.yields(ray)),
+        match through_steeply(self.centre, self.directions(), self.half_widths, ray) {
+            Some(slabs) => Some(slabs?.chord()),
+            None => {
+                let Chord { enter, leave } = self.chord_along(ray)?;
+                Some(Chord { enter, leave })
+            }
         }
     }
 
@@ -70,25 +71,25 @@ impl Box_ {
     #[cold]
     #[inline(never)]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
-        let chord = through_along(self.centre, self.directions(), self.half_widths, ray)?.chord();
-        (!self.yields_face(ray)).then_some(chord)
+        let along = self.along(ray);
+        let slabs = through(self.centre, self.directions(), self.half_widths, ray, Some(along))?;
+        (!self.yields_face(ray, &along)).then_some(slabs.chord())
     }
 
-    #[inline(always)]
-    fn yields(&self, ray: &Ray) -> bool {
-        let is_along = |normal: Vector| normal.dot(ray.direction).abs() <= STEEP;
-        self.directions().into_iter().any(is_along) && self.yields_face(ray)
+    /// The faces that a line goes along that a part has.
+    fn along(&self, ray: &Ray) -> Along<f64> {
+        let normals = self.directions();
+        Along::of(self.centre, normals, self.half_widths, ray).meant(normals, ray)
     }
 
     /// **Error:** as of [`slabs`]. Nothing that starts from the surface is so near to a face.
     #[cold]
-    fn yields_face(&self, ray: &Ray) -> bool {
-        let along = Along::of(self.centre, self.directions(), self.half_widths, ray);
+    fn yields_face(&self, ray: &Ray, along: &Along<f64>) -> bool {
         (0..3).any(|axis| {
             let normal = self.normals[axis].get();
             let line = Line::of(self.centre, normal, self.half_widths[axis], ray);
             let place = line.place + line.speed * along.middle;
-            let is_near = (place.abs() - self.half_widths[axis]).abs() <= line.place_error;
+            let is_near = (place.abs() - self.half_widths[axis]).abs() <= along.rooms[axis];
             let is_sheet = self.half_widths[axis] == 0.0;
             along.axes[axis] && !is_sheet && is_near && !falls_inside(normal * place.signum())
         })
@@ -105,16 +106,18 @@ impl Box_ {
             true => (slabs.leave.t, slabs.leave_face),
             false => (slabs.enter.t, slabs.enter_face),
         };
-        let face = match through(centre, directions, half_widths, ray, None) {
-            Some((slabs, false)) => end(slabs).1,
+        // 0 where this is no crossing of the box.
+        let face = match through_steeply(centre, directions, half_widths, ray) {
+            Some(slabs) => slabs.map(end).map_or(0, |(_, face)| face),
             // As it was met: by itself, or as a part.
-            Some((slabs, true)) => {
-                let all = [Some(slabs), through_along(centre, directions, half_widths, ray)];
+            None => {
+                let along = self.along(ray);
+                let all = [None, Some(along)]
+                    .map(|along| through(centre, directions, half_widths, ray, along).map(end));
                 let off = |(met, _): &(f64, u32)| (met - t).abs();
-                let all = all.into_iter().flatten().map(end);
+                let all = all.into_iter().flatten();
                 all.min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |(_, face)| face)
             }
-            None => 0, // Not a crossing of this box.
         };
         self.surface_of_face(face, ray, t)
     }

@@ -44,18 +44,60 @@ pub fn slabs<R: Real>(
     half_widths: [R; 3],
     ray: &Ray<R>,
 ) -> Option<Slabs<R>> {
-    let (found, is_nearly_along) = through(centre, normals, half_widths, ray, None)?;
-    if is_nearly_along {
-        Some(decided(found, centre, normals, half_widths, ray))
-    } else {
-        Some(found)
+    match through_steeply(centre, normals, half_widths, ray) {
+        Some(found) => found,
+        None => {
+            // Put together anew, so that what is found steeply stays in registers.
+            let Slabs { enter, leave, enter_face, leave_face } =
+                through_nearly_along(centre, normals, half_widths, ray)?;
+            Some(Slabs { enter, leave, enter_face, leave_face })
+        }
+    }
+}
+
+/// As [`slabs`]; `None` of a line that is so slow across a slab that the speed's own error counts.
+#[inline(always)]
+pub(super) fn through_steeply<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Option<Option<Slabs<R>>> {
+    let start = ray.origin - centre;
+    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+    let mut part = Part::WHOLE;
+    for axis in 0..3 {
+        let (normal, half_width) = (normals[axis], half_widths[axis]);
+        let line = Line::from(start, reach, centre, normal, half_width, ray.direction);
+        if line.speed.abs() <= R::from_f64(STEEP) {
+            return None;
+        }
+        part.cut(axis, line, half_width, speed_error());
+    }
+    Some(part.slabs())
+}
+
+#[cold]
+#[inline(never)]
+fn through_nearly_along<R: Real>(
+    centre: R::Vector,
+    normals: [R::Vector; 3],
+    half_widths: [R; 3],
+    ray: &Ray<R>,
+) -> Option<Slabs<R>> {
+    let found = through(centre, normals, half_widths, ray, None)?;
+    let is_told = |normal: R::Vector| {
+        let (speed, size) = (normal.dot(ray.direction), normal.abs_dot(ray.direction));
+        speed.abs() > R::from_f64(STEEP) || is_level(speed, speed_error::<R>() * size)
+    };
+    match normals.into_iter().all(is_told) {
+        true => Some(found),
+        false => Some(decided(found, centre, normals, half_widths, ray)),
     }
 }
 
 /// Of a line that goes nearly along a slab: where it would be in that one from before it enters the others until
 /// it has left them, it is, whatever rounding might have made of the slab's ends.
-#[cold]
-#[inline(never)]
 fn decided<R: Real>(
     found: Slabs<R>,
     centre: R::Vector,
@@ -63,7 +105,8 @@ fn decided<R: Real>(
     half_widths: [R; 3],
     ray: &Ray<R>,
 ) -> Slabs<R> {
-    let others = through_along(centre, normals, half_widths, ray);
+    let along = Along::of(centre, normals, half_widths, ray);
+    let others = through(centre, normals, half_widths, ray, Some(along));
     let is_same = |one: Crossing<R>, other: Crossing<R>| one.t == other.t;
     Slabs {
         enter: match others {
@@ -78,56 +121,62 @@ fn decided<R: Real>(
     }
 }
 
-/// As a line that goes along those slabs which it cannot be told to leave on its way through the others.
+/// The line's part in all slabs; it goes along those that it is along for certain, and those of which `along` says
+/// so.
 #[cold]
 #[inline(never)]
-pub(super) fn through_along<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Slabs<R>> {
-    let along = Along::of(centre, normals, half_widths, ray);
-    Some(through(centre, normals, half_widths, ray, Some(along))?.0)
-}
-
-/// The line's part in all slabs, and whether it is nearly along one that it is not known to go along.
-#[inline(always)]
 pub(super) fn through<R: Real>(
     centre: R::Vector,
     normals: [R::Vector; 3],
     half_widths: [R; 3],
     ray: &Ray<R>,
     along: Option<Along<R>>,
-) -> Option<(Slabs<R>, bool)> {
-    let number = R::from_f64;
-    let start = ray.origin - centre;
-    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
-    let mut enter =
-        End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 };
-    let mut leave = End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 };
-    let mut is_nearly_along = false;
+) -> Option<Slabs<R>> {
+    let mut part = Part::WHOLE;
     for axis in 0..3 {
-        let half_width = half_widths[axis];
-        let Line { place, speed, place_error } =
-            Line::from(start, reach, centre, normals[axis], half_width, ray.direction);
-        let mut speed_error = number(10.0) * R::UNIT_ROUNDOFF;
-        if speed.abs() <= number(STEEP) {
+        let (normal, half_width) = (normals[axis], half_widths[axis]);
+        let line = Line::of(centre, normal, half_width, ray);
+        let is_slow = line.speed.abs() <= R::from_f64(STEEP);
+        let speed_error = match is_slow {
             // A normal along an axis has an exact speed, however small.
-            speed_error = speed_error * normals[axis].abs_dot(ray.direction);
-            let middle = match along {
-                Some(along) if along.axes[axis] => Some(along.middle),
-                _ if is_level(speed, speed_error) => Some(R::ZERO),
-                _ => None,
-            };
-            if let Some(middle) = middle {
-                if (place + speed * middle).abs() - half_width > place_error {
+            true => speed_error::<R>() * normal.abs_dot(ray.direction),
+            false => speed_error(),
+        };
+        let along = match along {
+            Some(along) if is_slow && along.axes[axis] => Some((along.middle, along.rooms[axis])),
+            _ if is_slow && is_level(line.speed, speed_error) => Some((R::ZERO, line.place_error)),
+            _ => None,
+        };
+        match along {
+            Some((middle, room)) => {
+                let place = line.place + line.speed * middle;
+                if place.abs() - half_width > room {
                     return None;
                 }
-                continue;
             }
-            is_nearly_along = true;
+            None => part.cut(axis, line, half_width, speed_error),
         }
+    }
+    part.slabs()
+}
+
+/// The part of a line that is in some slabs.
+struct Part<R: Real> {
+    enter: End<R>,
+    leave: End<R>,
+}
+
+impl<R: Real> Part<R> {
+    const WHOLE: Self = Self {
+        enter: End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 },
+        leave: End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 },
+    };
+
+    /// Leaves what of it is in one more, which the line goes through.
+    #[inline(always)]
+    fn cut(&mut self, axis: usize, line: Line<R>, half_width: R, speed_error: R) {
+        let Self { enter, leave } = self;
+        let Line { place, speed, place_error } = line;
         let reciprocal = R::ONE / speed;
         let rising = speed > R::ZERO;
         let side = if rising { half_width } else { -half_width };
@@ -150,19 +199,29 @@ pub(super) fn through<R: Real>(
             (leave.t, leave.face) = (far, second);
         }
     }
-    // Past all numbers when the ray moves along every slab.
-    let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
-    if !met {
-        return None;
+
+    #[inline(always)]
+    fn slabs(self) -> Option<Slabs<R>> {
+        let Self { enter, mut leave } = self;
+        // Past all numbers when the ray moves along every slab.
+        let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
+        if !met {
+            return None;
+        }
+        leave.t = leave.t.max(enter.t);
+        Some(Slabs {
+            enter: enter.crossing(),
+            leave: leave.crossing(),
+            enter_face: enter.face,
+            leave_face: leave.face,
+        })
     }
-    leave.t = leave.t.max(enter.t);
-    let slabs = Slabs {
-        enter: enter.crossing(),
-        leave: leave.crossing(),
-        enter_face: enter.face,
-        leave_face: leave.face,
-    };
-    Some((slabs, is_nearly_along))
+}
+
+/// How far v may be off.
+#[inline(always)]
+fn speed_error<R: Real>() -> R {
+    R::from_f64(10.0) * R::UNIT_ROUNDOFF
 }
 
 /// Whether a speed cannot be told from 0, or has no reciprocal.
@@ -207,6 +266,8 @@ impl<R: Real> Line<R> {
 #[derive(Clone, Copy)]
 pub(super) struct Along<R: Real> {
     pub axes: [bool; 3],
+    /// How far the line may be off each slab.
+    pub rooms: [R; 3],
     /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
     pub middle: R,
 }
@@ -232,18 +293,26 @@ impl<R: Real> Along<R> {
         let far = enter.abs().max(leave.abs());
         let axes = [0, 1, 2].map(|axis| {
             let Line { speed, place_error, .. } = lines[axis];
-            let speed_error =
-                number(10.0) * R::UNIT_ROUNDOFF * normals[axis].abs_dot(ray.direction);
+            let speed_error = speed_error::<R>() * normals[axis].abs_dot(ray.direction);
             is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
         });
         let middle = number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO));
         // It has no end where the line is nearly along all three.
-        Self { axes, middle: if far < R::INFINITY { middle } else { R::ZERO } }
+        let rooms = lines.map(|line| line.place_error);
+        Self { axes, rooms, middle: if far < R::INFINITY { middle } else { R::ZERO } }
+    }
+
+    /// With room for the start's roundings, of a ray that was meant to lie in a face: 2u·|N|·|S|. What leaves a
+    /// face is off it by more.
+    pub fn meant(self, normals: [R::Vector; 3], ray: &Ray<R>) -> Self {
+        let twice = R::from_f64(2.0) * R::UNIT_ROUNDOFF;
+        let more = |axis: usize| twice * normals[axis].abs_dot(ray.origin);
+        Self { rooms: [0, 1, 2].map(|axis| self.rooms[axis] + more(axis)), ..self }
     }
 }
 
 /// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
-pub(super) const STEEP: f64 = 1.0 / 1_048_576.0;
+const STEEP: f64 = 1.0 / 1_048_576.0;
 /// Slower than this a ray is along the slab: the speed has no reciprocal.
 const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
 
