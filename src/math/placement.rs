@@ -145,16 +145,18 @@ impl ExactPlacement {
         let from_plane = DoubleVector::from(origin) - self.centre - along * end.into();
         let local = |v: DoubleVector| (normal.dot(v) / tall).round();
         let steep = normal.round().abs() / tall.round().abs();
-        // Greater numbers may have cancelled; along an axis there are no others.
-        let size = |v: Vector| match normal.round().abs().max_element() == 1.0 {
-            true => steep.dot(v.abs()),
-            false => steep.element_sum() * v.abs().max_element(),
+        let is_on_axis = normal.round().abs().max_element() == 1.0;
+        // Greater numbers may have cancelled; along an axis there are no others, but for what the axis is off by.
+        let size = |v: Vector, greatest: Vector| {
+            let most = steep.element_sum() * greatest.abs().max_element();
+            let noise = most * f64::EPSILON;
+            if is_on_axis { steep.dot(v.abs()) + noise } else { most }
         };
         Rise {
             up: local(from_plane),
             speed: local(direction.into()),
-            up_size: size(origin),
-            speed_size: size(direction),
+            up_size: size(origin, origin.abs().max(from_plane.round().abs())),
+            speed_size: size(direction, direction),
         }
     }
 

@@ -76,10 +76,9 @@ impl Box_ {
         (!self.yields_face(ray, &along)).then_some(slabs.chord())
     }
 
-    /// The faces that a line goes along that a part has.
+    /// The faces that a line goes along.
     fn along(&self, ray: &Ray) -> Along<f64> {
-        let normals = self.directions();
-        Along::of(self.centre, normals, self.half_widths, ray).meant(normals, ray)
+        Along::of(self.centre, self.directions(), self.half_widths, ray)
     }
 
     /// **Error:** as of [`slabs`]. Nothing that starts from the surface is so near to a face.
@@ -89,7 +88,7 @@ impl Box_ {
             let normal = self.normals[axis].get();
             let line = Line::of(self.centre, normal, self.half_widths[axis], ray);
             let place = line.place + line.speed * along.middle;
-            let is_near = (place.abs() - self.half_widths[axis]).abs() <= along.rooms[axis];
+            let is_near = (place.abs() - self.half_widths[axis]).abs() <= line.place_error;
             let is_sheet = self.half_widths[axis] == 0.0;
             along.axes[axis] && !is_sheet && is_near && !falls_inside(normal * place.signum())
         })

@@ -39,8 +39,8 @@ pub(super) struct Slab {
 impl Slab {
     /// Where the line enters and leaves.
     ///
-    /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there. What is certainly met beyond
-    /// all of the body is met nowhere.
+    /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there; of a line that goes nearly along,
+    /// that of [`Level`]. What is certainly met beyond all of the body is met nowhere.
     pub fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
         let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
         let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
@@ -107,11 +107,13 @@ pub(super) enum Level {
     Through { s: f64, error: f64, rise: f64 },
 }
 
-/// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane.
+/// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane. One that
+/// leaves the plane by so small a slope may be told to be in it: it goes along the surface, and brings it no light.
 const MEANT: f64 = 16.0 * U;
 
 impl Level {
-    /// **Error:** the plane is taken as its local numbers have it, which a body may have rounded by u·far/2.
+    /// In, where the start is as near to the plane and the way as level as rounding makes them of a ray that was
+    /// meant to lie there: the ray's own rounding, and the body's, as its plane may be off by u·far/2.
     #[cold]
     pub fn of(ray: &LocalRay, axis: usize, end: f64, far: f64) -> Self {
         let in_world = ray.in_world.and_then(|InWorld { ray, placed }| {
@@ -124,24 +126,27 @@ impl Level {
             return if is_in { Self::In } else { Self::off(up, speed, far, (0.0, off)) };
         };
         let rise = exact.rise(axis, end, line.origin, line.direction);
-        if rise.up.abs() <= MEANT * rise.up_size && rise.speed.abs() <= MEANT * rise.speed_size {
-            return Self::In;
-        }
         let start = placement.local_point(line.origin).dot(ray.direction);
         let step = placement.local_direction(line.direction).length();
-        Self::off(rise.up, rise.speed / step, far, (start, U * far))
+        let is_near = rise.up.abs() <= MEANT * rise.up_size + U * far;
+        let is_level = rise.speed.abs() <= (MEANT * rise.speed_size).max(U * step);
+        match is_near && is_level {
+            true => Self::In,
+            false => Self::off(rise.up, rise.speed / step, far, (start, U * far)),
+        }
     }
 
-    /// Of a line that is `up` from the plane at `start`.
+    /// Of a line that is `up` from the plane at `start`. **Error:** `off`, how far the plane may be off, over the
+    /// speed, and 4u·(|start| + |s|).
     fn off(up: f64, speed: f64, far: f64, (start, off): (f64, f64)) -> Self {
-        if speed == 0.0 {
-            return Self::Beside(up);
+        if speed.abs() <= U {
+            return Self::Beside(up - speed * start);
         }
         let s = start - up / speed;
         let error = off / speed.abs() + 4.0 * U * (start.abs() + s.abs());
-        match s.abs() - error > far {
-            true => Self::Beside(-s * speed),
-            false => Self::Through { s, error, rise: speed },
+        match s.abs() - error <= far {
+            true => Self::Through { s, error, rise: speed },
+            false => Self::Beside(-s * speed),
         }
     }
 }

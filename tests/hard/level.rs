@@ -23,7 +23,9 @@ const BELOW: [&str; 6] = [
 ];
 
 /// Turns and sizes, and where to.
-const MAPS: [[&str; 2]; 6] = [
+const MAPS: [[&str; 2]; 8] = [
+    ["rotate 33*z rotate -20*z rotate -13*z", "translate <0, 3, 0>"],
+    ["scale <1, 0.3, -1> rotate <10, 20, 30>", "translate <0.1, 0.2, 0.3>"],
     ["rotate 30*z", ""],
     ["rotate <90, 0, 37>", ""],
     ["rotate <45, 0, 90>", "translate <7, 7, 1/3>"],

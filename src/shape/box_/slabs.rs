@@ -143,14 +143,14 @@ pub(super) fn through<R: Real>(
             false => speed_error(),
         };
         let along = match along {
-            Some(along) if is_slow && along.axes[axis] => Some((along.middle, along.rooms[axis])),
-            _ if is_slow && is_level(line.speed, speed_error) => Some((R::ZERO, line.place_error)),
+            Some(along) if is_slow && along.axes[axis] => Some(along.middle),
+            _ if is_slow && is_level(line.speed, speed_error) => Some(R::ZERO),
             _ => None,
         };
         match along {
-            Some((middle, room)) => {
+            Some(middle) => {
                 let place = line.place + line.speed * middle;
-                if place.abs() - half_width > room {
+                if place.abs() - half_width > line.place_error {
                     return None;
                 }
             }
@@ -266,8 +266,6 @@ impl<R: Real> Line<R> {
 #[derive(Clone, Copy)]
 pub(super) struct Along<R: Real> {
     pub axes: [bool; 3],
-    /// How far the line may be off each slab.
-    pub rooms: [R; 3],
     /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
     pub middle: R,
 }
@@ -298,16 +296,7 @@ impl<R: Real> Along<R> {
         });
         let middle = number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO));
         // It has no end where the line is nearly along all three.
-        let rooms = lines.map(|line| line.place_error);
-        Self { axes, rooms, middle: if far < R::INFINITY { middle } else { R::ZERO } }
-    }
-
-    /// With room for the start's roundings, of a ray that was meant to lie in a face: 2u·|N|·|S|. What leaves a
-    /// face is off it by more.
-    pub fn meant(self, normals: [R::Vector; 3], ray: &Ray<R>) -> Self {
-        let twice = R::from_f64(2.0) * R::UNIT_ROUNDOFF;
-        let more = |axis: usize| twice * normals[axis].abs_dot(ray.origin);
-        Self { rooms: [0, 1, 2].map(|axis| self.rooms[axis] + more(axis)), ..self }
+        Self { axes, middle: if far < R::INFINITY { middle } else { R::ZERO } }
     }
 }
 

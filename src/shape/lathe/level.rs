@@ -8,7 +8,8 @@ use crate::shape::body::{Height, LocalRay};
 use crate::shape::curve::Outline;
 use crate::shape::slab::{Level, nudge};
 
-/// The line, so much above or below a level end that it goes along that rounding tells.
+/// The line, so much above or below a level end that it goes along that rounding tells. One that is known to go
+/// through is left to the outline.
 pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Line {
     if line.speed.abs() > 2.0 * line.off {
         return line;
