@@ -167,13 +167,13 @@ const PLANTED: Knob = Knob {
 #[test]
 fn a_knob_that_does_nothing_is_said_to_buy_nothing() {
     let (world, origins) = compiled(BALLS, 0.0);
-    let options = Options { knobs: &[KNOBS[0], PLANTED], ..asked(40, 30) };
+    let options = Options { knobs: &[KNOBS[0], PLANTED], ..asked(24, 18) };
     let clock = Ticking::new(1.0 / 1024.0);
     let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
     let planted = report.knobs.iter().find(|knob| knob.name == "planted").expect("tried");
     assert_eq!(
         planted.sentence,
-        "planted buys nothing here: from 1 to 3 not one of 1200 audited pixels changes."
+        "planted buys nothing here: from 1 to 3 not one of 432 audited pixels changes."
     );
     assert!(planted.settings[1].is_own && planted.settings[1].row == 0);
     let antialias = &report.knobs[0];
@@ -355,10 +355,10 @@ fn a_root_that_takes_long_to_find_costs_more_than_one_that_does_not() {
 #[test]
 fn the_error_of_a_setting_is_that_of_the_picture_it_makes() {
     let (world, origins) = compiled(BALLS, 0.0);
-    let options = Options { knobs: &KNOBS[..2], ..asked(40, 30) };
+    let options = Options { knobs: &KNOBS[..2], ..asked(24, 18) };
     let clock = Ticking::new(1.0 / 1024.0);
     let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("not stopped");
-    assert_eq!(report.audited, 1200, "all of them");
+    assert_eq!(report.audited, 432, "all of them");
     let truth = Truth::new(&world, &origins, options.frame, 3);
     for (row, antialias, depth) in [
         (0, Antialias::default(), 5),
@@ -402,7 +402,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let (world, origins) = compiled(BALLS, 0.0);
     let clock = Ticking::new(1.0 / 1024.0);
     let report =
-        accuracy(&world, &origins, &asked(40, 30), &clock, &Unwatched).expect("not stopped");
+        accuracy(&world, &origins, &asked(24, 18), &clock, &Unwatched).expect("not stopped");
     let table = table::text(&report, "a.scene", 1, Width::Wide);
     let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
     assert_eq!(stars.len(), 4, "{table}");

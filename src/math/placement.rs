@@ -104,6 +104,29 @@ pub struct Rise {
     pub speed_size: f64,
 }
 
+impl Rise {
+    /// To the plane normal·P = distance, as its numbers are.
+    pub fn from_plane(normal: Vector, distance: f64, origin: Vector, direction: Vector) -> Self {
+        Self {
+            up: normal.dot(origin) - distance,
+            speed: normal.dot(direction),
+            up_size: size_along(normal, origin, origin.abs().max_element().max(distance.abs())),
+            speed_size: size_along(normal, direction, direction.abs().max_element()),
+        }
+    }
+}
+
+/// How great the numbers may be that make `v` along a normal, where none of those that made `v` is above
+/// `greatest`: they may have cancelled. Along an axis there are no others, but for what the axis is off by.
+fn size_along(normal: Vector, v: Vector, greatest: f64) -> f64 {
+    let steep = normal.abs();
+    let most = steep.element_sum() * greatest;
+    match steep.max_element() == steep.element_sum() {
+        true => steep.dot(v.abs()) + most * f64::EPSILON,
+        false => most,
+    }
+}
+
 /// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
 /// world are so to the bit.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,19 +167,13 @@ impl ExactPlacement {
         let tall = normal.dot(along);
         let from_plane = DoubleVector::from(origin) - self.centre - along * end.into();
         let local = |v: DoubleVector| (normal.dot(v) / tall).round();
-        let steep = normal.round().abs() / tall.round().abs();
-        let is_on_axis = normal.round().abs().max_element() == 1.0;
-        // Greater numbers may have cancelled; along an axis there are no others, but for what the axis is off by.
-        let size = |v: Vector, greatest: Vector| {
-            let most = steep.element_sum() * greatest.abs().max_element();
-            let noise = most * f64::EPSILON;
-            if is_on_axis { steep.dot(v.abs()) + noise } else { most }
-        };
+        let steep = normal.round() / tall.round();
+        let greatest = origin.abs().max(from_plane.round().abs()).max_element();
         Rise {
             up: local(from_plane),
             speed: local(direction.into()),
-            up_size: size(origin, origin.abs().max(from_plane.round().abs())),
-            speed_size: size(direction, direction),
+            up_size: size_along(steep, origin, greatest),
+            speed_size: size_along(steep, direction, direction.abs().max_element()),
         }
     }
 
@@ -192,11 +209,19 @@ mod tests {
             let [x, y, z] = [axes.x_axis, axes.y_axis, axes.z_axis];
             let centre = random.point(1000.0);
             // The plane at 1 of the one is that at −1 of the other.
-            let one = space([x, y, z].map(double), double(centre));
+            // Turned, so that the plane is across each axis; the other's space may be mirrored.
+            let axis = random.below(3);
+            let turned = |mut axes: [DoubleVector; 3]| {
+                axes.rotate_left(2 - axis);
+                axes
+            };
+            let one = space(turned([x, y, z].map(double)), double(centre));
+            let side = [1.0, -1.0][random.below(2)];
             let quarter = double(y * 0.25);
             let up = double(x * 0.5 - y) + double(z);
             let middle = double(centre) + double(z) + up;
-            let other = space([double(x) + quarter, double(y) - double(x * 4.0), up], middle);
+            let first = (double(x) + quarter) * side.into();
+            let other = space(turned([first, double(y) - double(x * 4.0), up]), middle);
 
             let little = random.number(-8.0, 8.0) * f64::EPSILON;
             let mut along =
@@ -204,7 +229,7 @@ mod tests {
             let (origin, way) = (centre + z + along(1000.0 * little), along(little));
             let direction = way.normalize_or(x);
             let rises =
-                [one.rise(2, 1.0, origin, direction), other.rise(2, -1.0, origin, direction)];
+                [one.rise(axis, 1.0, origin, direction), other.rise(axis, -1.0, origin, direction)];
             // How much higher the other is.
             let [share, same] =
                 [rises[0].up_size / rises[1].up_size, rises[0].speed_size / rises[1].speed_size];

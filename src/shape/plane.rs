@@ -1,7 +1,8 @@
 //! Plane: N·P = d; its inside is the half space N·P < d, and N points out of it.
 
-use super::slab::falls_inside;
+use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
+use crate::math::placement::Rise;
 use crate::math::{Real, UnitVector, Vector, Vector3};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,20 +24,17 @@ impl Plane {
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
         let speed = self.normal.get().dot(ray.direction);
         match speed.abs() <= NEARLY_ALONG {
-            true => self.chord_along(ray, speed),
+            true => self.chord_along(ray),
             false => self.chord(ray),
         }
     }
 
     /// **Error:** as of [`chord`]. Nothing that starts from the plane is so near to it.
     #[cold]
-    fn chord_along(&self, ray: &Ray, speed: f64) -> Option<Chord> {
+    fn chord_along(&self, ray: &Ray) -> Option<Chord> {
         let normal = self.normal.get();
-        let size = ray.origin.abs().element_sum() + self.distance.abs();
-        let error = inside_error(normal, self.distance, ray);
-        // Where nothing is rounded, a slope is one, however small.
-        let is_along = speed == 0.0 || 2.0 * size * speed.abs() < 4.0 * error;
-        if is_along && self.signed_distance(ray.origin).abs() <= error {
+        let rise = Rise::from_plane(normal, self.distance, ray.origin, ray.direction);
+        if lies_in(&rise, 1.0, 2.0 * U * self.distance.abs()) {
             return falls_inside(normal).then_some(Chord::WHOLE);
         }
         self.chord(ray)

@@ -9,6 +9,7 @@
 use super::U;
 use super::body::{InWorld, LocalRay, Met};
 use crate::math::Vector;
+use crate::math::placement::Rise;
 
 /// 1, ∛3 and ∛5: at right angles to no way that scenes have, not even to one turned by 30°, as 1 and √3 are.
 pub(super) const NUDGE: Vector = Vector::new(1.0, 1.442_249_570_307_408_3, 1.709_975_946_676_697);
@@ -111,9 +112,17 @@ pub(super) enum Level {
 /// leaves the plane by so small a slope may be told to be in it: it goes along the surface, and brings it no light.
 const MEANT: f64 = 16.0 * U;
 
+/// Whether a line starts as near to a plane, and goes as level, as rounding makes them of one that was meant to lie
+/// there: the ray's own, where it goes so far in a length along the normal's axis, and the plane's, by which that
+/// is `off`.
+#[cold]
+pub(super) fn lies_in(rise: &Rise, step: f64, off: f64) -> bool {
+    rise.up.abs() <= MEANT * rise.up_size + off
+        && rise.speed.abs() <= (MEANT * rise.speed_size).max(U * step)
+}
+
 impl Level {
-    /// In, where the start is as near to the plane and the way as level as rounding makes them of a ray that was
-    /// meant to lie there: the ray's own rounding, and the body's, as its plane may be off by u·far/2.
+    /// In, as [`lies_in`] has it of a plane that may be off by u·far/2.
     #[cold]
     pub fn of(ray: &LocalRay, axis: usize, end: f64, far: f64) -> Self {
         let in_world = ray.in_world.and_then(|InWorld { ray, placed }| {
@@ -128,9 +137,7 @@ impl Level {
         let rise = exact.rise(axis, end, line.origin, line.direction);
         let start = placement.local_point(line.origin).dot(ray.direction);
         let step = placement.local_direction(line.direction).length();
-        let is_near = rise.up.abs() <= MEANT * rise.up_size + U * far;
-        let is_level = rise.speed.abs() <= (MEANT * rise.speed_size).max(U * step);
-        match is_near && is_level {
+        match lies_in(&rise, step, U * far) {
             true => Self::In,
             false => Self::off(rise.up, rise.speed / step, far, (start, U * far)),
         }

@@ -3,44 +3,50 @@
 use crate::dice::Dice;
 use crate::held::rendered;
 
-/// Solids on y = −1, from above.
-const ABOVE: [&str; 5] = [
-    "box { <-2, -1, -2>, <2, -0.5, 2> }",
-    "cylinder { -y, -0.5*y, 2 }",
-    "prism { -1, -0.5, 4, <-2, -2>, <-2, 2>, <2, 2>, <2, -2> }",
-    "sor { 4, <2, -1.5>, <2, -1>, <2, -0.5>, <2, 0> }",
-    "lathe { linear_spline 4, <0, -1>, <2, -1>, <2, -0.5>, <0, -0.5> }",
+/// Solids on y = H, from above.
+const ABOVE: [&str; 6] = [
+    "box { <-2, H, -2>, <2, H + 0.5, 2> }",
+    "cylinder { H*y, (H + 0.5)*y, 2 }",
+    "cone { H*y, 2, (H + 0.5)*y, 1 }",
+    "prism { H, H + 0.5, 4, <-2, -2>, <-2, 2>, <2, 2>, <2, -2> }",
+    "sor { 4, <2, H - 0.5>, <2, H>, <2, H + 0.5>, <2, H + 1> }",
+    "lathe { linear_spline 4, <0, H>, <2, H>, <2, H + 0.5>, <0, H + 0.5> }",
 ];
 
 /// From below; the first has no end.
-const BELOW: [&str; 6] = [
-    "plane { y, -1 }",
-    "box { <-3, -2, -3>, <3, -1, 3> }",
-    "cylinder { -y, -2*y, 3 }",
-    "prism { -2, -1, 4, <-3, -3>, <-3, 3>, <3, 3>, <3, -3> }",
-    "sor { 4, <3, -3>, <3, -2>, <3, -1>, <3, 0> }",
-    "lathe { linear_spline 4, <0, -1>, <3, -1>, <3, -2>, <0, -2> }",
+const BELOW: [&str; 7] = [
+    "plane { y, H }",
+    "box { <-3, H - 1, -3>, <3, H, 3> }",
+    "cylinder { H*y, (H - 1)*y, 3 }",
+    "cone { H*y, 2.5, (H - 1)*y, 2.9 }",
+    "prism { H - 1, H, 4, <-3, -3>, <-3, 3>, <3, 3>, <3, -3> }",
+    "sor { 4, <3, H - 2>, <3, H - 1>, <3, H>, <3, H + 1> }",
+    "lathe { linear_spline 4, <0, H>, <3, H>, <3, H - 1>, <0, H - 1> }",
 ];
 
-/// Turns and sizes, and where to.
-const MAPS: [[&str; 2]; 8] = [
-    ["rotate 33*z rotate -20*z rotate -13*z", "translate <0, 3, 0>"],
-    ["scale <1, 0.3, -1> rotate <10, 20, 30>", "translate <0.1, 0.2, 0.3>"],
-    ["rotate 30*z", ""],
-    ["rotate <90, 0, 37>", ""],
-    ["rotate <45, 0, 90>", "translate <7, 7, 1/3>"],
-    ["rotate <37, 61, 33> scale 3", ""],
-    ["rotate <61.3, 0, 45> scale 3", "translate 3000"],
-    ["rotate 30*x scale 1e-6", ""],
+/// Turns and sizes, where to, and H.
+const MAPS: [[&str; 3]; 11] = [
+    ["rotate 33*z rotate -20*z rotate -13*z", "translate <0, 3, 0>", "-1"],
+    ["scale <1, 0.3, -1> rotate <10, 20, 30>", "translate <0.1, 0.2, 0.3>", "-1"],
+    ["rotate 30*z", "", "-1"],
+    ["rotate <90, 0, 37>", "", "-1"],
+    ["rotate <45, 0, 90>", "translate <7, 7, 1/3>", "-1"],
+    ["rotate <37, 61, 33> scale 3", "", "-1"],
+    ["rotate <61.3, 0, 45> scale 3", "translate 3000", "-1"],
+    ["rotate 30*x scale 1e-6", "", "-1"],
+    ["rotate <37, 61, 33>", "translate <7, 7, 1/3>", "0.1"],
+    ["rotate <12, -61, 3>", "", "100/3"],
+    ["scale <1, 1e-5, 1> rotate 0.06*z", "", "1/3"],
 ];
 
-/// The row of a picture that looks along y = −1, between the two beside it: where there is something.
-fn rows(camera: &str, things: &str, [turn, moved]: [&str; 2]) -> [Vec<bool>; 3] {
+/// The row of a picture that looks along y = H, between the two beside it: where there is something.
+fn rows(camera: &str, things: &str, [turn, moved, height]: [&str; 3]) -> [Vec<bool>; 3] {
     let film = rendered(
         &format!(
-            "#declare Way = function {{ transform {{ {turn} {moved} }} }}
+            "#declare H = {height};
+             #declare Way = function {{ transform {{ {turn} {moved} }} }}
              #declare Turn = function {{ transform {{ {turn} }} }}
-             camera {{ {camera} location Way(8, -1, 0) direction Turn(-8, 0, 0)
+             camera {{ {camera} location Way(8, H, 0) direction Turn(-8, 0, 0)
                       right Turn(0, 0, -8.1) up Turn(0, 6.25, 0) }}
              background {{ rgb <1, 0, 0> }}
              {things} pigment {{ rgb <0, 1, 0> }} finish {{ emission 1 }} {turn} {moved} }}"
@@ -51,25 +57,34 @@ fn rows(camera: &str, things: &str, [turn, moved]: [&str; 2]) -> [Vec<bool>; 3] 
 }
 
 /// What is wrong with two solids that touch in the plane that the camera looks along.
-fn faults(camera: &str, [above, below]: [&str; 2], map: [&str; 2]) -> Vec<String> {
+fn faults(camera: &str, [above, below]: [&str; 2], map: [&str; 3]) -> Vec<String> {
     let mut faults = Vec::new();
     let both = format!("intersection {{ {above} {below}");
     let [_, row, _] = rows(camera, &both, map);
     if row.contains(&true) {
         faults.push(format!("{camera} {both} {map:?}\n{}", line(&row)));
     }
-    let all = ["difference { box { -3, 3 }", "union {"];
+    let all = ["difference { box { <-3, H - 3, -3>, <3, H + 3, 3> }", "union {"];
     let is_endless = below == BELOW[0];
     for all in all.into_iter().take(if is_endless { 1 } else { 2 }) {
         let all = format!("{all} {above} {below}");
         let [before, row, next] = rows(camera, &all, map);
         assert!(before.contains(&true) || next.contains(&true), "{all} {map:?}");
-        if row != before && row != next {
+        // A cone's wall is slanted: its row may be wider than the one above and narrower than the one below.
+        let is_between = all.contains("cone")
+            && steps(&row) <= steps(&before).max(steps(&next))
+            && (0..33).all(|x| row[x] == before[x] || row[x] == next[x]);
+        if row != before && row != next && !is_between {
             let [before, row, next] = [before, row, next].map(|row| line(&row));
             faults.push(format!("{camera} {all} {map:?}\n{before}\n{row}\n{next}"));
         }
     }
     faults
+}
+
+/// How often a row goes over from something to nothing or back.
+fn steps(row: &[bool]) -> usize {
+    row.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 fn line(row: &[bool]) -> String {
@@ -84,10 +99,11 @@ fn a_camera_that_looks_along_the_face_of_two_solids_sees_nothing_of_both_and_no_
         let [x, y, z] = [0; 3].map(|_| dice.between(-180.0, 180.0));
         let size = dice.one_of(&["", "scale 3", "scale 1e-6", "scale <1.1, 0.3, 2>", "scale 1e5"]);
         let moved = dice.one_of(&["", "translate <7, 7, 1/3>", "translate 3000", "translate 1e-5"]);
-        (format!("{size} rotate <{x}, {y}, {z}>"), moved)
+        let height = dice.one_of(&["-1", "0.1", "1/3", "-7.7", "33", "0"]);
+        (format!("{size} rotate <{x}, {y}, {z}>"), moved, height)
     });
     let drawn: Vec<_> = drawn.collect();
-    let drawn = drawn.iter().map(|(turn, moved)| [turn.as_str(), moved]);
+    let drawn = drawn.iter().map(|(turn, moved, height)| [turn.as_str(), moved, height]);
     let mut found = Vec::new();
     let mut pairs = 0;
     for map in MAPS.into_iter().chain(drawn) {
