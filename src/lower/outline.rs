@@ -43,6 +43,16 @@ fn middle((low, high): (f64, f64)) -> f64 {
     if middle.is_finite() { middle } else { 0.5 * low + 0.5 * high }
 }
 
+/// Of numbers in a range, what they all can be told from without a rounding: its middle, where none is more than
+/// twice another, else 0.
+///
+/// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma 4.1).
+fn exact_middle((low, high): (f64, f64)) -> f64 {
+    let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
+    let is_beside_0 = (low > 0.0) == (high > 0.0) && most <= 2.0 * least;
+    if is_beside_0 { 0.5 * low + 0.5 * high } else { 0.0 }
+}
+
 /// The pieces of a curve through points, those that only tell slopes among them.
 ///
 /// **Source:** manual, section 3.4.5.1.8 ("Lathe"); the slopes are POV-Ray 3.7's, asked by `trace`.
@@ -153,7 +163,7 @@ pub fn prism(
 /// A lathe about the z axis. `None` where there is nothing of any size.
 pub fn lathe(spline: Spline, points: &[Point]) -> Result<Option<(Body, Affine)>, Fault> {
     let same = sameness(points);
-    let height = middle(range(points.iter().map(|point| point[1])));
+    let height = exact_middle(range(points.iter().map(|point| point[1])));
     let mut points = points.to_vec();
     let (before, behind) = spline.controls();
     let joints = if spline == Spline::Bezier { 4 } else { points.len() };
@@ -191,8 +201,8 @@ pub fn lathe(spline: Spline, points: &[Point]) -> Result<Option<(Body, Affine)>,
 pub fn sor(points: &[Point], open: bool) -> Result<Option<(Body, Affine)>, Fault> {
     let on_curve = &points[1..points.len() - 1];
     let heights = range(on_curve.iter().map(|point| point[1]));
-    let centre = middle(heights);
-    let tall = size_over(heights.1 - heights.0);
+    let centre = exact_middle(heights);
+    let tall = size_over((heights.0 - centre).abs().max((heights.1 - centre).abs()));
     let (_, widest) = range(points.iter().map(|point| point[0]));
     let size = size_over(widest);
     let radius = |i: usize| points[i][0] / size;

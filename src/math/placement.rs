@@ -3,7 +3,7 @@
 //! **Invariant:** every [`Placement`] is invertible and its two matrices undo each other within
 //! rounding.
 
-use super::double::DoubleVector;
+use super::double::{Double, DoubleVector};
 use super::{Matrix, Vector, reciprocal_power_of_two};
 
 /// `p ↦ matrix · (p − centre)`.
@@ -91,40 +91,38 @@ pub fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
     (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }
 
-/// How a line lies to a plane across a local axis, in lengths along that axis, as exact as its ray and the place.
+/// How a line lies to a plane: one across a local axis, in lengths along that axis, or one of the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise {
     /// How far its start is up from the plane.
     pub up: f64,
     /// How much it rises for each length of the ray.
     pub speed: f64,
-    /// How great the numbers may be of which `up` was made: the start's, along the plane's normal.
+    /// How great the numbers may be that made `up`, along the plane's normal: the start's, and how far the plane is
+    /// from 0. It is the same for all that have the plane.
     pub up_size: f64,
     /// The same of `speed`.
     pub speed_size: f64,
 }
 
 impl Rise {
-    /// To the plane normal·P = distance, as its numbers are.
-    pub fn from_plane(normal: Vector, distance: f64, origin: Vector, direction: Vector) -> Self {
+    /// To the plane normal·P = distance, exactly.
+    pub fn from_plane(normal: Vector, distance: Double, origin: Vector, direction: Vector) -> Self {
+        let along = |v: Vector| DoubleVector::from(normal).dot(v.into());
+        let greatest = origin.abs().max_element().max(distance.round().abs());
         Self {
-            up: normal.dot(origin) - distance,
-            speed: normal.dot(direction),
-            up_size: size_along(normal, origin, origin.abs().max_element().max(distance.abs())),
-            speed_size: size_along(normal, direction, direction.abs().max_element()),
+            up: (along(origin) - distance).round(),
+            speed: along(direction).round(),
+            up_size: size_along(normal, greatest),
+            speed_size: size_along(normal, direction.abs().max_element()),
         }
     }
 }
 
-/// How great the numbers may be that make `v` along a normal, where none of those that made `v` is above
-/// `greatest`: they may have cancelled. Along an axis there are no others, but for what the axis is off by.
-fn size_along(normal: Vector, v: Vector, greatest: f64) -> f64 {
-    let steep = normal.abs();
-    let most = steep.element_sum() * greatest;
-    match steep.max_element() == steep.element_sum() {
-        true => steep.dot(v.abs()) + most * f64::EPSILON,
-        false => most,
-    }
+/// How great the numbers may be that make a vector along a normal, where none is above `greatest`: they may have
+/// cancelled.
+fn size_along(normal: Vector, greatest: f64) -> f64 {
+    normal.abs().element_sum() * greatest
 }
 
 /// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
@@ -155,7 +153,8 @@ impl ExactPlacement {
         Self { rows, centre, norm, condition: placement.condition(), is_mirrored }
     }
 
-    /// How a line of the world lies to the plane across a local axis where that coordinate is `end`.
+    /// How a line of the world lies to the plane across a local axis where that coordinate is `end`, as exact as the
+    /// ray and the place.
     pub fn rise(&self, axis: usize, end: f64, origin: Vector, direction: Vector) -> Rise {
         let column = |index: usize| {
             let [x, y, z] = self.rows.map(|row| row.components()[index % 3]);
@@ -168,12 +167,13 @@ impl ExactPlacement {
         let from_plane = DoubleVector::from(origin) - self.centre - along * end.into();
         let local = |v: DoubleVector| (normal.dot(v) / tall).round();
         let steep = normal.round() / tall.round();
-        let greatest = origin.abs().max(from_plane.round().abs()).max_element();
+        let distance = (normal.dot(DoubleVector::from(origin) - from_plane)).round();
+        let greatest = origin.abs().max_element().max(distance.abs());
         Rise {
             up: local(from_plane),
             speed: local(direction.into()),
-            up_size: size_along(steep, origin, greatest),
-            speed_size: size_along(steep, direction, direction.abs().max_element()),
+            up_size: size_along(steep, greatest),
+            speed_size: size_along(steep, direction.abs().max_element()),
         }
     }
 

@@ -3,10 +3,12 @@
 
 mod slabs;
 
-use super::slab::falls_inside;
+use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
+use crate::math::double::{Double, DoubleVector};
+use crate::math::placement::Rise;
 use crate::math::{UnitVector, Vector, Vector3};
-use slabs::{Along, Line, through, through_steeply};
+use slabs::{Along, through, through_steeply};
 pub use slabs::{Slabs, slabs};
 
 /// **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are independent.
@@ -71,9 +73,9 @@ impl Box_ {
     #[cold]
     #[inline(never)]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
-        let along = self.along(ray);
-        let slabs = through(self.centre, self.directions(), self.half_widths, ray, Some(along))?;
-        (!self.yields_face(ray, &along)).then_some(slabs.chord())
+        let along = self.along_of_part(ray)?;
+        let all = through(self.centre, self.directions(), self.half_widths, ray, Some(along));
+        Some(all?.chord())
     }
 
     /// The faces that a line goes along.
@@ -81,17 +83,41 @@ impl Box_ {
         Along::of(self.centre, self.directions(), self.half_widths, ray)
     }
 
-    /// **Error:** as of [`slabs`]. Nothing that starts from the surface is so near to a face.
+    /// As of a part of a whole; `None` where the line is beside the box.
     #[cold]
-    fn yields_face(&self, ray: &Ray, along: &Along<f64>) -> bool {
-        (0..3).any(|axis| {
-            let normal = self.normals[axis].get();
-            let line = Line::of(self.centre, normal, self.half_widths[axis], ray);
-            let place = line.place + line.speed * along.middle;
-            let is_near = (place.abs() - self.half_widths[axis]).abs() <= line.place_error;
-            let is_sheet = self.half_widths[axis] == 0.0;
-            along.axes[axis] && !is_sheet && is_near && !falls_inside(normal * place.signum())
-        })
+    fn along_of_part(&self, ray: &Ray) -> Option<Along<f64>> {
+        let mut along = self.along(ray);
+        for axis in 0..3 {
+            // A sheet has a line in it.
+            if along.axes[axis] && self.half_widths[axis] > 0.0 {
+                along.known[axis] = Some(self.within(axis, ray)?);
+            }
+        }
+        Some(along)
+    }
+
+    /// Where a line that goes nearly along a slab is in it, exactly; in its face, everywhere or nowhere.
+    fn within(&self, axis: usize, ray: &Ray) -> Option<[f64; 2]> {
+        let double = DoubleVector::from;
+        let mut within = [f64::NEG_INFINITY, f64::INFINITY];
+        for outward in [self.normals[axis].get(), -self.normals[axis].get()] {
+            let half_width = Double::from(self.half_widths[axis]);
+            let distance = double(outward).dot(double(self.centre)) + half_width;
+            let rise = Rise::from_plane(outward, distance, ray.origin, ray.direction);
+            let is_in = lies_in(&rise, 0.0);
+            if is_in && falls_inside(outward) || !is_in && rise.speed == 0.0 && rise.up < 0.0 {
+                continue;
+            }
+            if is_in || rise.speed == 0.0 {
+                return None;
+            }
+            let t = -rise.up / rise.speed;
+            match rise.speed > 0.0 {
+                true => within[1] = within[1].min(t),
+                false => within[0] = within[0].max(t),
+            }
+        }
+        Some(within)
     }
 
     /// The point where `ray` enters or leaves, put onto the face it crosses there.
@@ -110,11 +136,11 @@ impl Box_ {
             Some(slabs) => slabs.map(end).map_or(0, |(_, face)| face),
             // As it was met: by itself, or as a part.
             None => {
-                let along = self.along(ray);
-                let all = [None, Some(along)]
-                    .map(|along| through(centre, directions, half_widths, ray, along).map(end));
                 let off = |(met, _): &(f64, u32)| (met - t).abs();
-                let all = all.into_iter().flatten();
+                let ways = [None, Some(self.along(ray)), self.along_of_part(ray)].into_iter();
+                let all = ways.filter_map(|along| {
+                    through(centre, directions, half_widths, ray, along).map(end)
+                });
                 all.min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |(_, face)| face)
             }
         };

@@ -110,7 +110,7 @@ pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
     between(ray, [-1.0, 1.0])
 }
 
-/// Where the line is between two heights, of a body that goes no farther than √2.
+/// Where the line is between two heights, which are exact, of a body that goes no farther than √2.
 pub(super) fn between(ray: &LocalRay, heights: [f64; 2]) -> Option<(Met, Met)> {
-    Slab { axis: 2, heights, far: 2.0, parts: [BASE, CAP] }.chord(ray)
+    Slab { axis: 2, heights, far: 2.0, off: 0.0, parts: [BASE, CAP] }.chord(ray)
 }

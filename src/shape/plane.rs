@@ -29,12 +29,13 @@ impl Plane {
         }
     }
 
-    /// **Error:** as of [`chord`]. Nothing that starts from the plane is so near to it.
+    /// **Error:** as of [`chord`]. What leaves the plane by so small a slope may be told to lie in it: it brings
+    /// no light.
     #[cold]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
         let normal = self.normal.get();
-        let rise = Rise::from_plane(normal, self.distance, ray.origin, ray.direction);
-        if lies_in(&rise, 1.0, 2.0 * U * self.distance.abs()) {
+        let rise = Rise::from_plane(normal, self.distance.into(), ray.origin, ray.direction);
+        if lies_in(&rise, 0.0) {
             return falls_inside(normal).then_some(Chord::WHOLE);
         }
         self.chord(ray)

@@ -33,6 +33,8 @@ pub(super) struct Slab {
     pub heights: [f64; 2],
     /// The body ends nearer than half of this to the local origin.
     pub far: f64,
+    /// How far the heights may be off, as the body holds them.
+    pub off: f64,
     /// The parts that the lower and the higher are of the surface.
     pub parts: [u32; 2],
 }
@@ -43,7 +45,7 @@ impl Slab {
     /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there; of a line that goes nearly along,
     /// that of [`Level`]. What is certainly met beyond all of the body is met nowhere.
     pub fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
-        let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
+        let Self { axis, heights: [low, high], far, parts: [base, cap], .. } = *self;
         let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
         let rounded = rounding(far, place);
         let flat_off = ray.blur_at(far) + rounded;
@@ -68,12 +70,12 @@ impl Slab {
     #[cold]
     #[inline(never)]
     fn chord_along(&self, ray: &LocalRay) -> Option<(Met, Met)> {
-        let Self { axis, heights: [low, high], far, parts: [base, cap] } = *self;
+        let Self { axis, heights: [low, high], far, off, parts: [base, cap] } = *self;
         let beyond = |t, leaving, part| Met { t, error: 0.0, leaving, part };
         let mut enter = beyond(f64::NEG_INFINITY, false, base);
         let mut leave = beyond(f64::INFINITY, true, cap);
         for (end, part, out) in [(low, base, -1.0), (high, cap, 1.0)] {
-            match Level::of(ray, axis, end, far) {
+            match Level::of(ray, axis, end, (far, off)) {
                 Level::In if out * nudge(ray)[axis] < 0.0 => {}
                 Level::Beside(side) if out * side < 0.0 => {}
                 Level::In | Level::Beside(_) => return None,
@@ -113,40 +115,42 @@ pub(super) enum Level {
 const MEANT: f64 = 16.0 * U;
 
 /// Whether a line starts as near to a plane, and goes as level, as rounding makes them of one that was meant to lie
-/// there: the ray's own, where it goes so far in a length along the normal's axis, and the plane's, by which that
-/// is `off`.
+/// there: the ray's own rounding, and that of the plane, which may be `off`.
 #[cold]
-pub(super) fn lies_in(rise: &Rise, step: f64, off: f64) -> bool {
-    rise.up.abs() <= MEANT * rise.up_size + off
-        && rise.speed.abs() <= (MEANT * rise.speed_size).max(U * step)
+pub(super) fn lies_in(rise: &Rise, off: f64) -> bool {
+    rise.up.abs() <= MEANT * rise.up_size + off && rise.speed.abs() <= MEANT * rise.speed_size
 }
 
 impl Level {
-    /// In, as [`lies_in`] has it of a plane that may be off by u·far/2.
+    /// Of a body that goes no farther than `far`, whose end may be `off`.
     #[cold]
-    pub fn of(ray: &LocalRay, axis: usize, end: f64, far: f64) -> Self {
+    pub fn of(ray: &LocalRay, axis: usize, end: f64, (far, off): (f64, f64)) -> Self {
         let in_world = ray.in_world.and_then(|InWorld { ray, placed }| {
             placed.exact.as_deref().map(|exact| (ray, &placed.placement, exact))
         });
         let Some((line, placement, exact)) = in_world else {
             let (up, speed) = (ray.nearest[axis] - end, ray.direction[axis]);
             let off = ray.blur_at(far) + rounding(far, ray.nearest[axis]);
-            let is_in = up.abs() <= 0.25 * off && far * speed.abs() <= 0.25 * off;
-            return if is_in { Self::In } else { Self::off(up, speed, far, (0.0, off)) };
+            let is_in = up.abs() <= 0.25 * off && far * speed.abs() <= off;
+            return if is_in {
+                Self::In
+            } else {
+                Self::beside_or_through(up, speed, 0.0, (far, off))
+            };
         };
         let rise = exact.rise(axis, end, line.origin, line.direction);
         let start = placement.local_point(line.origin).dot(ray.direction);
         let step = placement.local_direction(line.direction).length();
-        match lies_in(&rise, step, U * far) {
+        match lies_in(&rise, off) {
             true => Self::In,
-            false => Self::off(rise.up, rise.speed / step, far, (start, U * far)),
+            false => Self::beside_or_through(rise.up, rise.speed / step, start, (far, off)),
         }
     }
 
-    /// Of a line that is `up` from the plane at `start`. **Error:** `off`, how far the plane may be off, over the
-    /// speed, and 4u·(|start| + |s|).
-    fn off(up: f64, speed: f64, far: f64, (start, off): (f64, f64)) -> Self {
-        if speed.abs() <= U {
+    /// Of a line that is `up` from the plane at `start`. **Error:** `off` over the speed, and 4u·(|start| + |s|).
+    fn beside_or_through(up: f64, speed: f64, start: f64, (far, off): (f64, f64)) -> Self {
+        // What could as well not rise at all is judged where it is nearest.
+        if far * speed.abs() <= off {
             return Self::Beside(up - speed * start);
         }
         let s = start - up / speed;

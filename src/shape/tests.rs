@@ -22,6 +22,7 @@ mod isosurface;
 mod julia_fractal;
 mod lathe;
 mod leave;
+mod level;
 mod mesh;
 mod outline;
 mod ovus;

@@ -42,7 +42,18 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
                 }
                 (before.start, before.end, "opened here, and the next `\"` begins another")
             }
-            None => (quote, end, "opened here, and no `\"` follows on this line"),
+            None => match string_before_parts(line) {
+                Some(length) => {
+                    if let Some(closer) = scan.closers.first_mut() {
+                        *closer = quote + length;
+                    }
+                    let comment = line[length..].find("//").map(|at| quote + length + at);
+                    scan.comments.extend(comment.map(|at| (at, quote + line.len())));
+                    scan.comments.sort_unstable();
+                    (quote, quote + length, "opened here, and more than a string follows")
+                }
+                None => (quote, end, "opened here, and no `\"` follows on this line"),
+            },
         };
         let span = |from: usize, to: usize| Span::new(file, from, to);
         diagnostics.push(match quote_within(text, quote) {
@@ -130,6 +141,17 @@ fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
     let runs_on = strings[close + 1..].starts_with(|c: char| c.is_ascii_alphanumeric());
     let pairs = strings.matches('"').count().is_multiple_of(2) && !strings.contains('\\');
     (runs_on && pairs && start + 1 < inside.len()).then(|| line + start..line + inside.len())
+}
+
+/// `"Hello, 0.3, 0 pigment { … }`: a string and what goes on behind it, up to the comma or the number that begins it.
+fn string_before_parts(line: &str) -> Option<usize> {
+    let block = line.find('{')?;
+    let begins = |at: usize| {
+        let behind = line[at..].trim_start_matches([' ', '-', '+', '.']);
+        line[at..].starts_with(',')
+            || line[at..].starts_with(' ') && behind.starts_with(|c: char| c.is_ascii_digit())
+    };
+    (2..block).filter(|at| line.is_char_boundary(*at)).find(|at| begins(*at))
 }
 
 /// `"Jan", "Feb, "Mar"`: of the strings of a list before the quote that has no partner, the first that begins like

@@ -6,7 +6,7 @@ use crate::scene::{Camera, Light, Scene, Step, Triple, WHITE, sphere, ten, torus
 const CLAY: Triple = [0.9, 0.5, 0.2];
 
 /// What is a ball of radius r around the origin, up to its braces.
-fn balls(r: f64) -> [(&'static str, String); 7] {
+fn balls(r: f64) -> [(&'static str, String); 8] {
     let (wide, half, third) = (r * 2.0_f64.sqrt(), r / 2.0, r / 3.0);
     [
         ("a blob", format!("blob {{ sphere {{ <0, 0, 0>, {wide:e}, 4 }}")),
@@ -29,11 +29,17 @@ fn balls(r: f64) -> [(&'static str, String); 7] {
             "a curved sweep",
             format!("sphere_sweep {{ b_spline 4, {}", format!("<0, 0, 0>, {r:e}, ").repeat(4)),
         ),
+        (
+            "an isosurface",
+            format!(
+                "isosurface {{ function {{ x*x + y*y + z*z - 1 }} contained_by {{ box {{ -1.1, 1.1 }} }} scale {r:e}"
+            ),
+        ),
     ]
 }
 
 #[test]
-fn row_30_blobs_superellipsoids_eggs_sweeps_and_fractals_may_be_spheres_of_any_size() {
+fn row_30_blobs_superellipsoids_eggs_sweeps_fractals_and_isosurfaces_may_be_spheres_of_any_size() {
     for exponent in (-12..=12).step_by(4) {
         let r = ten(exponent);
         let camera = Camera::LookAt { location: [0.0, r, 3.0 * r], look_at: [0.0; 3], angle: 50.0 };

@@ -39,14 +39,22 @@ const MAPS: [[&str; 3]; 11] = [
     ["scale <1, 1e-5, 1> rotate 0.06*z", "", "1/3"],
 ];
 
+/// From how far it is looked, how much above y = H, and how much that rises on the way to x = 0.
+type Look = [&'static str; 3];
+
 /// The row of a picture that looks along y = H, between the two beside it: where there is something.
-fn rows(camera: &str, things: &str, [turn, moved, height]: [&str; 3]) -> [Vec<bool>; 3] {
+fn rows(
+    camera: &str,
+    things: &str,
+    [far, up, rise]: Look,
+    [turn, moved, height]: [&str; 3],
+) -> [Vec<bool>; 3] {
     let film = rendered(
         &format!(
             "#declare H = {height};
              #declare Way = function {{ transform {{ {turn} {moved} }} }}
              #declare Turn = function {{ transform {{ {turn} }} }}
-             camera {{ {camera} location Way(8, H, 0) direction Turn(-8, 0, 0)
+             camera {{ {camera} location Way({far}, H + {up}, 0) direction Turn(-{far}, {rise}, 0)
                       right Turn(0, 0, -8.1) up Turn(0, 6.25, 0) }}
              background {{ rgb <1, 0, 0> }}
              {things} pigment {{ rgb <0, 1, 0> }} finish {{ emission 1 }} {turn} {moved} }}"
@@ -57,18 +65,18 @@ fn rows(camera: &str, things: &str, [turn, moved, height]: [&str; 3]) -> [Vec<bo
 }
 
 /// What is wrong with two solids that touch in the plane that the camera looks along.
-fn faults(camera: &str, [above, below]: [&str; 2], map: [&str; 3]) -> Vec<String> {
+fn faults(camera: &str, [above, below]: [&str; 2], look: Look, map: [&str; 3]) -> Vec<String> {
     let mut faults = Vec::new();
     let both = format!("intersection {{ {above} {below}");
-    let [_, row, _] = rows(camera, &both, map);
+    let [_, row, _] = rows(camera, &both, look, map);
     if row.contains(&true) {
-        faults.push(format!("{camera} {both} {map:?}\n{}", line(&row)));
+        faults.push(format!("{camera} {both} {look:?} {map:?}\n{}", line(&row)));
     }
     let all = ["difference { box { <-3, H - 3, -3>, <3, H + 3, 3> }", "union {"];
     let is_endless = below == BELOW[0];
     for all in all.into_iter().take(if is_endless { 1 } else { 2 }) {
         let all = format!("{all} {above} {below}");
-        let [before, row, next] = rows(camera, &all, map);
+        let [before, row, next] = rows(camera, &all, look, map);
         assert!(before.contains(&true) || next.contains(&true), "{all} {map:?}");
         // A cone's wall is slanted: its row may be wider than the one above and narrower than the one below.
         let is_between = all.contains("cone")
@@ -76,7 +84,7 @@ fn faults(camera: &str, [above, below]: [&str; 2], map: [&str; 3]) -> Vec<String
             && (0..33).all(|x| row[x] == before[x] || row[x] == next[x]);
         if row != before && row != next && !is_between {
             let [before, row, next] = [before, row, next].map(|row| line(&row));
-            faults.push(format!("{camera} {all} {map:?}\n{before}\n{row}\n{next}"));
+            faults.push(format!("{camera} {all} {look:?} {map:?}\n{before}\n{row}\n{next}"));
         }
     }
     faults
@@ -109,12 +117,60 @@ fn a_camera_that_looks_along_the_face_of_two_solids_sees_nothing_of_both_and_no_
     for map in MAPS.into_iter().chain(drawn) {
         for pair in ABOVE.iter().flat_map(|above| BELOW.map(|below| [*above, below])) {
             for camera in ["orthographic", ""] {
-                found.extend(faults(camera, pair, map));
+                found.extend(faults(camera, pair, ["8", "0", "0"], map));
                 pairs += 1;
             }
         }
     }
     assert!(found.is_empty(), "{} of {pairs}\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn of_two_solids_however_tall_one_has_a_ray_that_is_off_their_plane_by_the_least_or_goes_through_it_so()
+ {
+    let looks = [
+        ["10", "-1.5e-16", "0"],
+        ["10", "1.2e-15", "0"],
+        ["10", "-1.2e-15", "0"],
+        ["10", "-5e-14", "0"],
+        ["10", "1e-32", "0"],
+        ["1e3", "1e-14", "-1e-14"],
+        ["1e9", "1e-8", "-1e-8"],
+        ["1e9", "-1e-8", "1e-8"],
+    ];
+    // By more than rounding, and less than the outline of a lathe tells.
+    let through = [
+        ["1e9", "2e-6", "-2e-6"],
+        ["1e9", "2e-6", "-2.0000000000001e-6"],
+        ["1e3", "1e-11", "-1e-11"],
+    ];
+    let maps = [["", "", "0"], ["rotate 1e-15*z", "", "0"], ["", "translate 1*x", "0"]];
+    let is_long = std::env::var("LUCARNE_LONG").is_ok();
+    let (maps, heights) = match is_long {
+        true => (&maps[..], &["H - 1", "H - 20", "H - 1e3"][..]),
+        false => (&maps[..2], &["H - 20"][..]),
+    };
+    let mut found = Vec::new();
+    for look in looks.into_iter().chain(through) {
+        for &map in maps {
+            for &tall in heights {
+                for (above, below) in
+                    ABOVE.iter().flat_map(|above| BELOW.map(|below| (*above, below)))
+                {
+                    let are_lathes = above.starts_with("lathe") && below.starts_with("lathe");
+                    if are_lathes && through.contains(&look) {
+                        continue;
+                    }
+                    // A sor's outermost points lie beyond its ends.
+                    let below = below.replace("H - 2", "H - 2e3").replace("H - 1", tall);
+                    for camera in ["orthographic", ""] {
+                        found.extend(faults(camera, [above, &below], look, map));
+                    }
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}\n{}", found.len(), found.join("\n"));
 }
 
 /// The middle plane, z = 0, is a face of what is taken away.

@@ -66,7 +66,11 @@ impl Evaluator<'_> {
         let number = self.taken.map(|taken| self.sources.text(taken.span));
         let number = number.filter(|text| text.parse::<f64>().is_ok());
         let diagnostic = match number {
-            Some(number) if after.kind == TokenKind::Word(Word::Cylinder) && place.is_some() => {
+            Some(number)
+                if after.kind == TokenKind::Word(Word::Cylinder)
+                    && place.is_some()
+                    && wanted.contains("radius") =>
+            {
                 diagnostic.help(format!(
                     "`{number}` was read as the middle of the cap: is a point missing before it?"
                 ))

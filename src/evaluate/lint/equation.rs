@@ -1,4 +1,5 @@
-//! `isosurface { function { y = sin(x) } … }`: an equation, where the difference of its sides is wanted.
+//! `isosurface { function { y = sin(x) } … }`: an equation, or what is less, where the difference of the sides is
+//! wanted.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
@@ -19,13 +20,21 @@ impl Evaluator<'_> {
         let (here, Contents::Items(items)) = (here.clone(), *contents) else { return };
         let [item] = here.unit.ast.items(items) else { return };
         let ItemKind::Expression(id) = item.kind else { return };
-        let ExpressionKind::Binary(BinaryOperator::Equal, left, right) =
-            here.unit.expression(id).kind
-        else {
+        let ExpressionKind::Binary(comparison, left, right) = here.unit.expression(id).kind else {
             return;
         };
+        use BinaryOperator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual};
+        let is_equation = comparison == Equal;
+        if !(is_equation || matches!(comparison, Less | LessOrEqual | Greater | GreaterOrEqual)) {
+            return;
+        }
         let side = |id| here.unit.expression(id);
-        let (left, right) = (side(left), side(right));
+        let (first, second) = (side(left), side(right));
+        // Inside is less.
+        let (left, right) = match comparison {
+            Greater | GreaterOrEqual => (second, first),
+            _ => (first, second),
+        };
         // `a = b = c` is something else.
         if let ExpressionKind::Binary(operator, ..) = left.kind
             && !is_arithmetic(operator)
@@ -35,7 +44,7 @@ impl Evaluator<'_> {
         let span = here.unit.expression(id).span;
         let has_step =
             |name: &&str| self.sources.text(span).split(is_no_letter).any(|word| word == *name);
-        if STEPS.iter().any(has_step) {
+        if is_equation && STEPS.iter().any(has_step) {
             return;
         }
         let (before, behind) = (self.sources.text(left.span), self.sources.text(right.span));
@@ -47,13 +56,16 @@ impl Evaluator<'_> {
             ExpressionKind::Conditional(..) => return,
             _ => format!("{before} - {behind}"),
         };
-        let between = Span { start: left.span.end, end: right.span.start, ..span };
+        let between = Span { start: first.span.end, end: second.span.start, ..span };
         let sign = self.sources.text(between).find(['=', '<', '>']).map(|at| {
             let start = between.start + at as u32;
-            Span { start, end: start + 1, ..span }
+            let signs =
+                if comparison == LessOrEqual || comparison == GreaterOrEqual { 2 } else { 1 };
+            Span { start, end: start + signs, ..span }
         });
+        let holds = if is_equation { "both sides are equal" } else { "it holds" };
         let message =
-            "this formula is a comparison: it is 1 where both sides are equal, and 0 elsewhere";
+            format!("this formula is a comparison: it is 1 where {holds}, and 0 elsewhere");
         let diagnostic = Diagnostic::new(Code::ComparedSurface, message)
             .at(
                 sign.unwrap_or(span),

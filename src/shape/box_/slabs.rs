@@ -133,6 +133,7 @@ pub(super) fn through<R: Real>(
     along: Option<Along<R>>,
 ) -> Option<Slabs<R>> {
     let mut part = Part::WHOLE;
+    let known = along.map_or([None; 3], |along| along.known);
     for axis in 0..3 {
         let (normal, half_width) = (normals[axis], half_widths[axis]);
         let line = Line::of(centre, normal, half_width, ray);
@@ -142,6 +143,10 @@ pub(super) fn through<R: Real>(
             true => speed_error::<R>() * normal.abs_dot(ray.direction),
             false => speed_error(),
         };
+        if let Some(within) = known[axis] {
+            part.cut_at(axis, line.speed, within);
+            continue;
+        }
         let along = match along {
             Some(along) if is_slow && along.axes[axis] => Some(along.middle),
             _ if is_slow && is_level(line.speed, speed_error) => Some(R::ZERO),
@@ -197,6 +202,28 @@ impl<R: Real> Part<R> {
         leave.most = leave.most.min(far + far_error);
         if far < leave.t {
             (leave.t, leave.face) = (far, second);
+        }
+    }
+
+    /// Leaves what of it lies between two places, known to their rounding; from −∞ or to ∞ it stays as it is.
+    #[cold]
+    fn cut_at(&mut self, axis: usize, speed: R, [near, far]: [R; 2]) {
+        let Self { enter, leave } = self;
+        let rising = speed > R::ZERO;
+        let error = |t: R| R::from_f64(4.0) * R::UNIT_ROUNDOFF * t.abs();
+        if near > R::NEG_INFINITY {
+            enter.least = enter.least.max(near - error(near));
+            enter.most = enter.most.max(near + error(near));
+        }
+        if near > enter.t {
+            (enter.t, enter.face) = (near, 2 * axis as u32 + u32::from(rising));
+        }
+        if far < R::INFINITY {
+            leave.least = leave.least.min(far - error(far));
+            leave.most = leave.most.min(far + error(far));
+        }
+        if far < leave.t {
+            (leave.t, leave.face) = (far, 2 * axis as u32 + u32::from(!rising));
         }
     }
 
@@ -266,6 +293,8 @@ impl<R: Real> Line<R> {
 #[derive(Clone, Copy)]
 pub(super) struct Along<R: Real> {
     pub axes: [bool; 3],
+    /// Where those have the line of which more is known.
+    pub known: [Option<[R; 2]>; 3],
     /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
     pub middle: R,
 }
@@ -296,7 +325,7 @@ impl<R: Real> Along<R> {
         });
         let middle = number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO));
         // It has no end where the line is nearly along all three.
-        Self { axes, middle: if far < R::INFINITY { middle } else { R::ZERO } }
+        Self { axes, known: [None; 3], middle: if far < R::INFINITY { middle } else { R::ZERO } }
     }
 }
 

@@ -25,11 +25,12 @@ impl Container {
             Self::Box(half) => {
                 let endless = |t, leaving| Met { t, error: 0.0, leaving, part: 1 };
                 let whole = (endless(f64::NEG_INFINITY, false), endless(f64::INFINITY, true));
-                let reach = half.length();
+                let far = 2.0 * half.length();
                 (0..3).try_fold(whole, |(enter, leave), axis| {
                     let part = SURFACE + 1 + 2 * axis as u32;
                     let heights = [-half[axis], half[axis]];
-                    let slab = Slab { axis, heights, far: 2.0 * reach, parts: [part, part + 1] };
+                    let (off, parts) = (U * far, [part, part + 1]);
+                    let slab = Slab { axis, heights, far, off, parts };
                     let (first, last) = slab.chord(ray)?;
                     Some((enter.later(first), leave.earlier(last)))
                 })

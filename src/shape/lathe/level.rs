@@ -20,8 +20,12 @@ pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Line {
         if !piece.points().iter().all(|point| point[1] == height) {
             return None;
         }
-        match Level::of(ray, 2, height, 2.0) {
+        match Level::of(ray, 2, height, (2.0, 0.0)) {
             Level::In => Some(height + far.copysign(nudge(ray).z)),
+            // By less than the outline tells anywhere.
+            Level::Through { rise, .. } if rise.abs() <= U => {
+                Some(height + far.copysign(nudge(ray).z))
+            }
             Level::Beside(side) if (height - line.start).abs() <= 8.0 * line.off => {
                 Some(line.start + far.copysign(side))
             }
