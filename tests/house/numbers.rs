@@ -166,7 +166,6 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/parametric/search.rs", "let size", "keeps 0/0 from the origin of u and v"),
     ("shape/julia_fractal/mod.rs", "const ANYTHING", "stands for no bound"),
     ("math/roots/bracket.rs", "let finest", "the next number but one"),
-    ("math/placement.rs", "true => steep.dot(v.abs())", "relative: of the greatest of the numbers"),
     ("scene/blob.rs", "let apart", "roundings of a distance, relative"),
     ("scene/outline.rs", "let off = size(0)", "relative: of the points' largest coordinate"),
     ("scene/outline.rs", "let off = 8.0", "relative: of the points' size"),

@@ -44,7 +44,7 @@ pub(super) fn ray_at_placed(random: &mut Random, placed: &Placed) -> Ray {
     let reach = placed.body.reach().min(4.0);
     let world = |local: Vector| placed.placement.world_point(local);
     let target = world(random.point(1.0) * reach);
-    let far = [0.5, 3.0, random.size(0.0, 9.0)][random.below(3)];
+    let far = [0.5, 3.0, random.size(0.0, 6.0)][random.below(3)];
     let origin = match random.below(4) {
         0 => {
             let axis = [Vector::X, Vector::Y, Vector::Z][random.below(3)];
