@@ -26,6 +26,7 @@ use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId,
 use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
 
 use super::scope::Owner;
+pub(in crate::evaluate) use equation::Compared;
 pub(in crate::evaluate) use light::Cone;
 pub(in crate::evaluate) use loose::Side;
 pub(in crate::evaluate) use map::Rise;

@@ -8,6 +8,7 @@ use crate::math::Vector;
 use crate::scene::{Container, Solid};
 use crate::vocabulary::Word;
 
+use super::super::lint::Compared;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
@@ -35,7 +36,9 @@ impl Evaluator<'_> {
     /// `function { … }` first, then the other items, in any order.
     pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
         // What follows is read for its own mistakes.
-        let function = self.function_part(token);
+        let word = self.function_word(token);
+        let compared = word.as_ref().ok().and_then(|_| self.compared_surface());
+        let function = word.and_then(|word| self.closed_function(&word));
         let mut container = None;
         let (mut threshold, mut accuracy, mut open) = (0.0, 0.001, false);
         let mut failed = false;
@@ -55,6 +58,12 @@ impl Evaluator<'_> {
                 _ => self.inert(&item, Place::shape(Word::Isosurface)).unwrap_or(Ok(())),
             };
             failed |= outcome.is_err();
+        }
+        // Between 0 and 1 a threshold parts where an inequality holds from where it does not.
+        if let Some(Compared { here, diagnostic, is_equation }) = compared
+            && (is_equation || threshold == 0.0)
+        {
+            self.report(&here, diagnostic);
         }
         if failed {
             return Err(Reported);
@@ -76,6 +85,12 @@ impl Evaluator<'_> {
 
     /// A function that gives a number, with all that it asks.
     pub(super) fn function_part(&mut self, token: &Token) -> Outcome<Arc<Closed>> {
+        let word = self.function_word(token)?;
+        self.closed_function(&word)
+    }
+
+    /// The word `function`, whose block comes next.
+    fn function_word(&mut self, token: &Token) -> Outcome<Token> {
         self.skip_commas();
         self.semicolon_for_comma();
         let Some(word) = self.take_function() else {
@@ -88,10 +103,11 @@ impl Evaluator<'_> {
             let wanted = "`function { … }`";
             return Err(self.expected(wanted, next.as_ref(), (&token.here, token.span)));
         };
-        if token.kind == TokenKind::Word(Word::Isosurface) {
-            self.lint_equation();
-        }
-        match self.function(&word)? {
+        Ok(word)
+    }
+
+    fn closed_function(&mut self, word: &Token) -> Outcome<Arc<Closed>> {
+        match self.function(word)? {
             Value::Function(id) => match self.closed(id) {
                 Some(closed) => Ok(Arc::new(closed)),
                 None => {

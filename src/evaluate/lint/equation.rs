@@ -2,31 +2,38 @@
 //! wanted.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::Evaluator;
 use crate::evaluate::enclosure::Contents;
 use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::{Evaluator, Here};
 use crate::source::Span;
 use crate::syntax::ast::{BinaryOperator, ExpressionKind, ItemKind};
 
 /// Functions that have steps: where they are equal to something may be a solid.
 const STEPS: [&str; 9] = ["floor", "ceil", "int", "mod", "div", "select", "abs", "min", "max"];
 
+/// What is to be told of a comparison, unless it is meant.
+pub(in crate::evaluate) struct Compared {
+    pub here: Here,
+    pub diagnostic: Diagnostic,
+    pub is_equation: bool,
+}
+
 impl Evaluator<'_> {
     /// Looks at the block of an isosurface's function, which comes next.
-    pub(in crate::evaluate) fn lint_equation(&mut self) {
-        let Some(Token { kind: TokenKind::Block(contents), here, .. }) = self.peek() else {
-            return;
+    pub(in crate::evaluate) fn compared_surface(&mut self) -> Option<Compared> {
+        let Token { kind: TokenKind::Block(contents), here, .. } = self.peek()? else {
+            return None;
         };
-        let (here, Contents::Items(items)) = (here.clone(), *contents) else { return };
-        let [item] = here.unit.ast.items(items) else { return };
-        let ItemKind::Expression(id) = item.kind else { return };
+        let (here, Contents::Items(items)) = (here.clone(), *contents) else { return None };
+        let [item] = here.unit.ast.items(items) else { return None };
+        let ItemKind::Expression(id) = item.kind else { return None };
         let ExpressionKind::Binary(comparison, left, right) = here.unit.expression(id).kind else {
-            return;
+            return None;
         };
         use BinaryOperator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual};
         let is_equation = comparison == Equal;
         if !(is_equation || matches!(comparison, Less | LessOrEqual | Greater | GreaterOrEqual)) {
-            return;
+            return None;
         }
         let side = |id| here.unit.expression(id);
         let (first, second) = (side(left), side(right));
@@ -39,21 +46,21 @@ impl Evaluator<'_> {
         if let ExpressionKind::Binary(operator, ..) = left.kind
             && !is_arithmetic(operator)
         {
-            return;
+            return None;
         }
         let span = here.unit.expression(id).span;
         let has_step =
             |name: &&str| self.sources.text(span).split(is_no_letter).any(|word| word == *name);
         if is_equation && STEPS.iter().any(has_step) {
-            return;
+            return None;
         }
         let (before, behind) = (self.sources.text(left.span), self.sources.text(right.span));
         let written = match right.kind {
             ExpressionKind::Number(0.0) => before.to_owned(),
             ExpressionKind::Binary(BinaryOperator::Add | BinaryOperator::Subtract, ..)
             | ExpressionKind::Unary(..) => format!("{before} - ({behind})"),
-            ExpressionKind::Binary(operator, ..) if !is_arithmetic(operator) => return,
-            ExpressionKind::Conditional(..) => return,
+            ExpressionKind::Binary(operator, ..) if !is_arithmetic(operator) => return None,
+            ExpressionKind::Conditional(..) => return None,
             _ => format!("{before} - {behind}"),
         };
         let between = Span { start: first.span.end, end: second.span.start, ..span };
@@ -73,7 +80,7 @@ impl Evaluator<'_> {
             )
             .help(format!("write `{written}`"))
             .fix(span, written);
-        self.report(&here, diagnostic);
+        Some(Compared { here, diagnostic, is_equation })
     }
 }
 
