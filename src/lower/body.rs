@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::Fault;
+use super::outline::exact_middle;
 use super::quadric;
 use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
@@ -16,6 +17,7 @@ use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::mesh::Triangles;
 use crate::scene::{self, Container};
+use crate::shape::body::Local;
 use crate::shape::isosurface;
 use crate::shape::julia_fractal::{Algebra, Function};
 use crate::shape::mesh::{Face, Skin};
@@ -245,9 +247,8 @@ pub(super) fn frame(
 }
 
 /// Triangles around the middle of the box that holds them, of size about 1; `None` where not one is left
-/// that is no line or point. The size is rounded to a power of two; and along an axis along which the farthest
-/// vertex is more than twice as far from 0 as the nearest, the middle is 0: so no vertex loses a digit, and one
-/// that two meshes have is the same in both (Sterbenz' lemma).
+/// that is no line or point. The size is rounded to a power of two, and the middle is exact: so no vertex loses a
+/// digit, and one that two meshes have is the same in both.
 pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     if triangles.faces.is_empty() {
         return Ok(None);
@@ -257,14 +258,11 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
         let vertex = triangles.vertices[i as usize];
         (low.min(vertex), high.max(vertex))
     });
-    let (low, high) = (low * 0.5, high * 0.5);
     if !(low.is_finite() && high.is_finite()) {
         return Err(Fault::not_finite("this mesh"));
     }
-    let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
-    let is_beside_0 = low.signum().cmpeq(high.signum()) & most.cmple(least * 2.0);
-    let middle = Vector::select(is_beside_0, low + high, Vector::ZERO);
-    let half = (middle - low * 2.0).abs().max((high * 2.0 - middle).abs());
+    let middle = Vector::from_array([0, 1, 2].map(|axis| exact_middle((low[axis], high[axis]))));
+    let half = (middle - low).abs().max((high - middle).abs());
     let inverse_size = reciprocal_power_of_two(half.max_element());
     let size = 1.0 / inverse_size;
     let local = |vertex: &Vector| (*vertex * inverse_size - middle * inverse_size) * 0.5;
@@ -317,10 +315,11 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     let placement = traceable(placement, &what)?;
     let exact = || Box::new(ExactPlacement::new(map.rows(), map.offset(), &placement));
     let has_edges = matches!(*body, Body::Mesh(_) | Body::HeightField(_));
-    let has_ends = matches!(
-        *body,
-        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) | Body::Lathe(_)
-    );
+    let has_ends = match *body {
+        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) | Body::Lathe(_) => true,
+        Body::Text(_) => !body.is_sheet(),
+        _ => false,
+    };
     let has_faces = matches!(*body, Body::Isosurface(_));
     let exact = (has_edges || has_ends || has_faces).then(exact);
     Ok(Placed { body, placement, root_tolerance: 0.0, exact })

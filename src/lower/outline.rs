@@ -47,7 +47,7 @@ fn middle((low, high): (f64, f64)) -> f64 {
 /// twice another, else 0.
 ///
 /// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma 4.1).
-fn exact_middle((low, high): (f64, f64)) -> f64 {
+pub(super) fn exact_middle((low, high): (f64, f64)) -> f64 {
     let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
     let is_beside_0 = (low > 0.0) == (high > 0.0) && most <= 2.0 * least;
     if is_beside_0 { 0.5 * low + 0.5 * high } else { 0.0 }

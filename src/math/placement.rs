@@ -179,9 +179,27 @@ impl ExactPlacement {
 
     /// The way from a point of the world to a local one, rounded once.
     pub fn way(&self, from: Vector, local: Vector) -> Vector {
+        (self.from_centre(local) + (self.centre - DoubleVector::from(from))).round()
+    }
+
+    fn from_centre(&self, local: Vector) -> DoubleVector {
         let local = DoubleVector::from(local);
         let [x, y, z] = self.rows.map(|row| row.dot(local));
-        (DoubleVector::new(x, y, z) + (self.centre - DoubleVector::from(from))).round()
+        DoubleVector::new(x, y, z)
+    }
+
+    /// How a line of the world lies to the plane through three local points; `None` where those lie in a line.
+    pub fn rise_from(
+        &self,
+        points: [Vector; 3],
+        origin: Vector,
+        direction: Vector,
+    ) -> Option<Rise> {
+        let [a, b, c] = points.map(|point| self.from_centre(point));
+        let (first, second) = ((b - a).normalized()?, (c - a).normalized()?);
+        let normal = first.cross(second).normalized()?.round();
+        let distance = DoubleVector::from(normal).dot(a + self.centre);
+        Some(Rise::from_plane(normal, distance, origin, direction))
     }
 }
 

@@ -137,8 +137,8 @@ impl Box_ {
             // As it was met: by itself, or as a part.
             None => {
                 let off = |(met, _): &(f64, u32)| (met - t).abs();
-                let ways = [None, Some(self.along(ray)), self.along_of_part(ray)].into_iter();
-                let all = ways.filter_map(|along| {
+                let alone = [None, Some(self.along(ray))].into_iter();
+                let all = alone.chain(self.along_of_part(ray).map(Some)).filter_map(|along| {
                     through(centre, directions, half_widths, ray, along).map(end)
                 });
                 all.min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0, |(_, face)| face)

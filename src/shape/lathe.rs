@@ -14,7 +14,7 @@ use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, walk};
 use crate::math::Vector;
-use level::{beside, moved};
+use level::{Beside, Through, beside, moved};
 use line::{Arm, Line, STEEP, Steep};
 
 /// A line that is less steep to the surface may go its way or against it, as far as a look at the place tells.
@@ -92,32 +92,58 @@ impl Lathe {
                 });
             }
         } else {
-            let line = beside(line, &self.outline, ray);
-            for arm in Arm::both(&line) {
-                for run in &self.outline.runs {
-                    for path in arm.paths(&self.outline, run) {
-                        walk(path, &arm, ray.tolerance, |change| {
-                            // What is above is to the left of a line that goes away from the axis.
-                            let along = change.rising != (arm.way > 0.0);
-                            let begins = if arm.may_begin_at(&change) { arm.way } else { 0.0 };
-                            walls.push(Wall {
-                                begins,
-                                ..Wall::new(&change, along, arm.wall(&change))
-                            });
-                        });
-                    }
-                }
-            }
-            if line.raised != 0.0 {
-                for wall in &mut walls {
-                    let height = self.height(part_of(wall.piece, true), ray.at(wall.s));
-                    wall.error += moved(&line, height, ray.direction);
+            match beside(line, &self.outline, ray) {
+                Beside::Whole(line) => walls = self.walls_of_flat(&line, ray),
+                Beside::Parted { before, through, behind } => {
+                    walls = self.walls_of_flat(&before, ray);
+                    walls.retain(|wall| wall.s < through.s);
+                    let mut more = self.walls_of_flat(&behind, ray);
+                    more.retain(|wall| wall.s > through.s);
+                    let ends = (walls.len() + more.len()) % 2 == 1;
+                    walls.extend(ends.then(|| self.end_at(&through, ray)).flatten());
+                    walls.extend(more);
                 }
             }
         }
         walls.sort_by(|a, b| a.s.total_cmp(&b.s));
         drop_touches(&mut walls);
         walls
+    }
+
+    fn walls_of_flat(&self, line: &Line, ray: &LocalRay) -> SmallVec<[Wall; 6]> {
+        let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
+        for arm in Arm::both(line) {
+            for run in &self.outline.runs {
+                for path in arm.paths(&self.outline, run) {
+                    walk(path, &arm, ray.tolerance, |change| {
+                        // What is above is to the left of a line that goes away from the axis.
+                        let along = change.rising != (arm.way > 0.0);
+                        let begins = if arm.may_begin_at(&change) { arm.way } else { 0.0 };
+                        walls.push(Wall { begins, ..Wall::new(&change, along, arm.wall(&change)) });
+                    });
+                }
+            }
+        }
+        if line.raised != 0.0 {
+            for wall in &mut walls {
+                let height = self.height(part_of(wall.piece, true), ray.at(wall.s));
+                wall.error += moved(line, height, ray.direction);
+            }
+        }
+        walls
+    }
+
+    /// The level end that a line goes through.
+    fn end_at(&self, through: &Through, ray: &LocalRay) -> Option<Wall> {
+        let Through { s, error, height, rises } = *through;
+        let point = ray.at(s);
+        let place = [Vector::new(point.x, point.y, 0.0).length(), height];
+        let is_level = |piece: &Piece| piece.points().iter().all(|p| p[1] == height);
+        let off = |piece: &Piece| (piece.nearest(place).0[0] - place[0]).abs();
+        let levels = self.outline.pieces.iter().enumerate().filter(|(_, piece)| is_level(piece));
+        let (piece, end) = levels.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)))?;
+        let along = (end.nearest(place).1[1] > 0.0) == rises;
+        Some(Wall { s, error, piece, along, begins: 0.0 })
     }
 }
 

@@ -122,16 +122,56 @@ impl Placed {
                 point -= step;
             }
         }
-        let Height { value, gradient, error } = height(point);
-        let steepness = gradient.length();
-        let normal = (gradient / steepness).normalize_or(-ray.direction);
-        // What the map's rounding moves the height by.
-        let slopes = local_from_world.abs() * (point - centre).abs();
-        let local_steepness = self.steepness(gradient);
-        let error = (value.abs() + error + U * 24.0 * slopes.length() * local_steepness)
-            / steepness
-            + 2.0 * U * normal.abs_dot(point);
-        SurfacePoint { point, normal, error, face: part }
+        let told = |point: Vector| {
+            let Height { value, gradient, error } = height(point);
+            let steepness = gradient.length();
+            let normal = (gradient / steepness).normalize_or(-ray.direction);
+            // What the map's rounding moves the height by.
+            let slopes = local_from_world.abs() * (point - centre).abs();
+            let local_steepness = self.steepness(gradient);
+            let error = (value.abs() + error + U * 24.0 * slopes.length() * local_steepness)
+                / steepness
+                + 2.0 * U * normal.abs_dot(point)
+                + self.seen_off(normal, point);
+            (SurfacePoint { point, normal, error, face: part }, value.abs() / steepness)
+        };
+        let (surface, left) = told(point);
+        if 2.0 * left > surface.error
+            && let Some(settled) = self.settled(part, ray, t, leaving)
+        {
+            let (settled, left_then) = told(settled);
+            return if left_then < left { settled } else { surface };
+        }
+        surface
+    }
+
+    /// How far triangles may be off as a ray from there sees them: by the roundings of the ways to their corners, and of
+    /// where those are across the ray.
+    fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
+        if !matches!(*self.body, Body::Mesh(_) | Body::HeightField(_)) {
+            return 0.0;
+        }
+        let Placement { centre, world_from_local, .. } = self.placement;
+        let far = world_from_local.abs() * Vector::splat(self.body.reach());
+        2.0 * U * normal.abs().element_sum() * (far + (from - centre).abs()).max_element()
+    }
+
+    /// The same where what is left of the height is more than rounding: the line is known less well than the surface
+    /// bends. The shortest way in the world may pass a flattened body by; steps along the local normal lead there.
+    /// `None` of what is farther from the line's crossing than that may be off.
+    #[cold]
+    #[inline(never)]
+    fn settled(&self, part: u32, ray: &Ray, t: f64, leaving: bool) -> Option<Vector> {
+        const STEPS: usize = 8;
+        let mut point = ray.at(t);
+        for _ in 0..STEPS {
+            let Height { value, gradient, .. } =
+                self.body.height(part, self.placement.local_point(point));
+            let step = gradient * (value / gradient.length_squared());
+            point -= self.placement.world_from_local * step;
+        }
+        let error = self.crossing_at(ray, t, leaving)?.error;
+        ((point - ray.at(t)).length() <= 8.0 * error).then_some(point)
     }
 
     /// The unit normal by which the surface is lit at a point of it, on either side; `None` where it is the

@@ -112,7 +112,7 @@ pub(super) enum Level {
 
 /// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane. One that
 /// leaves the plane by so small a slope may be told to be in it: it goes along the surface, and brings it no light.
-const MEANT: f64 = 16.0 * U;
+pub(super) const MEANT: f64 = 16.0 * U;
 
 /// Whether a line starts as near to a plane, and goes as level, as rounding makes them of one that was meant to lie
 /// there: the ray's own rounding, and that of the plane, which may be `off`.

@@ -15,6 +15,7 @@ use crate::shape::curve::{Change, Hull, Outline, Path, Piece, Point, Run, Side};
 pub(super) const STEEP: f64 = 0.125;
 
 /// A line as the outline sees it.
+#[derive(Clone, Copy)]
 pub(super) struct Line {
     /// Across the axis.
     nearest: Point,
@@ -45,8 +46,8 @@ impl Line {
     }
 
     /// The line where it is so high.
-    pub fn raised_to(self, start: f64) -> Self {
-        Self { start, raised: start - self.start, ..self }
+    pub fn raised_to(&self, start: f64) -> Self {
+        Self { start, raised: start - self.start, ..*self }
     }
 
     /// dz times where the line is at the height z, across the axis.

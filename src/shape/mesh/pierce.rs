@@ -10,7 +10,7 @@
 use std::cell::Cell;
 
 use super::super::body::{InWorld, LocalRay, Met};
-use super::super::slab::nudge;
+use super::super::slab::{MEANT, lies_in, nudge};
 use super::super::{Ray, U};
 use super::Flat;
 use crate::math::Vector;
@@ -94,12 +94,22 @@ impl<'a> View<'a> {
             -3 => Some(!self.across.is_against),
             _ if ca * ab < 0 || ca * bc < 0 => None,
             _ => {
-                if ab == 0 && bc == 0 && ca == 0 {
+                if ab == 0 && bc == 0 && ca == 0 && self.lies_in_plane(corners) {
                     self.is_in_a_plane.set(true);
                 }
                 self.pierces_exactly(corners)
             }
         }
+    }
+
+    /// Whether the line lies in the plane of a triangle of which it passes no edge for certain: as the world has it,
+    /// where it stands there.
+    #[cold]
+    fn lies_in_plane(&self, corners: [Vector; 3]) -> bool {
+        let rise = |(ray, placement): (&Ray, &ExactPlacement)| {
+            placement.rise_from(corners, ray.origin, ray.direction)
+        };
+        self.in_world.and_then(rise).is_none_or(|rise| lies_in(&rise, 0.0))
     }
 
     /// In the world, where others see the corners; where nothing stands there, here.
@@ -129,15 +139,19 @@ impl<'a> View<'a> {
 }
 
 /// A line beside one in the plane of a face, whose crossing might be anywhere along the face: farther off than
-/// rounding is, on the side that [`nudge`] has for all that touches there, of a body that is no larger than
-/// `size`.
+/// rounding is, here and of what the world may have meant to lie in a plane, on the side that [`nudge`] has for all
+/// that touches there, of a body that is no larger than `size`.
 #[cold]
 pub(in super::super) fn beside<'a>(ray: &LocalRay<'a>, size: f64) -> LocalRay<'a> {
     let LocalRay { nearest, direction, blur, .. } = *ray;
     let doubt = View::along(ray, size).doubt.max(16.0 * U * (size + nearest.length()));
     let way = nudge(ray);
     let aside = (way - direction * way.dot(direction)).normalize_or(Vector::ZERO);
-    let far = 16.0 * doubt;
+    let meant = ray.in_world.map_or(0.0, |InWorld { ray, placed }| {
+        let greatest = ray.origin.abs().max(placed.placement.centre.abs()).max_element();
+        placed.exact.as_deref().map_or(0.0, |placement| MEANT * placement.norm * greatest)
+    });
+    let far = 16.0 * doubt.max(meant);
     LocalRay { nearest: nearest + aside * far, blur: blur + far, in_world: None, ..*ray }
 }
 

@@ -260,6 +260,7 @@ impl SphereSweep {
     /// The distance to the nearest ball in twice the digits: the nearest of many is found in `f64`.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::{Double, dot, minus, triple};
+        const LOOKS: usize = 257;
         let n = Double::of;
         let near = Vector::new(point[0].0, point[1].0, point[2].0);
         let distance = |segment: &Segment, u: Double| {
@@ -271,10 +272,17 @@ impl SphereSweep {
         };
         let mut best = n(1000.0);
         for segment in &self.segments {
+            let value_at = |u: f64| segment.distance(near, u)[0];
+            let place = |k: usize| k as f64 / (LOOKS - 1) as f64;
+            let values: [f64; LOOKS] = std::array::from_fn(|k| value_at(place(k)));
             let (mut at, mut least) = (0.0, f64::INFINITY);
-            for step in 0..=40 {
-                let u = segment.nearest(near, f64::from(step) / 40.0);
-                let value = segment.distance(near, u)[0];
+            for k in 0..LOOKS {
+                let around = &values[k.saturating_sub(1)..LOOKS.min(k + 2)];
+                if around.iter().any(|value| *value < values[k]) {
+                    continue;
+                }
+                let u = segment.nearest(near, place(k));
+                let value = value_at(u);
                 if value < least {
                     (at, least) = (u, value);
                 }

@@ -1,6 +1,8 @@
 //! Blobs against twice the digits.
 
-use super::placed::{assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed};
+use super::placed::{
+    assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed, stand,
+};
 use super::*;
 use crate::shape::blob::Component;
 use crate::shape::body::Local;
@@ -87,7 +89,7 @@ fn a_lone_ball_is_a_sphere_and_a_ray_that_touches_it_misses() {
             local_from_world: Matrix::IDENTITY,
         };
         let body = std::sync::Arc::new(Body::Blob(blob));
-        let placed = Placed { body, placement, root_tolerance: 0.0, exact: None };
+        let placed = stand(body, placement);
         let direction = out.cross(aside).normalize_or(Vector::X);
         let origin = out * (radius * (1.0 + off)) - direction * 3.0;
         let ray = Ray { origin, direction };

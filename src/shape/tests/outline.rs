@@ -1,7 +1,7 @@
 //! What prisms, lathes and surfaces of revolution share in their tests against twice the digits.
 
 use super::lathe::any_lathe;
-use super::placed::{Inside, blur, local_at};
+use super::placed::{Inside, blur, far_off, local_at};
 use super::prism::any_prism;
 use super::sor::any_sor;
 use super::*;
@@ -143,7 +143,7 @@ pub(super) fn ray_through(
     way: Vector,
 ) -> Option<(Ray, bool)> {
     let way = UnitVector::from_direction(way)?.get();
-    let far = [3.0, random.size(0.0, 6.0)][random.below(2)];
+    let far = [3.0, far_off(random, placed)][random.below(2)];
     let [from, to] = [through - way * far, through].map(|p| placed.placement.world_point(p));
     let ray = Ray { origin: from, direction: UnitVector::from_direction(to - from)?.get() };
     Some((ray, far <= 3.0))

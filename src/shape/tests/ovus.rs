@@ -1,6 +1,8 @@
 //! Eggs against twice the digits.
 
-use super::placed::{assert_crossed_where_it_is, assert_left_where_it_is, placed, ray_at_placed};
+use super::placed::{
+    assert_crossed_where_it_is, assert_left_where_it_is, far_off, placed, ray_at_placed,
+};
 use super::*;
 use crate::math::double;
 use crate::shape::body::Local;
@@ -56,7 +58,7 @@ fn an_ovus_is_crossed_where_a_ray_grazes_it() {
         let normal = ovus.height(0, point).gradient;
         let off = [0.0, random.size(-17.0, 0.0), -random.size(-17.0, 0.0)][random.below(3)];
         let along = normal.cross(random.direction().get()).normalize_or(Vector::X);
-        let far = random.size(0.0, 6.0);
+        let far = far_off(&mut random, &placed);
         let world = |local: Vector| placed.placement.world_point(local);
         let (from, to) = (world(point + normal * off - along * far), world(point + normal * off));
         let direction = UnitVector::from_direction(to - from).unwrap_or(UnitVector::Z).get();

@@ -1,6 +1,9 @@
 //! Placed bodies against twice the digits: where the line is inside, and where it says it crosses.
 
 use super::*;
+use crate::math::double::DoubleVector;
+use crate::math::elementary;
+use crate::math::placement::ExactPlacement;
 use crate::shape::body::{Local, Met};
 use crate::shape::exact::Triple;
 
@@ -31,12 +34,48 @@ pub(super) fn placed(random: &mut Random, body: Body) -> Placed {
     let far = [0.0, size, size * random.size(0.0, 6.0)][random.below(3)];
     let centre = random.direction().get() * far;
     let placement = Placement { centre, world_from_local, local_from_world };
-    Placed { body: std::sync::Arc::new(body), placement, root_tolerance: 0.0, exact: None }
+    stand(std::sync::Arc::new(body), placement)
+}
+
+/// The body where `placement` has it: its `local_from_world` to the bit.
+pub(super) fn stand(body: std::sync::Arc<Body>, placement: Placement) -> Placed {
+    let [x, y, z] = [0, 1, 2].map(|i| DoubleVector::from(placement.local_from_world.row(i)));
+    let determinant = x.cross(y).dot(z);
+    let columns = [y.cross(z), z.cross(x), x.cross(y)].map(DoubleVector::components);
+    let rows = [0, 1, 2].map(|i| {
+        let [a, b, c] = columns.map(|column| column[i] / determinant);
+        DoubleVector::new(a, b, c)
+    });
+    let exact = ExactPlacement::new(rows, placement.centre.into(), &placement);
+    let exact = has_flat_parts(&body).then(|| Box::new(exact));
+    Placed { body, placement, root_tolerance: 0.0, exact }
+}
+
+/// Whether it has ends or faces that a line may lie in.
+fn has_flat_parts(body: &Body) -> bool {
+    match body {
+        Body::Cylinder(_)
+        | Body::Cone(_)
+        | Body::Prism(_)
+        | Body::Sor(_)
+        | Body::Lathe(_)
+        | Body::Isosurface(_)
+        | Body::Mesh(_)
+        | Body::HeightField(_) => true,
+        Body::Text(_) => !body.is_sheet(),
+        _ => false,
+    }
 }
 
 /// So that rounding a point of it costs no more than rounding the ray.
 pub(super) fn at_the_origin(placed: Placed) -> Placed {
-    Placed { placement: Placement { centre: Vector::ZERO, ..placed.placement }, ..placed }
+    stand(placed.body, Placement { centre: Vector::ZERO, ..placed.placement })
+}
+
+/// How far off to look from, in sizes of the body: to 10⁹ of its least, if it is flattened.
+pub(super) fn far_off(random: &mut Random, placed: &Placed) -> f64 {
+    let flat = elementary::log10(3.0 / placed.placement.condition());
+    random.size(0.0, 9.0 + flat.min(0.0))
 }
 
 /// A ray at a placed body: from near or far, onto it, past it, along its own axes.
@@ -44,7 +83,7 @@ pub(super) fn ray_at_placed(random: &mut Random, placed: &Placed) -> Ray {
     let reach = placed.body.reach().min(4.0);
     let world = |local: Vector| placed.placement.world_point(local);
     let target = world(random.point(1.0) * reach);
-    let far = [0.5, 3.0, random.size(0.0, 6.0)][random.below(3)];
+    let far = [0.5, 3.0, far_off(random, placed)][random.below(3)];
     let origin = match random.below(4) {
         0 => {
             let axis = [Vector::X, Vector::Y, Vector::Z][random.below(3)];
@@ -74,8 +113,9 @@ pub(super) fn blur(placed: &Placed, ray: &Ray) -> f64 {
             .max(start.length() + 1.0)
 }
 
-/// Whether rounding hardly tells a ray from one across the axis of a body with ends.
-fn is_level(placed: &Placed, ray: &Ray) -> bool {
+/// How far off a ray may cross that rounding hardly tells from one across the axis of a body with ends: it may be taken
+/// for one in the plane of an end, as the numbers are that made the ray and the plane.
+fn level_off(placed: &Placed, ray: &Ray) -> f64 {
     let step = placed.placement.local_direction(ray.direction);
     let level = match *placed.body {
         Body::Cylinder(_)
@@ -85,9 +125,15 @@ fn is_level(placed: &Placed, ray: &Ray) -> bool {
         | Body::Lathe(_)
         | Body::Text(_) => step.z.abs(),
         Body::Isosurface(_) => step.abs().min_element(),
-        _ => return false,
+        _ => return 0.0,
     };
-    level <= blur(placed, ray) * step.length()
+    let blur = blur(placed, ray);
+    if level > blur * step.length() {
+        return 0.0;
+    }
+    let Placement { centre, local_from_world, .. } = placed.placement;
+    let greatest = ray.origin.abs().max(centre.abs()).max_element();
+    blur + 16.0 * U * (local_from_world.abs() * Vector::splat(greatest)).length()
 }
 
 /// Each crossing has the inside on one hand and the outside on the other, within its bound; and wherever
@@ -111,7 +157,7 @@ pub(super) fn assert_crossed_where_it_is(
         let (before, after) = (height(t, -error).0, height(t, error).0);
         let (outer, inner) = if leaving { (after, before) } else { (before, after) };
         // In the plane of an end it is taken to pass on one side of it: where it is crossed, it is near.
-        let off = if is_level(placed, ray) { blur(placed, ray) } else { 0.0 };
+        let off = level_off(placed, ray);
         assert!(outer >= -off && inner <= off, "{before:e} {after:e}: {met:?} {placed:?} {ray:?}");
     }
     if !placed.body.is_sheet() {
@@ -147,7 +193,13 @@ pub(super) fn assert_inside_where_it_says(
         let height = height(t, 0.0).0;
         let passed = all.iter().filter(|met| met.t < t).count();
         let is_inside = (passed % 2 == 1) != from_inside;
-        if height.abs() > blur(placed, ray).sqrt().min(1e-3) {
+        let blur = blur(placed, ray);
+        let mut told = blur.sqrt().min(1e-3).max(blur);
+        if blur > 1e-6 && matches!(*placed.body, Body::Algebraic(_)) {
+            // Its sheets that are as thin are not seen from so far.
+            told = blur.sqrt().sqrt();
+        }
+        if height.abs() > told {
             assert_eq!(height < 0.0, is_inside, "{height:e} at {t:e}: {all:?} {placed:?} {ray:?}");
         }
     }
@@ -188,8 +240,27 @@ fn onward(
     if direction.dot(surface.normal) < 0.0 {
         return None;
     }
+    // What goes along a flat part by less than rounding may be told to lie in it.
+    if direction.dot(surface.normal) <= 16.0 * U * surface.normal.abs().element_sum()
+        && is_on_a_flat_part(placed, &surface)
+    {
+        return None;
+    }
     let onward = Ray { origin: surface.spawn(direction), direction };
     Some((surface, onward))
+}
+
+/// Whether it may lie on an end, or on a face across an axis.
+fn is_on_a_flat_part(placed: &Placed, surface: &SurfacePoint) -> bool {
+    let is_across = |axis| {
+        let across = placed.placement.world_normal(axis).normalize_or(axis);
+        across.cross(surface.normal).length() <= 1e-9
+    };
+    match *placed.body {
+        Body::Mesh(_) | Body::HeightField(_) => true,
+        Body::Isosurface(_) => [Vector::X, Vector::Y, Vector::Z].into_iter().any(is_across),
+        _ => placed.exact.is_some() && is_across(Vector::Z),
+    }
 }
 
 /// The surface's point is on it within its bound, and a ray that goes on from there leaves.
@@ -221,10 +292,13 @@ pub(super) fn assert_left_into_the_open(
     let all = placed.crossings(&onward);
     let Some(next) = all.iter().position(|met| met.crossing().is_ahead()) else { return };
     let again = all[next];
+    let height = |t: f64| inside(&placed.body, local_at(placed, &onward, t, 0.0)).0;
+    let blur = blur(placed, &onward);
+    // As far as the ray keeps off, it may go in unseen.
+    let room = blur.max(2.0 * height(0.0));
     for share in [0.0, 1e-6, 1e-3, 0.1, 0.5, 0.9, 1.0] {
-        let t = (again.t - again.error) * share;
-        let height = inside(&placed.body, local_at(placed, &onward, t, 0.0)).0;
-        let sound = if again.leaving { height <= blur(placed, &onward) } else { height >= 0.0 };
+        let height = height((again.t - again.error) * share);
+        let sound = if again.leaving { height <= room } else { height >= -blur };
         assert!(sound, "{height:e} {share} {again:?} {surface:?} {onward:?} {placed:?}");
     }
 }

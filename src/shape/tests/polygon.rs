@@ -1,7 +1,7 @@
 //! Polygons against exact arithmetic, also at their edges and corners.
 
 use super::placed::{
-    assert_crossed_where_it_is, at_the_origin, blur, local_at, placed, ray_at_placed,
+    assert_crossed_where_it_is, at_the_origin, blur, far_off, local_at, placed, ray_at_placed,
 };
 use super::*;
 use crate::shape::exact::Triple;
@@ -71,7 +71,7 @@ fn a_line_through_an_edge_or_a_corner_of_a_polygon_meets_it() {
         let [from, to] = polygon.edges[random.below(polygon.edges.len())];
         let share = [0.0, 0.5, random.number(0.0, 1.0)][random.below(3)];
         let target = placed.placement.world_point(from + (to - from) * share);
-        let far = random.size(0.5, 9.0);
+        let far = 3.0 * far_off(&mut random, &placed);
         let origin = placed.placement.world_point(random.direction().get() * far);
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };

@@ -4,7 +4,7 @@ use super::lathe::any_lathe;
 use super::outline::{along_outline, any_outline, goes_along, is_clear, one, planar, ray_through};
 use super::placed::{
     assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, blur,
-    greater, placed, ray_at_placed,
+    greater, placed, ray_at_placed, stand,
 };
 use super::sor::any_sor;
 use super::*;
@@ -179,7 +179,7 @@ fn a_line_in_a_wall_is_crossed_as_one_a_little_to_its_side() {
             local_from_world: matrix.inverse(),
         };
         let body = std::sync::Arc::new(Body::Prism(prism));
-        let placed = Placed { body, placement, root_tolerance: 0.0, exact: None };
+        let placed = stand(body, placement);
         let origin = placement.world_point(through - way * [0.0, 3.0, 8.0][random.below(3)]);
         let Some(direction) = UnitVector::from_direction(matrix * way) else { continue };
         let ray = Ray { origin, direction: direction.get() };

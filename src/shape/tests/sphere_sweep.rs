@@ -1,6 +1,8 @@
 //! Swept spheres against twice the digits.
 
-use super::placed::{assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed};
+use super::placed::{
+    assert_crossed_where_it_is, assert_left_into_the_open, far_off, placed, ray_at_placed,
+};
 use super::*;
 use crate::shape::body::Local;
 use crate::shape::exact::Triple;
@@ -96,7 +98,7 @@ fn a_sweep_is_crossed_where_a_ray_grazes_it_or_goes_along_it() {
             2 => (from, axis),
             _ => (from + axis * off, aside),
         };
-        let far = random.size(0.0, 6.0);
+        let far = far_off(&mut random, &placed);
         let [a, b] = [through - along * far, through].map(|p| placed.placement.world_point(p));
         let direction = UnitVector::from_direction(b - a).unwrap_or(UnitVector::Z).get();
         let ray = Ray { origin: a, direction };

@@ -1,7 +1,8 @@
 //! Tori against twice the digits: thick, thin, grazed, and as exact as the line.
 
 use super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed, square,
+    assert_crossed_where_it_is, assert_left_into_the_open, far_off, placed, ray_at_placed, square,
+    stand,
 };
 use super::*;
 use crate::shape::body::Local;
@@ -69,7 +70,7 @@ fn a_torus_is_crossed_where_a_ray_grazes_its_tube_or_meets_its_axis() {
             _ => (Vector::Z * (minor * (1.0 + off)), around),
         };
         let Some(along) = UnitVector::from_direction(along) else { continue };
-        let far = [3.0, random.size(0.0, 6.0)][random.below(2)];
+        let far = [3.0, far_off(&mut random, &placed)][random.below(2)];
         let [from, to] =
             [through - along.get() * far, through].map(|local| placed.placement.world_point(local));
         let direction = UnitVector::from_direction(to - from).unwrap_or(UnitVector::Z).get();
@@ -97,12 +98,7 @@ fn a_torus_is_found_as_exactly_as_the_line_is_known() {
             world_from_local: Matrix::IDENTITY,
             local_from_world: Matrix::IDENTITY,
         };
-        let placed = Placed {
-            body: std::sync::Arc::new(Body::Torus(torus_)),
-            placement,
-            root_tolerance: 0.0,
-            exact: None,
-        };
+        let placed = stand(std::sync::Arc::new(Body::Torus(torus_)), placement);
         for met in placed.crossings(&ray) {
             let slope = placed.body.height(0, ray.at(met.t)).gradient.dot(direction).abs();
             // A tube curves by 1 / minor.

@@ -13,7 +13,9 @@ use super::{Change, MOST, U, root_near, value};
 /// **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5.
 pub(super) fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize {
     let degree = values.len() - 1;
-    let mut forms: SmallVec<[f64; 8]> = SmallVec::from_slice(values);
+    let mut forms = [0.0; MOST + 1];
+    let forms = &mut forms[..=degree];
+    forms.copy_from_slice(values);
     for first in 0..degree {
         for k in (first..degree).rev() {
             forms[k] += low * forms[k + 1];
@@ -32,7 +34,10 @@ pub(super) fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize 
     }
     let mut rounding = 64.0 * U * forms.iter().fold(0.0, |most: f64, form| most.max(form.abs()));
     for order in 1..degree {
-        forms = forms.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        for k in 0..=degree - order {
+            forms[k] = forms[k + 1] - forms[k];
+        }
+        let forms = &forms[..=degree - order];
         rounding *= 2.0;
         let rises = forms.iter().all(|form| *form > rounding);
         if rises || forms.iter().all(|form| *form < -rounding) {
