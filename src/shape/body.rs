@@ -212,12 +212,10 @@ pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
         }
         // Rounding may have swapped them, and the bound says so.
         let (other, first) = if is_there(&enter, &next) { (enter, next) } else { (next, enter) };
-        let error = first.error.max(first.t - other.t + other.error);
-        enter = Met { error, ..first };
+        enter = Met { error: first.error.max(first.t - other.t + other.error), ..first };
         let ends_later = is_there(&leave, &end) || (end.t > leave.t && !is_there(&end, &leave));
         let (other, last) = if ends_later { (leave, end) } else { (end, leave) };
-        let error = last.error.max(other.t - last.t + other.error);
-        leave = Met { error, ..last };
+        leave = Met { error: last.error.max(other.t - last.t + other.error), ..last };
     }
     found.extend([enter, leave]);
 }

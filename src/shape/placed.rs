@@ -148,11 +148,13 @@ impl Placed {
     /// How far triangles may be off as a ray from there sees them: by the roundings of the ways to their corners, and of
     /// where those are across the ray.
     fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
-        if !matches!(*self.body, Body::Mesh(_) | Body::HeightField(_)) {
-            return 0.0;
-        }
+        let reach = match &*self.body {
+            Body::Mesh(mesh) => mesh.reach(),
+            Body::HeightField(_) => 1.0,
+            _ => return 0.0,
+        };
         let Placement { centre, world_from_local, .. } = self.placement;
-        let far = world_from_local.abs() * Vector::splat(self.body.reach());
+        let far = world_from_local.abs() * Vector::splat(reach);
         2.0 * U * normal.abs().element_sum() * (far + (from - centre).abs()).max_element()
     }
 
