@@ -48,7 +48,13 @@ impl Evaluator<'_> {
         let given = given?;
         let Value::String(string) = &given.value else {
             let text = self.sources.text(given.span);
+            let all = &self.sources.get(given.span.file).text;
+            let behind = all.get(given.span.end as usize..).and_then(|rest| rest.split('}').next());
+            let is_behind = behind.is_some_and(|rest| rest.contains('"'));
             let help = matches!(given.value, Value::Number(_)).then(|| match text.parse::<f64>() {
+                Ok(_) if is_behind => "the string comes before its numbers: \
+                    `text { \"…\" thickness, offset }`"
+                    .to_owned(),
                 Ok(_) => format!("write `\"{text}\"`"),
                 Err(_) => format!("a number becomes a string by `str({text}, 0, -1)`"),
             });

@@ -141,7 +141,7 @@ impl Evaluator<'_> {
                     fixes: vec![(Span { start, ..span }, right.to_owned())],
                 })
             }
-            "noise" | "perlin" | "perlin_noise" | "snoise" => Some(Call {
+            "noise" | "noise3d" | "perlin" | "perlin_noise" | "snoise" => Some(Call {
                 help: "noise is `f_noise3d(x, y, z)` of `#include \"functions.inc\"`".to_owned(),
                 fixes: Vec::new(),
             }),
