@@ -6,18 +6,16 @@
 use std::sync::Arc;
 
 use super::Fault;
-use super::outline::exact_middle;
 use super::quadric;
 use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
 use crate::function::Closed;
-use crate::math::double::{Double, DoubleVector, power_of_two};
+use crate::math::double::{Double, DoubleVector, exact_middle, power_of_two};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::terms::exponents;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use crate::scene::mesh::Triangles;
 use crate::scene::{self, Container};
-use crate::shape::body::Local;
 use crate::shape::isosurface;
 use crate::shape::julia_fractal::{Algebra, Function};
 use crate::shape::mesh::{Face, Skin};
@@ -247,8 +245,8 @@ pub(super) fn frame(
 }
 
 /// Triangles around the middle of the box that holds them, of size about 1; `None` where not one is left
-/// that is no line or point. The size is rounded to a power of two, and the middle is exact: so no vertex loses a
-/// digit, and one that two meshes have is the same in both.
+/// that is no line or point. The size is rounded to a power of two, and from the middle each vertex is told without a
+/// rounding: one that two meshes have is the same in both.
 pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     if triangles.faces.is_empty() {
         return Ok(None);
@@ -314,13 +312,6 @@ pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     };
     let placement = traceable(placement, &what)?;
     let exact = || Box::new(ExactPlacement::new(map.rows(), map.offset(), &placement));
-    let has_edges = matches!(*body, Body::Mesh(_) | Body::HeightField(_));
-    let has_ends = match *body {
-        Body::Cylinder(_) | Body::Cone(_) | Body::Prism(_) | Body::Sor(_) | Body::Lathe(_) => true,
-        Body::Text(_) => !body.is_sheet(),
-        _ => false,
-    };
-    let has_faces = matches!(*body, Body::Isosurface(_));
-    let exact = (has_edges || has_ends || has_faces).then(exact);
+    let exact = body.keeps_exact_place().then(exact);
     Ok(Placed { body, placement, root_tolerance: 0.0, exact })
 }

@@ -5,7 +5,7 @@
 
 use super::Fault;
 use super::transform::Affine;
-use crate::math::double::{Double, DoubleVector, power_of_two_near};
+use crate::math::double::{Double, DoubleVector, exact_middle, power_of_two_near};
 use crate::scene::outline::{Point, Spline, sameness};
 use crate::shape::curve::{Outline, Piece};
 use crate::shape::sor::Segment;
@@ -41,16 +41,6 @@ fn middle((low, high): (f64, f64)) -> f64 {
     let step = size_over(high - low) / 512.0;
     let middle = ((0.5 * low + 0.5 * high) / step).round() * step;
     if middle.is_finite() { middle } else { 0.5 * low + 0.5 * high }
-}
-
-/// Of numbers in a range, what they all can be told from without a rounding: its middle, where none is more than
-/// twice another, else 0.
-///
-/// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma 4.1).
-pub(super) fn exact_middle((low, high): (f64, f64)) -> f64 {
-    let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
-    let is_beside_0 = (low > 0.0) == (high > 0.0) && most <= 2.0 * least;
-    if is_beside_0 { 0.5 * low + 0.5 * high } else { 0.0 }
 }
 
 /// The pieces of a curve through points, those that only tell slopes among them.

@@ -295,6 +295,16 @@ pub fn power_of_two_near(value: f64) -> f64 {
     f64::from_bits(exponent.clamp(2, 2044) << 52)
 }
 
+/// Of numbers in a range, what they all can be told from without a rounding: its middle, where none is more than
+/// twice another, else 0.
+///
+/// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma 4.1).
+pub fn exact_middle((low, high): (f64, f64)) -> f64 {
+    let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
+    let is_beside_0 = (low > 0.0) == (high > 0.0) && most <= 2.0 * least;
+    if is_beside_0 { 0.5 * low + 0.5 * high } else { 0.0 }
+}
+
 impl From<Vector> for DoubleVector {
     fn from(v: Vector) -> Self {
         Self::new(v.x.into(), v.y.into(), v.z.into())

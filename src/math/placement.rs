@@ -108,21 +108,27 @@ pub struct Rise {
 impl Rise {
     /// To the plane normal·P = distance, exactly.
     pub fn from_plane(normal: Vector, distance: Double, origin: Vector, direction: Vector) -> Self {
-        let along = |v: Vector| DoubleVector::from(normal).dot(v.into());
-        let greatest = origin.abs().max_element().max(distance.round().abs());
+        let normal = DoubleVector::from(normal);
+        let up = normal.dot(origin.into()) - distance;
+        Self::along(normal, (up, distance.round()), origin, direction)
+    }
+
+    /// Of a line that starts so far up along a normal, from a plane that is so far from 0.
+    fn along(
+        normal: DoubleVector,
+        (up, distance): (Double, f64),
+        origin: Vector,
+        direction: Vector,
+    ) -> Self {
+        let greatest = origin.abs().max_element().max(distance.abs());
+        let size = |greatest: f64| normal.round().abs().element_sum() * greatest;
         Self {
-            up: (along(origin) - distance).round(),
-            speed: along(direction).round(),
-            up_size: size_along(normal, greatest),
-            speed_size: size_along(normal, direction.abs().max_element()),
+            up: up.round(),
+            speed: normal.dot(direction.into()).round(),
+            up_size: size(greatest),
+            speed_size: size(direction.abs().max_element()),
         }
     }
-}
-
-/// How great the numbers may be that make a vector along a normal, where none is above `greatest`: they may have
-/// cancelled.
-fn size_along(normal: Vector, greatest: f64) -> f64 {
-    normal.abs().element_sum() * greatest
 }
 
 /// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
@@ -165,16 +171,10 @@ impl ExactPlacement {
         let normal = unit(unit(column(axis + 1)).cross(unit(column(axis + 2))));
         let tall = normal.dot(along);
         let from_plane = DoubleVector::from(origin) - self.centre - along * end.into();
-        let local = |v: DoubleVector| (normal.dot(v) / tall).round();
-        let steep = normal.round() / tall.round();
-        let distance = (normal.dot(DoubleVector::from(origin) - from_plane)).round();
-        let greatest = origin.abs().max_element().max(distance.abs());
-        Rise {
-            up: local(from_plane),
-            speed: local(direction.into()),
-            up_size: size_along(steep, greatest),
-            speed_size: size_along(steep, direction.abs().max_element()),
-        }
+        let distance = normal.dot(DoubleVector::from(origin) - from_plane).round();
+        // In lengths along the axis.
+        let steep = normal.map(|c| c / tall);
+        Rise::along(steep, (steep.dot(from_plane), distance), origin, direction)
     }
 
     /// The way from a point of the world to a local one, rounded once.
@@ -197,9 +197,10 @@ impl ExactPlacement {
     ) -> Option<Rise> {
         let [a, b, c] = points.map(|point| self.from_centre(point));
         let (first, second) = ((b - a).normalized()?, (c - a).normalized()?);
-        let normal = first.cross(second).normalized()?.round();
-        let distance = DoubleVector::from(normal).dot(a + self.centre);
-        Some(Rise::from_plane(normal, distance, origin, direction))
+        let normal = first.cross(second).normalized()?;
+        let up = normal.dot(DoubleVector::from(origin) - self.centre - a);
+        let distance = normal.dot(a + self.centre).round();
+        Some(Rise::along(normal, (up, distance), origin, direction))
     }
 }
 

@@ -14,7 +14,7 @@ use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, walk};
 use crate::math::Vector;
-use level::{Beside, Through, beside, moved};
+use level::{Beside, Passage, beside, moved};
 use line::{Arm, Line, STEEP, Steep};
 
 /// A line that is less steep to the surface may go its way or against it, as far as a look at the place tells.
@@ -36,6 +36,8 @@ struct Wall {
     /// Of what may lie where the arms begin, which way its arm goes; else 0.
     begins: f64,
 }
+
+type Walls = SmallVec<[Wall; 6]>;
 
 impl Wall {
     fn new(change: &Change, along: bool, (s, error): (f64, f64)) -> Self {
@@ -75,9 +77,9 @@ impl Lathe {
         (!outline.pieces.is_empty()).then_some(Self { outline })
     }
 
-    fn walls(&self, ray: &LocalRay) -> SmallVec<[Wall; 6]> {
+    fn walls(&self, ray: &LocalRay) -> Walls {
         let line = Line::new(ray);
-        let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
+        let mut walls = Walls::new();
         if line.speed.abs() >= STEEP {
             for run in &self.outline.runs {
                 let path = Path::whole(&self.outline, run, Some(true));
@@ -94,14 +96,20 @@ impl Lathe {
         } else {
             match beside(line, &self.outline, ray) {
                 Beside::Whole(line) => walls = self.walls_of_flat(&line, ray),
-                Beside::Parted { before, through, behind } => {
-                    walls = self.walls_of_flat(&before, ray);
-                    walls.retain(|wall| wall.s < through.s);
-                    let mut more = self.walls_of_flat(&behind, ray);
-                    more.retain(|wall| wall.s > through.s);
-                    let ends = (walls.len() + more.len()) % 2 == 1;
-                    walls.extend(ends.then(|| self.end_at(&through, ray)).flatten());
-                    walls.extend(more);
+                Beside::Parted { before, passage, behind } => {
+                    let is_before = |wall: &Wall| wall.s < passage.s;
+                    let [first, then] = [before, behind].map(|line| self.walls_of_flat(&line, ray));
+                    let (before, late): (Walls, Walls) = first.into_iter().partition(is_before);
+                    let (early, behind): (Walls, Walls) = then.into_iter().partition(is_before);
+                    if (before.len() + behind.len()) % 2 == 1 {
+                        let end = self.end_at(&passage, ray);
+                        // Where there is no end, the line goes through a wall, as high as the end.
+                        let off = |wall: &Wall| (wall.s - passage.s).abs();
+                        let others = late.into_iter().chain(early);
+                        let nearest = others.min_by(|a, b| off(a).total_cmp(&off(b)));
+                        walls.extend(end.or(nearest));
+                    }
+                    walls.extend(before.into_iter().chain(behind));
                 }
             }
         }
@@ -110,8 +118,8 @@ impl Lathe {
         walls
     }
 
-    fn walls_of_flat(&self, line: &Line, ray: &LocalRay) -> SmallVec<[Wall; 6]> {
-        let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
+    fn walls_of_flat(&self, line: &Line, ray: &LocalRay) -> Walls {
+        let mut walls = Walls::new();
         for arm in Arm::both(line) {
             for run in &self.outline.runs {
                 for path in arm.paths(&self.outline, run) {
@@ -134,22 +142,25 @@ impl Lathe {
     }
 
     /// The level end that a line goes through.
-    fn end_at(&self, through: &Through, ray: &LocalRay) -> Option<Wall> {
-        let Through { s, error, height, rises } = *through;
+    fn end_at(&self, passage: &Passage, ray: &LocalRay) -> Option<Wall> {
+        let Passage { s, error, height, rises } = *passage;
         let point = ray.at(s);
-        let place = [Vector::new(point.x, point.y, 0.0).length(), height];
-        let is_level = |piece: &Piece| piece.points().iter().all(|p| p[1] == height);
-        let off = |piece: &Piece| (piece.nearest(place).0[0] - place[0]).abs();
-        let levels = self.outline.pieces.iter().enumerate().filter(|(_, piece)| is_level(piece));
-        let (piece, end) = levels.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)))?;
-        let along = (end.nearest(place).1[1] > 0.0) == rises;
-        Some(Wall { s, error, piece, along, begins: 0.0 })
+        let out = Vector::new(point.x, point.y, 0.0).length();
+        let room = 2.0 * error + 16.0 * U;
+        let is_there = |piece: &Piece| {
+            let [a, b] = [piece.first()[0], piece.last()[0]];
+            a.min(b) - room <= out && out <= a.max(b) + room
+        };
+        let mut pieces = self.outline.pieces.iter();
+        let piece = pieces.position(|one| one.level() == Some(height) && is_there(one))?;
+        let (_, [_, up]) = self.outline.pieces[piece].nearest([out, height]);
+        Some(Wall { s, error, piece, along: (up > 0.0) == rises, begins: 0.0 })
     }
 }
 
 /// Drops what both arms cross right where they begin, as far as rounding tells: the line may as well only touch it,
 /// as at a tip, or beside an upright wall.
-fn drop_touches(walls: &mut SmallVec<[Wall; 6]>) {
+fn drop_touches(walls: &mut Walls) {
     let mut at = 0;
     while let Some([one, other]) = walls.get(at..at + 2) {
         if one.begins * other.begins < 0.0 && other.s - one.s <= one.error + other.error {

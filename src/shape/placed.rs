@@ -19,6 +19,34 @@ pub struct Placed {
     pub exact: Option<Box<ExactPlacement>>,
 }
 
+impl Body {
+    /// Whether it has ends, faces or edges that others may share: where it stands is kept exactly.
+    pub fn keeps_exact_place(&self) -> bool {
+        match self {
+            Self::Cone(_)
+            | Self::Cylinder(_)
+            | Self::HeightField(_)
+            | Self::Isosurface(_)
+            | Self::Lathe(_)
+            | Self::Mesh(_)
+            | Self::Prism(_)
+            | Self::Sor(_) => true,
+            Self::Text(_) => !self.is_sheet(),
+            Self::Algebraic(_)
+            | Self::BicubicPatch(_)
+            | Self::Blob(_)
+            | Self::Disc(_)
+            | Self::JuliaFractal(_)
+            | Self::Ovus(_)
+            | Self::Parametric(_)
+            | Self::Polygon(_)
+            | Self::SphereSweep(_)
+            | Self::Superellipsoid(_)
+            | Self::Torus(_) => false,
+        }
+    }
+}
+
 impl Placed {
     /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
@@ -104,7 +132,7 @@ impl Placed {
 
     /// The point of the surface where `ray` crosses it at `t`: the height of what is at t is taken off
     /// along the normal, the shortest way in the world. The distance to the true surface is bounded
-    /// by the height that is left and the rounding of that very sum.
+    /// by the height that is left, the rounding of that very sum, and what a ray that goes on sees triangles off by.
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let part = self.part_at(ray, t, leaving);
@@ -136,26 +164,15 @@ impl Placed {
             (SurfacePoint { point, normal, error, face: part }, value.abs() / steepness)
         };
         let (surface, left) = told(point);
+        // Where less is asked for, less is promised.
         if 2.0 * left > surface.error
+            && self.root_tolerance == 0.0
             && let Some(settled) = self.settled(part, ray, t, leaving)
         {
             let (settled, left_then) = told(settled);
             return if left_then < left { settled } else { surface };
         }
         surface
-    }
-
-    /// How far triangles may be off as a ray from there sees them: by the roundings of the ways to their corners, and of
-    /// where those are across the ray.
-    fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
-        let reach = match &*self.body {
-            Body::Mesh(mesh) => mesh.reach(),
-            Body::HeightField(_) => 1.0,
-            _ => return 0.0,
-        };
-        let Placement { centre, world_from_local, .. } = self.placement;
-        let far = world_from_local.abs() * Vector::splat(reach);
-        2.0 * U * normal.abs().element_sum() * (far + (from - centre).abs()).max_element()
     }
 
     /// The same where what is left of the height is more than rounding: the line is known less well than the surface
@@ -173,7 +190,26 @@ impl Placed {
             point -= self.placement.world_from_local * step;
         }
         let error = self.crossing_at(ray, t, leaving)?.error;
-        ((point - ray.at(t)).length() <= 8.0 * error).then_some(point)
+        let is_near = (point - ray.at(t)).length() <= 8.0 * error;
+        (is_near && error.is_finite()).then_some(point)
+    }
+
+    /// How far triangles may be off as a ray from there sees them.
+    ///
+    /// With a and b a corner's coordinates across the ray and m the one along the axis that the ray is nearest to, each
+    /// rounded once on the way there, b − shear·m is off by u·(2|b| + 4|m|), and a likewise.
+    fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
+        let reach = if let Body::Mesh(mesh) = &*self.body {
+            mesh.reach()
+        } else if let Body::HeightField(_) = *self.body {
+            // Its corners; below them it has no end.
+            1.0
+        } else {
+            return 0.0;
+        };
+        let Placement { centre, world_from_local, .. } = self.placement;
+        let far = world_from_local.abs() * Vector::splat(reach) + (from - centre).abs();
+        6.0 * U * normal.abs().element_sum() * far.max_element()
     }
 
     /// The unit normal by which the surface is lit at a point of it, on either side; `None` where it is the

@@ -92,7 +92,7 @@ impl Slab {
 
 /// A line is asked how it lies to a plane in the world where rounding may move its crossing by a
 /// sixty-fourth of the body.
-const NEARLY_ALONG: f64 = 64.0;
+pub(super) const NEARLY_ALONG: f64 = 64.0;
 
 /// How far a plane may be off as a line at `place` along its axis sees it.
 fn rounding(far: f64, place: f64) -> f64 {

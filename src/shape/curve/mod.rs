@@ -69,6 +69,17 @@ impl Piece {
         self.points[self.degree]
     }
 
+    /// How high all of it is, where it is level.
+    pub fn level(&self) -> Option<f64> {
+        let [_, height] = self.first();
+        self.points().iter().all(|point| point[1] == height).then_some(height)
+    }
+
+    /// The greatest ρ of its control points.
+    pub fn width(&self) -> f64 {
+        self.points().iter().map(|point| point[0]).fold(0.0, f64::max)
+    }
+
     pub fn is_straight(&self) -> bool {
         self.degree == 1
     }

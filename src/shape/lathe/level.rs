@@ -1,11 +1,11 @@
-//! A line that lies in a level end of a lathe, of two solids that touch there: one of them has it, as if it were
-//! moved to its side.
+//! A line that goes nearly along a level end of a lathe: it is asked how it lies to the end in the world, where what
+//! touches the end is asked the same, and the outline is asked about a line that is certainly above the end, or below.
 
 use super::line::Line;
 use crate::math::Vector;
 use crate::shape::U;
 use crate::shape::body::{Height, LocalRay};
-use crate::shape::curve::{Outline, Piece};
+use crate::shape::curve::Outline;
 use crate::shape::slab::{Level, nudge};
 
 /// What is asked of the outline instead of a line that goes nearly along a level end.
@@ -14,40 +14,57 @@ pub(super) enum Beside {
     /// It goes through the end, and is on one side of it before, on the other behind.
     Parted {
         before: Line,
-        through: Through,
+        passage: Passage,
         behind: Line,
     },
 }
 
 /// Where a line goes through the plane of a level end, and whether up.
-pub(super) struct Through {
+pub(super) struct Passage {
     pub s: f64,
     pub error: f64,
     pub height: f64,
     pub rises: bool,
 }
 
-/// The line, so much above or below a level end that it goes along that rounding tells.
+/// A line that is so many of its roundings higher or lower than an end of which it is told where it lies is certainly so
+/// for the outline.
+const FAR: f64 = 64.0;
+
+/// The outline does not tell where a line goes through an end over which it rises by no more than so many roundings.
+const UNTOLD: f64 = 8.0;
+
+/// No end is so narrow that a steeper line is untold, by roundings over the line's speed.
+const NARROWEST: f64 = 1024.0;
+
+/// The line, or what stands for it, raised to where the outline tells.
 pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Beside {
-    if line.speed.abs() > 2.0 * line.off {
+    let (off, speed) = (line.off, line.speed.abs());
+    if speed > NARROWEST * off {
         return Beside::Whole(line);
     }
-    let far = 64.0 * line.off;
-    let is_level = |piece: &Piece, height: f64| piece.points().iter().all(|p| p[1] == height);
-    let levels = outline.pieces.iter().map(|piece| (piece, piece.first()[1]));
-    for (_, height) in levels.filter(|(piece, height)| is_level(piece, *height)) {
+    let levels = || outline.pieces.iter().filter_map(|piece| Some((piece, piece.level()?)));
+    for (piece, height) in levels() {
+        if speed * piece.width() > UNTOLD * off {
+            continue;
+        }
+        let raised = |from: f64, side: f64| {
+            // Not beyond another end.
+            let gaps = levels().map(|(_, other)| (other - height).abs()).filter(|gap| *gap > 0.0);
+            let far = (FAR * off).min(gaps.fold(f64::INFINITY, f64::min) * 0.5);
+            line.raised_to(from + far.copysign(side))
+        };
         match Level::of(ray, 2, height, (2.0, 0.0)) {
-            Level::In => {
-                return Beside::Whole(line.raised_to(height + far.copysign(nudge(ray).z)));
-            }
+            Level::In => return Beside::Whole(raised(height, nudge(ray).z)),
             Level::Through { s, error, rise } => {
-                let [before, behind] =
-                    [-rise, rise].map(|side| line.raised_to(height + far.copysign(side)));
-                let through = Through { s, error, height, rises: rise > 0.0 };
-                return Beside::Parted { before, through, behind };
+                // As high there, at s.
+                let start = height - line.speed * s;
+                let [before, behind] = [-rise, rise].map(|side| raised(start, side));
+                let passage = Passage { s, error, height, rises: rise > 0.0 };
+                return Beside::Parted { before, passage, behind };
             }
-            Level::Beside(side) if (height - line.start).abs() <= 8.0 * line.off => {
-                return Beside::Whole(line.raised_to(line.start + far.copysign(side)));
+            Level::Beside(side) if (height - line.start).abs() <= UNTOLD * off => {
+                return Beside::Whole(raised(line.start, side));
             }
             Level::Beside(_) => {}
         }

@@ -10,7 +10,7 @@
 use std::cell::Cell;
 
 use super::super::body::{InWorld, LocalRay, Met};
-use super::super::slab::{MEANT, lies_in, nudge};
+use super::super::slab::{MEANT, NEARLY_ALONG, lies_in, nudge};
 use super::super::{Ray, U};
 use super::Flat;
 use crate::math::Vector;
@@ -94,8 +94,8 @@ impl<'a> View<'a> {
             -3 => Some(!self.across.is_against),
             _ if ca * ab < 0 || ca * bc < 0 => None,
             _ => {
-                if ab == 0 && bc == 0 && ca == 0 && self.lies_in_plane(corners) {
-                    self.is_in_a_plane.set(true);
+                if ab == 0 && bc == 0 && ca == 0 && !self.is_in_a_plane.get() {
+                    self.is_in_a_plane.set(self.lies_in_plane(corners));
                 }
                 self.pierces_exactly(corners)
             }
@@ -195,5 +195,22 @@ pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool,
     }
     let size = (ray.at(t) - corners[0]).length();
     let error = (off(t) + turn * size) / slope.abs();
+    if error * NEARLY_ALONG >= high - low
+        && let Some((t, error)) = met_exactly(ray, corners)
+    {
+        return Met { t: t.clamp(low, high), error, leaving, part };
+    }
     Met { t, error: error.min(high - low + off(t)), leaving, part }
+}
+
+/// Where a line that goes nearly along a triangle meets its plane, and by how much that may be off, as exact as the ray
+/// and the place: solids that touch there are met in one place.
+#[cold]
+fn met_exactly(ray: &LocalRay, corners: [Vector; 3]) -> Option<(f64, f64)> {
+    let InWorld { ray: line, placed } = ray.in_world?;
+    let rise = placed.exact.as_deref()?.rise_from(corners, line.origin, line.direction)?;
+    let start = placed.placement.local_point(line.origin).dot(ray.direction);
+    let step = placed.placement.local_direction(line.direction).length();
+    let s = start - step * (rise.up / rise.speed);
+    s.is_finite().then_some((s, 4.0 * U * (start.abs() + s.abs())))
 }

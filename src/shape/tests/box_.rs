@@ -43,7 +43,7 @@ fn a_box_is_crossed_where_exact_arithmetic_crosses_it() {
         let box_ = random_box(&mut random);
         let size = box_.half_widths.iter().copied().fold(0.0, f64::max);
         let target = point_of(&mut random, &box_);
-        let origin = target + random.direction().get() * (size * random.size(-1.0, 5.0));
+        let origin = target + random.direction().get() * (size * random.size(-1.0, 9.0));
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };
         let [enter, leave] = exact::slabs(&box_, &ray);

@@ -19,7 +19,7 @@ fn an_ellipsoid_is_hit_where_exact_arithmetic_hits_it() {
         let ellipsoid = random_ellipsoid(&mut random);
         let Placement { centre, world_from_local, .. } = ellipsoid.placement;
         let target = centre + world_from_local * (random.direction().get() * 1.05);
-        let far = random.size(-1.0, 6.0);
+        let far = random.size(-1.0, 9.0);
         let size = world_from_local.x_axis.length();
         let origin = target + random.direction().get() * (size * far);
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };

@@ -47,24 +47,8 @@ pub(super) fn stand(body: std::sync::Arc<Body>, placement: Placement) -> Placed 
         DoubleVector::new(a, b, c)
     });
     let exact = ExactPlacement::new(rows, placement.centre.into(), &placement);
-    let exact = has_flat_parts(&body).then(|| Box::new(exact));
+    let exact = body.keeps_exact_place().then(|| Box::new(exact));
     Placed { body, placement, root_tolerance: 0.0, exact }
-}
-
-/// Whether it has ends or faces that a line may lie in.
-fn has_flat_parts(body: &Body) -> bool {
-    match body {
-        Body::Cylinder(_)
-        | Body::Cone(_)
-        | Body::Prism(_)
-        | Body::Sor(_)
-        | Body::Lathe(_)
-        | Body::Isosurface(_)
-        | Body::Mesh(_)
-        | Body::HeightField(_) => true,
-        Body::Text(_) => !body.is_sheet(),
-        _ => false,
-    }
 }
 
 /// So that rounding a point of it costs no more than rounding the ray.
@@ -294,8 +278,9 @@ pub(super) fn assert_left_into_the_open(
     let again = all[next];
     let height = |t: f64| inside(&placed.body, local_at(placed, &onward, t, 0.0)).0;
     let blur = blur(placed, &onward);
-    // As far as the ray keeps off, it may go in unseen.
-    let room = blur.max(2.0 * height(0.0));
+    // As far as the ray keeps off, it may go in unseen; and as far as rounding tells.
+    let steepness = placed.placement.local_direction(surface.normal).length();
+    let room = blur + 2.0 * surface.error * steepness;
     for share in [0.0, 1e-6, 1e-3, 0.1, 0.5, 0.9, 1.0] {
         let height = height((again.t - again.error) * share);
         let sound = if again.leaving { height <= room } else { height >= -blur };

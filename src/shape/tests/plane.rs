@@ -63,7 +63,7 @@ fn a_planes_easy_bound_is_no_less_than_its_bound() {
     for _ in 0..tries() {
         let size = random.size(-100.0, 100.0);
         let plane = Plane { normal: random.direction(), distance: size * random.number(-1.0, 1.0) };
-        let far = random.size(-3.0, 6.0);
+        let far = random.size(-3.0, 9.0);
         let ray = ray_at(&mut random, Vector::ZERO, size, far);
         let Some((speed, t)) = plane.pass(&ray) else { continue };
         let Some(easy) = plane.roughly(&ray, speed, t) else { continue };

@@ -7,7 +7,7 @@ fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
     let mut random = Random(1);
     for _ in 0..tries() {
         let radius = random.size(-150.0, 150.0);
-        let far = random.size(-1.0, 8.0);
+        let far = random.size(-1.0, 9.0);
         let centre = random.direction().get() * (radius * random.size(-8.0, 3.0));
         let ray = ray_at(&mut random, centre, radius, far);
         let sphere = Sphere { centre, radius };
