@@ -179,10 +179,10 @@ impl ExactPlacement {
 
     /// The way from a point of the world to a local one, rounded once.
     pub fn way(&self, from: Vector, local: Vector) -> Vector {
-        (self.from_centre(local) + (self.centre - DoubleVector::from(from))).round()
+        (self.centred(local) + (self.centre - DoubleVector::from(from))).round()
     }
 
-    fn from_centre(&self, local: Vector) -> DoubleVector {
+    fn centred(&self, local: Vector) -> DoubleVector {
         let local = DoubleVector::from(local);
         let [x, y, z] = self.rows.map(|row| row.dot(local));
         DoubleVector::new(x, y, z)
@@ -195,7 +195,7 @@ impl ExactPlacement {
         origin: Vector,
         direction: Vector,
     ) -> Option<Rise> {
-        let [a, b, c] = points.map(|point| self.from_centre(point));
+        let [a, b, c] = points.map(|point| self.centred(point));
         let (first, second) = ((b - a).normalized()?, (c - a).normalized()?);
         let normal = first.cross(second).normalized()?;
         let up = normal.dot(DoubleVector::from(origin) - self.centre - a);

@@ -173,6 +173,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("shape/curve/mod.rs", "let length", "keeps 0/0 from a piece without length"),
     ("shape/lathe/line.rs", "more / (", "keeps 0/0 from the axis"),
     ("shape/lathe.rs", "const GRAZING", "a slope, and costs time only"),
+    ("shape/lathe/level.rs", "const NARROWEST", "a count of roundings, and costs time only"),
     ("shape/prism.rs", "const GRAZING", "a slope; what it bounds is of the rounding's size"),
     ("shape/prism.rs", "STEEP", "a slope, and costs time only"),
     ("shape/prism/ends.rs", "2.0 * end.error", "so that a bound of 0 grows"),
