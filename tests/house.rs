@@ -421,7 +421,7 @@ const TOP: &[&str] = &[
 fn the_top_level_holds_what_it_is_meant_to() {
     let ignored = fs::read_to_string(root().join(".gitignore")).expect("readable");
     let is_ignored = |name: &str| match name.rsplit_once('.') {
-        Some((_, "png")) => ignored.contains("/*.png\n"),
+        Some((_, kind @ ("png" | "scene"))) => ignored.contains(&format!("/*.{kind}\n")),
         _ => ignored.contains(&format!("/{name}\n")),
     };
     let entries = fs::read_dir(root()).expect("readable");

@@ -112,7 +112,16 @@ pub(super) enum Level {
 
 /// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane. One that
 /// leaves the plane by so small a slope may be told to be in it: it goes along the surface, and brings it no light.
-pub(super) const MEANT: f64 = 16.0 * U;
+const MEANT: f64 = 16.0 * U;
+
+/// How far from a plane a line may be that is told to lie in it, as the body sees it.
+pub(super) fn meant(ray: &LocalRay) -> f64 {
+    ray.in_world.map_or(0.0, |InWorld { ray, placed }| {
+        let greatest = ray.origin.abs().max(placed.placement.centre.abs()).max_element();
+        // A unit normal's components add up to √3 at most.
+        placed.exact.as_deref().map_or(0.0, |exact| 1.75 * MEANT * exact.norm * greatest)
+    })
+}
 
 /// Whether a line starts as near to a plane, and goes as level, as rounding makes them of one that was meant to lie
 /// there: the ray's own rounding, and that of the plane, which may be `off`.

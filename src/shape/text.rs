@@ -11,6 +11,7 @@ use super::body::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::curve::Outline;
 use super::polygon::on_the_plane;
 use super::prism::Prism;
+use super::slab::meant;
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;
@@ -91,7 +92,7 @@ impl Local for Text {
         let mut spans: SmallVec<[Span; 4]> = SmallVec::new();
         let mut own = Crossings::new();
         // Nothing goes farther than √2.
-        self.tree.along(ray, ray.blur_at(2.0) + 16.0 * U, |run| {
+        self.tree.along(ray, ray.blur_at(2.0) + 16.0 * U + meant(ray), |run| {
             for letter in &self.letters[run] {
                 own.clear();
                 letter.prism.crossings(ray, &mut own);

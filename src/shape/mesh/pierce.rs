@@ -10,7 +10,7 @@
 use std::cell::Cell;
 
 use super::super::body::{InWorld, LocalRay, Met};
-use super::super::slab::{MEANT, NEARLY_ALONG, lies_in, nudge};
+use super::super::slab::{NEARLY_ALONG, lies_in, meant, nudge};
 use super::super::{Ray, U};
 use super::Flat;
 use crate::math::Vector;
@@ -70,12 +70,14 @@ impl<'a> View<'a> {
             placed.exact.as_deref().map(|placement| (ray, placement))
         });
         let across = Across::new(nearest, direction);
-        // The line's own error, what the local view rounds by, and what the world's does; as seen aslant, twice.
+        let meant_off = meant(ray);
+        // The line's own error, what the local view rounds by, what the world's does, and what the world may have meant
+        // to lie in a plane; as seen aslant, twice.
         let doubt = in_world.map_or(0.0, |(ray, placement)| {
             let reach = size + nearest.length();
             let far = (ray.origin - placement.centre.round()).length();
             let rounded = reach + placement.condition * size + placement.norm * far;
-            2.0 * (blur + turn * reach + 16.0 * U * rounded)
+            2.0 * (blur + turn * reach + 16.0 * U * rounded + meant_off)
         });
         Self { across, doubt, in_world, is_in_a_plane: Cell::new(false) }
     }
@@ -147,11 +149,7 @@ pub(in super::super) fn beside<'a>(ray: &LocalRay<'a>, size: f64) -> LocalRay<'a
     let doubt = View::along(ray, size).doubt.max(16.0 * U * (size + nearest.length()));
     let way = nudge(ray);
     let aside = (way - direction * way.dot(direction)).normalize_or(Vector::ZERO);
-    let meant = ray.in_world.map_or(0.0, |InWorld { ray, placed }| {
-        let greatest = ray.origin.abs().max(placed.placement.centre.abs()).max_element();
-        placed.exact.as_deref().map_or(0.0, |placement| MEANT * placement.norm * greatest)
-    });
-    let far = 16.0 * doubt.max(meant);
+    let far = 16.0 * doubt;
     LocalRay { nearest: nearest + aside * far, blur: blur + far, in_world: None, ..*ray }
 }
 
