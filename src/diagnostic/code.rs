@@ -148,6 +148,7 @@ codes! {
     ComparedSurface "compared-surface" sure "the formula of a surface is an equation, which is 0 or 1";
     UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";
+    HeightRange "height-range" lint "heights of a function go beyond 0 to 1, where they begin anew";
     MissingBreak "missing-break" quiet "a case of a `#switch` without `#break` runs on into the next one";
     NeverRuns "never-runs" sure "a loop counts away from its end, so it has no turn, or a case is never chosen as it is meant";
     CountedTwice "counted-twice" sure "a `#for` that counts by itself is counted on in its body, too";

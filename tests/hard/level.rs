@@ -185,9 +185,8 @@ fn of_two_solids_however_tall_one_has_a_ray_that_is_off_their_plane_by_the_least
                     continue;
                 }
                 for tall in heights {
-                    // So tall a box rounds its face by more than the camera is off.
-                    let is_block = below.contains("box") && *tall == "H - 1e3";
-                    if is_block && map[2] == "1/3" {
+                    // So tall a box, or container, rounds its face by more than the camera is off.
+                    if below.contains("box") && *tall == "H - 1e3" {
                         continue;
                     }
                     // A sor's outermost points lie beyond its ends.

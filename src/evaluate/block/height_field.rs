@@ -209,6 +209,7 @@ impl Evaluator<'_> {
         let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
         let mut heights = Vec::with_capacity(width * rows);
         let mut stray = None;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for row in 0..rows {
             for column in 0..width {
                 let (x, y) = (place(column, width), place(row, rows));
@@ -216,6 +217,7 @@ impl Evaluator<'_> {
                 if !value.is_finite() {
                     stray.get_or_insert((x, y));
                 }
+                (low, high) = (low.min(value), high.max(value));
                 heights.push(heights::height(wrapped(value)));
             }
         }
@@ -224,6 +226,16 @@ impl Evaluator<'_> {
             let diagnostic =
                 Diagnostic::new(Code::NotANumber, message).at(word.span, "of this landscape");
             return Err(self.report(&word.here, diagnostic));
+        }
+        if low < 0.0 || high > 1.0 {
+            // As short as they are told apart.
+            let (low, high) = (low as f32, high as f32);
+            let message =
+                format!("the heights of this function go from {low} to {high}, not from 0 to 1");
+            let diagnostic = Diagnostic::new(Code::HeightRange, message)
+                .at(word.span, "above 1 they begin anew at 0, and below 0 at 1")
+                .help("bring them between 0 and 1, and make the landscape higher by `scale`");
+            self.report(&word.here, diagnostic);
         }
         Ok(("a function".to_owned(), Heights { width, heights }))
     }
