@@ -182,6 +182,7 @@ impl ExactPlacement {
         (self.centred(local) + (self.centre - DoubleVector::from(from))).round()
     }
 
+    /// The way from the centre to a local point.
     fn centred(&self, local: Vector) -> DoubleVector {
         let local = DoubleVector::from(local);
         let [x, y, z] = self.rows.map(|row| row.dot(local));

@@ -75,7 +75,7 @@ vocabulary! {
         BezierSpline "bezier_spline" statement built "a spline of Bézier segments";
         Component "component" statement built "the old word for a part of a blob";
         ConicSweep "conic_sweep" statement built "a prism that narrows to a point";
-        ContainedBy "contained_by" statement built "the sphere or box that holds a function's surface";
+        ContainedBy "contained_by" statement built "the sphere or box that holds a function's surface, of which nothing is seen beyond; without it, a box from -1 to 1";
         Cube "cube" statement built "the third power, in a julia_fractal";
         CubicSpline "cubic_spline" statement built "a smooth spline through its points";
         Evaluate "evaluate" statement inert "lets an isosurface learn its slope; it is known here";
@@ -84,7 +84,7 @@ vocabulary! {
         Flatness "flatness" statement inert "how flat the triangles of a bicubic_patch must be; it is met as it is";
         Hierarchy "hierarchy" statement inert "a tree over the parts of a mesh or blob; every scene has one";
         Hypercomplex "hypercomplex" statement built "the algebra of a julia_fractal that has most functions";
-        InsideVector "inside_vector" statement built "gives a mesh an inside";
+        InsideVector "inside_vector" statement built "gives a mesh an inside, so that it can be cut, or cut others";
         LinearSpline "linear_spline" statement built "a spline of straight lines";
         LinearSweep "linear_sweep" statement built "a prism with parallel sides";
         MajorRadius "major_radius" statement later "measures a torus-shaped pattern or warp";

@@ -72,18 +72,12 @@ fn seen(objects: &str, exponent: i32, turn: f64) -> Vec<i32> {
 #[test]
 fn a_solid_without_itself_in_other_words_is_nothing_and_merged_it_is_one() {
     let mut told = String::new();
-    // All sizes of all pairs take half a minute: else each pair has one of them, in turn.
-    let is_long = std::env::var("LUCARNE_LONG").is_ok();
     for words in SAME {
-        for (number, (exponent, turn)) in [(0, 0.0), (-9, 31.7), (9, 77.7)].into_iter().enumerate()
-        {
+        for (exponent, turn) in [(0, 0.0), (-9, 31.7), (9, 77.7)] {
             let one = seen(&format!("{} {PAINT} }}", words[0]), exponent, turn);
             assert!(one.iter().filter(|red| **red == 750).count() > 40, "{}", words[0]);
-            for (i, first) in words.iter().enumerate() {
-                for (j, other) in words.iter().enumerate() {
-                    if !is_long && (i + j) % 3 != number {
-                        continue;
-                    }
+            for first in words {
+                for other in words {
                     let two = |operation: &str, last: &str| {
                         format!("{operation} {{ {first} }} {other} }} {last} {PAINT} }}")
                     };

@@ -75,7 +75,7 @@ impl Piece {
         self.points().iter().all(|point| point[1] == height).then_some(height)
     }
 
-    /// The greatest ρ of its control points.
+    /// How far out it reaches at most, by its control points.
     pub fn width(&self) -> f64 {
         self.points().iter().map(|point| point[0]).fold(0.0, f64::max)
     }

@@ -193,9 +193,8 @@ pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool,
     }
     let size = (ray.at(t) - corners[0]).length();
     let error = (off(t) + turn * size) / slope.abs();
-    if error * NEARLY_ALONG >= high - low
-        && let Some((t, error)) = met_exactly(ray, corners)
-    {
+    let is_nearly_along = slope.abs() * NEARLY_ALONG < 1.0 && error * NEARLY_ALONG >= high - low;
+    if is_nearly_along && let Some((t, error)) = met_exactly(ray, corners) {
         return Met { t: t.clamp(low, high), error, leaving, part };
     }
     Met { t, error: error.min(high - low + off(t)), leaving, part }
